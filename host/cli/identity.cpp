@@ -1,7 +1,5 @@
 #include "host/cli/identity.hpp"
 
-#include <fmt/ranges.h>
-
 #include "host/cli/build_facts.hpp"
 #include "host/core/content_hash.hpp"
 #include "host/core/host_arithmetic.hpp"
@@ -37,14 +35,12 @@ std::vector<render::IdentityPart> identity_of(const PictureRequest& request, con
                                               const executors::Executor& executor) {
   std::vector<render::IdentityPart> identity = identity_of_picture(request, scene, executor);
   const bool gpu = request.backend == executors::Backend::gpu;
-  const auto asked = [&](aov::AovNeeds needs) { return any_needs(request.aovs, needs) ? "on" : "off"; };
+  film::Channels summed = request.aovs;
+  std::erase_if(summed, [](film::Channel each) { return !each->of_samples(); });
   const std::vector<render::IdentityPart> more{
       {"--shard", request.shard ? shards::shard_text(*request.shard) : "none"},
       {"--classic", request.classic ? "on" : "off"},
-      {"--aov of kinds of rays", asked(aov::AovNeeds::ray_kinds)},
-      {"--aov noise", asked(aov::AovNeeds::noise)},
-      {"--aov brightest", asked(aov::AovNeeds::brightest)},
-      {"--aov albedo or shading_normal", asked(aov::AovNeeds::auxiliary)},
+      {"AOVs of samples", film::channel_names(summed)},
       {"--noise", std::to_string(request.noise)},
       // The processors' executors compute the same wherever the same program runs.
       {"device", gpu ? executor.description() : "none"},
@@ -57,9 +53,7 @@ std::vector<render::IdentityPart> identity_of(const PictureRequest& request, con
 std::vector<render::IdentityPart> identity_of_parts(const PictureRequest& request, const Scene& scene,
                                                     const executors::Executor& executor) {
   std::vector<render::IdentityPart> identity = identity_of_picture(request, scene, executor);
-  std::vector<std::string_view> aovs;
-  for (const aov::Aov aov : request.aovs) aovs.push_back(aov->name);
-  identity.push_back({"AOVs", fmt::format("{}", fmt::join(aovs, ","))});
+  identity.push_back({"AOVs", film::channel_names(request.aovs)});
   identity.push_back({"arithmetic of the device", executor.arithmetic()});
   identity.push_back({"arithmetic of the C library", host_arithmetic(), false});
   return identity;

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "host/aov/aov.hpp"
 #include "host/core/atomic_file.hpp"
+#include "host/film/channel.hpp"
 #include "host/image/exr_file.hpp"
 #include "host/image/image.hpp"
 
@@ -16,8 +16,7 @@ namespace eyeray::cli {
 class LayeredFile {
  public:
   // `half`: whether the picture is written so; AOVs never are.
-  LayeredFile(std::filesystem::path path, const std::vector<aov::Aov>& aovs, int width, int height,
-              bool half);
+  LayeredFile(std::filesystem::path path, const film::Channels& aovs, int width, int height, bool half);
 
   // The next rows, from the top down, of the picture or of an AOV, by its index.
   void write(const image::Image& color) { write(layers_[0], color); }

@@ -85,7 +85,7 @@ Picture MergeCommand::merge(shards::PartSet& set) const {
     const Saving saving;
     files.finish_picture(picture.files);
     files.finish_aovs(picture.files, [&](size_t aov, const fs::path& file) {
-      return aov::write_legend(totals.legends[aov], file);
+      return film::write_legend(totals.legends[aov], file);
     });
   }
   const double pixels = double(area.pixels());

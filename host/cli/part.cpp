@@ -1,11 +1,11 @@
 // eyeray render --shard: a scene becomes a part of a picture.
 #include <optional>
 
-#include "host/aov/values.hpp"
 #include "host/cli/build_facts.hpp"
 #include "host/cli/identity.hpp"
 #include "host/cli/prepared_picture.hpp"
 #include "host/core/termination.hpp"
+#include "host/film/values.hpp"
 #include "host/scene/integrator.hpp"
 #include "host/shards/part_writer.hpp"
 
@@ -30,7 +30,7 @@ shards::PartHeader header_of(const PictureRequest& request, const PreparedPictur
 }
 
 // What the rays through the centres of the tiles' pixels hit, tile by tile. Returns false when interrupted.
-bool write_first_hits(const PreparedPicture& prepared, aov::AovValues& values, shards::PartWriter& part,
+bool write_first_hits(const PreparedPicture& prepared, film::ChannelValues& values, shards::PartWriter& part,
                       Picture& picture) {
   std::vector<FirstHit> hits;
   for (const Rect& tile : prepared.tiles->tiles()) {
@@ -56,13 +56,13 @@ Picture make_part(PictureRequest request, const std::function<void(const render:
   const auto prepared = prepare(request, picture.times, progress);
   const std::string& file = request.outputs[0];
   shards::PartWriter part(file, header_of(request, *prepared), *prepared->tiles);
-  aov::AovValues values(request.aovs, prepared->scene);
+  film::ChannelValues values(request.aovs, prepared->scene);
   StageTimes writing;
   render::RenderTotals totals;
   // Of more shards than tiles some have nothing to do.
   if (prepared->tiles->pixels() > 0)
     totals = render::render_rows(
-        prepared->scene, *prepared->executor, prepared->options, [&](const render::FinishedRows& rows) {
+        prepared->scene, *prepared->executor, prepared->options, [&](const film::Rows& rows) {
           writing.measure("write", [&] {
             part.write(0, rows.color);
             values.give(rows, [&](size_t aov, const image::Image& image) { part.write(1 + aov, image); });
@@ -71,7 +71,7 @@ Picture make_part(PictureRequest request, const std::function<void(const render:
   picture.interrupted = totals.interrupted;
   // Some of a pixel's samples are none of the picture's, which has all of them.
   if (picture.interrupted) totals.samples_done = 0;
-  if (!picture.interrupted && aov::need_first_hits(request.aovs))
+  if (!picture.interrupted && film::any_of_first_hits(request.aovs))
     picture.interrupted = !write_first_hits(*prepared, values, part, picture);
 
   if (!picture.interrupted) {
@@ -88,7 +88,7 @@ Picture make_part(PictureRequest request, const std::function<void(const render:
     sums.seconds = totals.seconds;
     sums.processor_seconds = totals.processor_seconds;
     for (size_t i = 0; i < request.aovs.size(); ++i)
-      sums.legends.push_back(values.legend(i) ? values.legend(i)->tally() : aov::LegendTally());
+      sums.legends.push_back(values.legend(i) ? values.legend(i)->tally() : film::LegendTally());
     const Saving saving;
     writing.measure("write", [&] { part.finish(sums); });
     picture.files.emplace_back(file);

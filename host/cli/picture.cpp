@@ -6,13 +6,13 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "host/aov/values.hpp"
 #include "host/cli/picture_files.hpp"
 #include "host/cli/prepared_picture.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/core/peak_memory.hpp"
 #include "host/core/readable.hpp"
 #include "host/core/termination.hpp"
+#include "host/film/values.hpp"
 #include "host/image/image_file.hpp"
 #include "host/render/corners.hpp"
 #include "host/render/flags.hpp"
@@ -40,14 +40,14 @@ void PictureRequest::add_to(CLI::App& command) {
       ->option_text("FILE")
       ->allow_extra_args(false)
       ->take_all();
-  const auto parse = [this](const std::string& list) { aovs = aov::parse_aovs(list); };
+  const auto parse = [this](const std::string& list) { aovs = film::parse_channels(list); };
   command
       .add_option_function<std::string>(
           "--aov", parse,
           fmt::format("Also write {}, or all of them: each as data (FILE.NAME.pfm) and in false colour "
                       "(FILE.NAME.png), or of a FILE.exr as its layers; ids with what they stand for "
                       "(FILE.NAME.json).",
-                      aov::aov_names()))
+                      film::channel_names()))
       ->option_text("LIST");
   command.add_flag("--half", half, "Write the colours of an .exr in 16 bits a channel, not 32.");
   add_crop_option(command, crop);
@@ -57,15 +57,7 @@ void PictureRequest::add_to(CLI::App& command) {
 }
 
 void PictureRequest::check_outputs() {
-  if (classic && aov::need_first_hits(aovs))
-    throw Error(ExitCode::bad_input,
-                "--classic sends no rays through the centres of pixels, of which AOVs but hits, bounces, "
-                "rays, ray_kinds, samples and flags are made");
-  if (classic && aov::any_needs(aovs, aov::AovNeeds::noise))
-    throw Error(ExitCode::bad_input, "--classic samples have no noise that could be measured");
-  for (const aov::AovNeeds needs : {aov::AovNeeds::brightest, aov::AovNeeds::auxiliary})
-    if (classic && aov::any_needs(aovs, needs))
-      throw Error(ExitCode::bad_input, "--classic has not the AOVs brightest, albedo and shading_normal");
+  if (classic) check_classic();
   if (executor.primary == executors::PrimaryRays::raster && backend != executors::Backend::gpu)
     throw Error(ExitCode::bad_input, "--primary raster draws on a device: leave out --backend {}",
                 executors::backend_name(backend));
@@ -87,6 +79,19 @@ void PictureRequest::check_outputs() {
         throw Error(ExitCode::bad_input, "{} cannot be the picture and its checkpoint", file);
     }
   }
+}
+
+// Its samples are at the corners of pixels.
+void PictureRequest::check_classic() const {
+  film::Channels has, lacks;
+  for (const film::ChannelType& type : film::channel_types())
+    if (type.of_corners != film::OfCorners::nothing) has.push_back(&type);
+  for (const film::Channel aov : aovs)
+    if (!film::contains(has, aov)) lacks.push_back(aov);
+  if (!lacks.empty())
+    throw Error(ExitCode::bad_input,
+                "--classic samples the corners of pixels and so lacks the AOVs {}; it has {}",
+                film::channel_names(lacks), film::channel_names(has));
 }
 
 // A part is whole pixels of the picture, in a file of its own.
@@ -120,22 +125,22 @@ Picture make_picture(PictureRequest request, const std::function<void(const rend
 
   // Render the picture. Files are begun with the first rows: of a picture of one band, when it is done.
   std::optional<PictureFiles> files;
-  aov::AovValues values(request.aovs, scene);
-  const aov::AovValues::Sink write_aov = [&](size_t aov, const image::Image& rows) {
+  film::ChannelValues values(request.aovs, scene);
+  const film::ChannelValues::Sink write_aov = [&](size_t aov, const image::Image& rows) {
     files->write(aov, rows);
   };
   render::CornerMean corners;
   render::Legibility legibility(scene.render.background, scene.image.tone.exposure);
   StageTimes encoding;
-  const auto write = [&](const render::FinishedRows& rows) {
+  const auto write = [&](const film::Rows& rows) {
     if (!files)
       files.emplace(request.outputs, request.aovs, crop.width, crop.height, request.half, scene.image.tone);
     files->write(rows.color);
     if (scene.is_mesh_alone && !scene.environment) legibility.see(rows.color);
     values.give(rows, write_aov);
   };
-  const render::RenderTotals totals = render::render_rows(
-      scene, *prepared->executor, prepared->options, [&](const render::FinishedRows& rows) {
+  const render::RenderTotals totals =
+      render::render_rows(scene, *prepared->executor, prepared->options, [&](const film::Rows& rows) {
         encoding.measure("encode", [&] { write(request.classic ? corners.add(rows) : rows); });
       });
   picture.interrupted = totals.interrupted;
@@ -145,7 +150,7 @@ Picture make_picture(PictureRequest request, const std::function<void(const rend
     const Saving saving;
     encoding.measure("encode", [&] { files->finish_picture(picture.files); });
   }
-  if (!picture.interrupted && aov::need_first_hits(request.aovs)) {
+  if (!picture.interrupted && film::any_of_first_hits(request.aovs)) {
     picture.interrupted =
         !render::trace_first_hits(*prepared->executor, crop, [&](int, std::span<const FirstHit> hits) {
           for (const FirstHit& hit : hits) {

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "host/aov/aov.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/json.hpp"
 #include "host/core/ray_counts.hpp"
+#include "host/film/channel.hpp"
 
 namespace eyeray::cli {
 
@@ -31,7 +31,7 @@ struct PictureRequest {
   executors::ExecutorOptions executor;
   Rect crop;
   std::vector<std::string> outputs;  // none: the scene's name with .png, in the current folder
-  std::vector<aov::Aov> aovs;        // as files NAME.AOV.* or layers, NAME from the first output
+  film::Channels aovs;               // as files NAME.AOV.* or layers, NAME from the first output
   bool half = false;                 // the picture in each .exr
   LongRender long_render;
   bool ray_kinds = false;                   // count rays by kind
@@ -48,6 +48,7 @@ struct PictureRequest {
   std::vector<std::filesystem::path> files_to_write() const;
 
  private:
+  void check_classic() const;
   void check_shard();
 };
 

@@ -20,27 +20,26 @@ bool is_exr(const std::string& output) {
 
 }  // namespace
 
-std::vector<fs::path> files_written(const std::vector<std::string>& outputs,
-                                    const std::vector<aov::Aov>& aovs) {
+std::vector<fs::path> files_written(const std::vector<std::string>& outputs, const film::Channels& aovs) {
   std::vector<fs::path> files(outputs.begin(), outputs.end());
-  for (const aov::Aov aov : aovs) {
+  for (const film::Channel aov : aovs) {
     if (!is_exr(outputs[0])) {
-      files.push_back(aov::aov_file(outputs[0], aov, "pfm"));
-      files.push_back(aov::aov_file(outputs[0], aov, "png"));
+      files.push_back(film::channel_file(outputs[0], aov, "pfm"));
+      files.push_back(film::channel_file(outputs[0], aov, "png"));
     }
-    if (aov->legend) files.push_back(aov::aov_file(outputs[0], aov, "json"));
+    if (aov->legend) files.push_back(film::channel_file(outputs[0], aov, "json"));
   }
   return files;
 }
 
-AovFiles::AovFiles(aov::Aov aov, fs::path output, int width, int height)
+AovFiles::AovFiles(film::Channel aov, fs::path output, int width, int height)
     : width_(width),
       height_(height),
-      channels_(aov->channels),
-      data_name_(aov::aov_file(output, aov, "pfm")),
-      picture_name_(aov::aov_file(output, aov, "png")),
-      data_(data_name_, width, height, aov->channels),
-      painter_(aov->shown_as, aov->channels) {}
+      components_(aov->components),
+      data_name_(film::channel_file(output, aov, "pfm")),
+      picture_name_(film::channel_file(output, aov, "png")),
+      data_(data_name_, width, height, aov->components),
+      painter_(aov->shown_as, aov->components) {}
 
 void AovFiles::write(const image::Image& rows) {
   painter_.see(rows);
@@ -51,7 +50,7 @@ const fs::path& AovFiles::finish(std::vector<fs::path>& files) {
   data_.finish();
   files.push_back(data_name_);
 
-  image::PfmRows data(data_name_, width_, height_, channels_);
+  image::PfmRows data(data_name_, width_, height_, components_);
   image::ImageWriter picture(picture_name_, width_, height_, 3);
   for (int row = 0; row < height_;) {
     const int count = std::min(std::max(1, painted_pixels / width_), height_ - row);
@@ -63,8 +62,8 @@ const fs::path& AovFiles::finish(std::vector<fs::path>& files) {
   return picture_name_;
 }
 
-PictureFiles::PictureFiles(const std::vector<std::string>& outputs, const std::vector<aov::Aov>& aovs,
-                           int width, int height, bool half, const image::Tone& tone)
+PictureFiles::PictureFiles(const std::vector<std::string>& outputs, const film::Channels& aovs, int width,
+                           int height, bool half, const image::Tone& tone)
     : output_(outputs[0]), wanted_(aovs), tone_(tone) {
   for (const std::string& output : outputs) {
     const bool exr = is_exr(output);
@@ -76,7 +75,7 @@ PictureFiles::PictureFiles(const std::vector<std::string>& outputs, const std::v
       writers_.emplace_back(output, image::ImageWriter(output, width, height, 3));
   }
   if (layered_) return;
-  for (const aov::Aov aov : aovs) aovs_.emplace_back(aov, outputs[0], width, height);
+  for (const film::Channel aov : aovs) aovs_.emplace_back(aov, outputs[0], width, height);
 }
 
 void PictureFiles::write(const image::Image& color) {
@@ -107,7 +106,7 @@ void PictureFiles::finish_aovs(std::vector<fs::path>& files, const LegendOf& wri
   if (!layered_) return;
   layered_->finish(files, true);
   for (size_t i = 0; i < wanted_.size(); ++i)
-    if (wanted_[i]->legend) files.push_back(write_legend(i, aov::aov_file(output_, wanted_[i], "json")));
+    if (wanted_[i]->legend) files.push_back(write_legend(i, film::channel_file(output_, wanted_[i], "json")));
 }
 
 void PictureFiles::finish_without_aovs(std::vector<fs::path>& files) {

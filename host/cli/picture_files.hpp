@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "host/aov/aov.hpp"
 #include "host/cli/layered_file.hpp"
+#include "host/film/channel.hpp"
 #include "host/image/false_color.hpp"
 #include "host/image/image_writer.hpp"
 #include "host/image/tone.hpp"
@@ -17,7 +17,7 @@ namespace eyeray::cli {
 
 // All that a picture with these outputs and AOVs writes.
 std::vector<std::filesystem::path> files_written(const std::vector<std::string>& outputs,
-                                                 const std::vector<aov::Aov>& aovs);
+                                                 const film::Channels& aovs);
 
 // Writes the legend of an AOV of ids, by its index, beside its picture, and returns its name.
 using LegendOf = std::function<std::filesystem::path(size_t aov, const std::filesystem::path& picture)>;
@@ -26,7 +26,7 @@ using LegendOf = std::function<std::filesystem::path(size_t aov, const std::file
 class AovFiles {
  public:
   // NAME from `output`.
-  AovFiles(aov::Aov aov, std::filesystem::path output, int width, int height);
+  AovFiles(film::Channel aov, std::filesystem::path output, int width, int height);
 
   // The next rows, from the top down.
   void write(const image::Image& rows);
@@ -37,7 +37,7 @@ class AovFiles {
  private:
   int width_;
   int height_;
-  int channels_;
+  int components_;
   std::filesystem::path data_name_;
   std::filesystem::path picture_name_;
   image::ImageWriter data_;
@@ -49,8 +49,8 @@ class PictureFiles {
  public:
   // AOVs are layers of the first output where that is an .exr, else files of their own. `half`: whether the
   // picture is, in each .exr. `tone`: of each .png.
-  PictureFiles(const std::vector<std::string>& outputs, const std::vector<aov::Aov>& aovs, int width,
-               int height, bool half, const image::Tone& tone);
+  PictureFiles(const std::vector<std::string>& outputs, const film::Channels& aovs, int width, int height,
+               bool half, const image::Tone& tone);
 
   // The next rows, from the top down, of the picture or of an AOV, by its index.
   void write(const image::Image& color);
@@ -63,7 +63,7 @@ class PictureFiles {
 
  private:
   std::string output_;  // the first
-  std::vector<aov::Aov> wanted_;
+  film::Channels wanted_;
   image::Tone tone_;
   std::vector<std::pair<std::string, image::ImageWriter>> writers_;  // one an output that is not layered_
   std::optional<LayeredFile> layered_;

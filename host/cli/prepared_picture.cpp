@@ -33,15 +33,6 @@ void prepare_for_noise(const PictureRequest& request, Scene& scene) {
   if (!request.scene.gives_samples()) scene.image.samples = most_samples_by_default;
 }
 
-// Only paths have the AOVs for a denoiser: others get an error, or lose these AOVs where all are wanted.
-void check_auxiliary(std::vector<aov::Aov>& aovs, const Scene& scene) {
-  if (walks_at_random(scene.render.integrator) || !aov::any_needs(aovs, aov::AovNeeds::auxiliary)) return;
-  if (aovs.size() != aov::aov_types().size())
-    throw Error(ExitCode::bad_input,
-                "the AOVs albedo and shading_normal are of paths: -D render.integrator=path, or see normal");
-  std::erase_if(aovs, [](aov::Aov each) { return each->needs == aov::AovNeeds::auxiliary; });
-}
-
 // Throws where what is to be written would take the place of what was read, links followed.
 void spare_sources(const PictureRequest& request, const Scene& scene) {
   for (const fs::path& output : request.files_to_write()) {
@@ -72,7 +63,7 @@ std::unique_ptr<PreparedPicture> prepare(PictureRequest& request, StageTimes& ti
   auto prepared = std::make_unique<PreparedPicture>();
   Scene& scene = prepared->scene;
   scene = times.measure("load", [&] { return request.scene.load(); });
-  check_auxiliary(request.aovs, scene);
+  request.aovs = film::channels_of(scene, std::move(request.aovs));
   spare_sources(request, scene);
   check_crop(request.crop, scene.image);
   const Rect& crop = prepared->crop =
@@ -81,10 +72,9 @@ std::unique_ptr<PreparedPicture> prepare(PictureRequest& request, StageTimes& ti
   if (request.noise > 0) prepare_for_noise(request, scene);
   if (request.shard) prepared->tiles.emplace(crop, *request.shard);
   executors::ExecutorOptions executor_options = request.executor;
-  const bool pixel_kinds = aov::any_needs(request.aovs, aov::AovNeeds::ray_kinds);
-  executor_options.ray_kinds = request.ray_kinds || pixel_kinds;
+  executor_options.ray_kinds = request.ray_kinds || film::any_needs(request.aovs, film::Needs::ray_kinds);
   if (!executor_options.shader_folder.empty()) executor_options.compile_twin = true;
-  executor_options.search_cost = aov::any_needs(request.aovs, aov::AovNeeds::search_cost);
+  executor_options.search_cost = film::any_needs(request.aovs, film::Needs::search_cost);
   if (progress) progress({});
   prepared->executor = render::make_picture_executor(request.backend, scene, executor_options);
   std::optional<render::Checkpoint>& checkpoint = prepared->checkpoint;
@@ -94,10 +84,7 @@ std::unique_ptr<PreparedPicture> prepare(PictureRequest& request, StageTimes& ti
   options.crop = request.classic ? render::corners_of(crop) : crop;
   options.tiles = prepared->tiles ? &*prepared->tiles : nullptr;
   options.ray_kinds = request.ray_kinds;
-  options.pixel_kinds = pixel_kinds;
-  options.pixel_noise = aov::any_needs(request.aovs, aov::AovNeeds::noise);
-  options.pixel_brightest = aov::any_needs(request.aovs, aov::AovNeeds::brightest);
-  options.pixel_auxiliary = aov::any_needs(request.aovs, aov::AovNeeds::auxiliary);
+  options.channels = request.aovs;
   options.noise = request.noise;
   options.clamp = request.clamp;
   options.band_bytes = size_t(request.long_render.band_mebibytes) << 20;

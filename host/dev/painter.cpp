@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "host/core/stopwatch.hpp"
-#include "host/render/sums.hpp"
+#include "host/film/film.hpp"
 
 namespace eyeray::dev {
 namespace {
@@ -27,8 +27,8 @@ bool for_bands(const ImageSettings& image, int& band, const Work& work) {
   return true;
 }
 
-image::Image shown(const View& view, const render::FinishedRows& rows) {
-  return view.aov ? std::get<aov::ValuesOfRows>(view.aov->values)(rows) : rows.color;
+const image::Image& shown(const View& view, const film::Rows& rows) {
+  return view.aov ? rows[view.aov] : rows.color;
 }
 
 bool paint_coarsely(const View& view, const ImageSettings& image, executors::Executor& executor,
@@ -36,34 +36,32 @@ bool paint_coarsely(const View& view, const ImageSettings& image, executors::Exe
   const int width = (image.width + coarse_stride - 1) / coarse_stride;
   const int height = (image.height + coarse_stride - 1) / coarse_stride;
   std::vector<PixelSample> samples(size_t(width) * size_t(height));
-  if (!executor.coarse_sample(coarse_stride, 0, samples)) return true;
-  render::PixelSums sums;
-  sums.reset(width, height, aov::counted_for(view.needs()));
-  sums.add({0, 0, width, height}, samples);
-  return sink({shown(view, sums.mean(0, height)), 0, coarse_stride});
+  if (view.needs() == film::Needs::auxiliary || !executor.coarse_sample(coarse_stride, 0, samples))
+    return true;
+  film::Film film;
+  film.reset(width, height, view.film_channels());
+  film.add({0, 0, width, height}, samples);
+  return sink({shown(view, film.rows(0, height)), 0, coarse_stride});
 }
 
 std::optional<Painted> paint_samples(const View& view, const ImageSettings& image,
                                      executors::Executor& executor, const RowsSink& sink) {
   if (!paint_coarsely(view, image, executor, sink)) return std::nullopt;
   Painted painted;
-  render::PixelSums sums;
-  sums.reset(image.width, image.height, aov::counted_for(view.needs()));
+  film::Film film;
+  film.reset(image.width, image.height, view.film_channels());
   std::vector<PixelSample> samples;
   std::vector<AuxiliarySample> auxiliaries;
   int band = std::clamp(first_pixels / image.width, 1, image.height);
   for (int sample = 0; sample < image.samples; ++sample) {
     const bool whole = for_bands(image, band, [&](int row, int rows) {
-      samples.resize(size_t(rows) * size_t(image.width));
-      if (!executor.sample({0, row, image.width, rows}, uint32_t(sample), samples)) return false;
-      sums.add({0, row, image.width, rows}, samples);
-      if (view.needs() == aov::AovNeeds::auxiliary) {
-        auxiliaries.resize(samples.size());
-        if (!executor.auxiliary({0, row, image.width, rows}, uint32_t(sample), auxiliaries)) return false;
-        sums.add({0, row, image.width, rows}, auxiliaries);
-      }
+      const Rect tile{0, row, image.width, rows};
+      samples.resize(size_t(tile.pixels()));
+      if (view.needs() == film::Needs::auxiliary) auxiliaries.resize(samples.size());
+      if (!executor.sample(tile, uint32_t(sample), samples, auxiliaries)) return false;
+      film.add(tile, samples, auxiliaries);
       for (const PixelSample& each : samples) painted.rays += each.rays;
-      const render::FinishedRows finished = sums.mean(row, rows);
+      const film::Rows finished = film.rows(row, rows);
       painted.flags |= finished.flags;
       if (sample + 1 == image.samples) painted.flagged_pixels += finished.flagged_pixels;
       return sink({shown(view, finished), row, 1, sample});
@@ -88,7 +86,7 @@ std::optional<Painted> paint_first_hits(const View& view, const Scene& scene, ex
       painted.flagged_pixels += hit.flags != 0;
     }
     painted.rays += hits.size();
-    return sink({aov::aov_image(view.aov, hits, image.width, entries.get()), row});
+    return sink({film::channel_image(view.aov, hits, image.width, entries.get()), row});
   });
   return whole ? std::optional(painted) : std::nullopt;
 }
@@ -96,15 +94,15 @@ std::optional<Painted> paint_first_hits(const View& view, const Scene& scene, ex
 }  // namespace
 
 View parse_view(const std::string& name) {
-  const std::span<const aov::AovType> types = aov::aov_types();
-  const auto found = std::ranges::find(types, name, &aov::AovType::name);
+  const std::span<const film::ChannelType> types = film::channel_types();
+  const auto found = std::ranges::find(types, name, &film::ChannelType::name);
   if (found != types.end()) return {executors::Backend::gpu, &*found};
   return {executors::parse_backend(name)};
 }
 
 std::optional<Painted> paint(const View& view, const Scene& scene, executors::Executor& executor,
                              const RowsSink& sink) {
-  if (view.aov && view.aov->is_of_first_hits()) return paint_first_hits(view, scene, executor, sink);
+  if (view.aov && !view.aov->of_samples()) return paint_first_hits(view, scene, executor, sink);
   return paint_samples(view, scene.image, executor, sink);
 }
 

@@ -5,18 +5,19 @@
 #include <optional>
 #include <string>
 
-#include "host/aov/aov.hpp"
 #include "host/executors/executor.hpp"
+#include "host/film/channel.hpp"
 
 namespace eyeray::dev {
 
 // What is looked at: the colours of an executor, or an AOV of the GPU's.
 struct View {
   executors::Backend backend = executors::Backend::gpu;
-  aov::Aov aov = nullptr;
+  film::Channel aov = nullptr;
 
-  int channels() const { return aov ? aov->channels : 3; }
-  aov::AovNeeds needs() const { return aov ? aov->needs : aov::AovNeeds::nothing; }
+  int channels() const { return aov ? aov->components : 3; }
+  film::Needs needs() const { return aov ? aov->needs : film::Needs::nothing; }
+  film::Channels film_channels() const { return aov ? film::Channels{aov} : film::Channels(); }
 };
 
 // "gpu", "twin", "reference" or an AOV's name; Error (bad_input) for another.

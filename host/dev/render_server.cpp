@@ -16,7 +16,7 @@
 namespace eyeray::dev {
 namespace {
 
-constexpr std::pair colors_of_gpu(executors::Backend::gpu, aov::AovNeeds::nothing);
+constexpr std::pair colors_of_gpu(executors::Backend::gpu, film::Needs::nothing);
 constexpr int no_sample = -1;
 constexpr double longest_wait = 3600;  // for a driver; the supervisor loses patience before
 // Packing a larger scene twice takes too much memory, and its preview too long.
@@ -134,8 +134,8 @@ executors::ExecutorOptions RenderServer::options_for(const View& view) {
   executors::ExecutorOptions options = options_.executor;
   options.constants = options.constants && own_kernel_;
   options.formula_numbers = !own_kernel_;
-  options.ray_kinds = view.needs() == aov::AovNeeds::ray_kinds;
-  options.search_cost = view.needs() == aov::AovNeeds::search_cost;
+  options.ray_kinds = view.needs() == film::Needs::ray_kinds;
+  options.search_cost = view.needs() == film::Needs::search_cost;
   return options;
 }
 

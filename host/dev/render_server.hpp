@@ -88,7 +88,7 @@ class RenderServer {
   bool previews_ = false;
   std::shared_ptr<const Scene> scene_;
   // Executors of this revision, by what they count.
-  std::map<std::pair<executors::Backend, aov::AovNeeds>, std::unique_ptr<executors::Executor>> executors_;
+  std::map<std::pair<executors::Backend, film::Needs>, std::unique_ptr<executors::Executor>> executors_;
   int64_t made_of_ = -1;  // revision
   std::future<std::unique_ptr<executors::Executor>> being_made_;
 };

@@ -9,10 +9,10 @@
 #include <cstring>
 #include <utility>
 
-#include "host/aov/aov.hpp"
 #include "host/core/escaped_text.hpp"
 #include "host/core/readable.hpp"
 #include "host/core/termination.hpp"
+#include "host/film/channel.hpp"
 
 namespace fs = std::filesystem;
 
@@ -69,7 +69,7 @@ void Supervisor::begin() {
   }
   board_.update([&](Json& status) {
     Json aovs = Json::array();
-    for (const aov::AovType& type : aov::aov_types()) aovs.push_back(type.name);
+    for (const film::ChannelType& type : film::channel_types()) aovs.push_back(type.name);
     status = {
         {"scene", options_.scene.string()}, {"aovs", std::move(aovs)}, {"state", "starting"}, {"view", view_},
         {"pictures", Json::object()},       {"failure", nullptr},      {"stale", false}};

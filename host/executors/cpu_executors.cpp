@@ -81,10 +81,14 @@ class TwinExecutor final : public Executor {
     }
   }
 
-  bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) override {
+  bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out,
+              std::span<AuxiliarySample> auxiliaries) override {
     if (!send_out_photons(index)) return false;
     return times_.measure("trace", [&] {
-      return for_each_pixel(tile, out, [&](int x, int y) { return sample_of(x, y, index); });
+      return for_each_pixel(tile, out, [&](int x, int y) { return sample_of(x, y, index); }) &&
+             (auxiliaries.empty() || for_each_pixel(tile, auxiliaries, [&](int x, int y) {
+                return to_auxiliary(functions().auxiliary(view_, uint32_t(x), uint32_t(y), index));
+              }));
     });
   }
 
@@ -102,12 +106,6 @@ class TwinExecutor final : public Executor {
   void leave_out(std::vector<std::vector<uint32_t>> photons) override {
     left_out_ = std::move(photons);
     photons_of_.reset();
-  }
-
-  bool auxiliary(const Rect& tile, uint32_t index, std::span<AuxiliarySample> out) override {
-    return for_each_pixel(tile, out, [&](int x, int y) {
-      return to_auxiliary(functions().auxiliary(view_, uint32_t(x), uint32_t(y), index));
-    });
   }
 
   void first_hits(const Rect& tile, std::span<FirstHit> out) override {
@@ -238,9 +236,13 @@ class ReferenceExecutor final : public Executor {
   explicit ReferenceExecutor(std::shared_ptr<const reference::Renderer> renderer)
       : renderer_(std::move(renderer)) {}
 
-  bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) override {
+  bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out,
+              std::span<AuxiliarySample> auxiliaries) override {
     return times_.measure("trace", [&] {
-      return for_each_pixel(tile, out, [&](int x, int y) { return renderer_->sample(x, y, index); });
+      return for_each_pixel(tile, out, [&](int x, int y) { return renderer_->sample(x, y, index); }) &&
+             (auxiliaries.empty() || for_each_pixel(tile, auxiliaries, [&](int x, int y) {
+                return renderer_->auxiliary(x, y, index);
+              }));
     });
   }
 
@@ -249,10 +251,6 @@ class ReferenceExecutor final : public Executor {
       return for_each_coarse_pixel(renderer_->tracer().scene().image, stride, out,
                                    [&](int x, int y) { return renderer_->sample(x, y, index); });
     });
-  }
-
-  bool auxiliary(const Rect& tile, uint32_t index, std::span<AuxiliarySample> out) override {
-    return for_each_pixel(tile, out, [&](int x, int y) { return renderer_->auxiliary(x, y, index); });
   }
 
   std::vector<PhotonWay> photon_ways(uint32_t index) override {

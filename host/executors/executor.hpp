@@ -41,17 +41,17 @@ class Executor {
  public:
   virtual ~Executor() = default;
 
-  // Sample `index` of every pixel of `tile`, row by row; out.size() = tile.pixels(). Returns false when
-  // interrupted, and `out` is then undefined.
-  virtual bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) = 0;
+  // Sample `index` of every pixel of `tile`, row by row; out.size() = tile.pixels(). `auxiliaries`: what a
+  // denoiser asks of the same samples, as many or none; only where paths walk at random
+  // (scene/integrator.hpp). Returns false when interrupted, and both are then undefined.
+  virtual bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out,
+                      std::span<AuxiliarySample> auxiliaries = {}) = 0;
   // The same of every stride-th pixel of every stride-th row of the picture, from its top left on: how it
   // will look, soon. out.size() = ⌈width / stride⌉ · ⌈height / stride⌉. False too where there is no such
   // thing.
   virtual bool coarse_sample(int /*stride*/, uint32_t /*index*/, std::span<PixelSample> /*out*/) {
     return false;
   }
-  // What a denoiser asks of the same samples. Only where paths walk at random (scene/integrator.hpp).
-  virtual bool auxiliary(const Rect& tile, uint32_t index, std::span<AuxiliarySample> out) = 0;
   // What the ray through the centre of every pixel of `tile` hits; out.size() = tile.pixels().
   virtual void first_hits(const Rect& tile, std::span<FirstHit> out) = 0;
 

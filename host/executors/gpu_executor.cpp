@@ -67,14 +67,16 @@ class GpuExecutor final : public Executor {
     check_validation();
   }
 
-  bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) override {
+  bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out,
+              std::span<AuxiliarySample> auxiliaries) override {
     if (!send_out_photons(index)) return false;
     if (drawn_) times_.measure("draw", [&] { drawn_->draw(index); });
     const auto trace = [&](const shader::Dispatch& push, gpu::Buffer& output) {
       return wavefront_ ? wavefront_->run(push, output) : dispatch(*sample_kernel_, push, output);
     };
     return for_bands<shader::SampleResult>(tile, 1, index, trace,
-                                           [&](size_t first, auto results) { take(results, first, out); });
+                                           [&](size_t first, auto results) { take(results, first, out); }) &&
+           (auxiliaries.empty() || sample_auxiliaries(tile, index, auxiliaries));
   }
 
   bool coarse_sample(int stride, uint32_t index, std::span<PixelSample> out) override {
@@ -85,21 +87,6 @@ class GpuExecutor final : public Executor {
     const Rect pixels{0, 0, (image_.width + stride - 1) / stride, (image_.height + stride - 1) / stride};
     return for_bands<shader::SampleResult>(pixels, stride, index, trace,
                                            [&](size_t first, auto results) { take(results, first, out); });
-  }
-
-  // By the loop, whatever makes the picture.
-  bool auxiliary(const Rect& tile, uint32_t index, std::span<AuxiliarySample> out) override {
-    if (!auxiliary_kernel_)
-      auxiliary_kernel_ = kernels_->make("kernels/render.comp.glsl", "#define AUXILIARY\n");
-    const auto trace = [&](const shader::Dispatch& push, gpu::Buffer& output) {
-      return dispatch(*auxiliary_kernel_, push, output);
-    };
-    return for_bands<shader::AuxiliaryResult>(tile, 1, index, trace, [&](size_t first, auto results) {
-      for (size_t i = 0; i < results.size(); ++i) {
-        check_traced(results[i].flags, device_.info().driver_version);
-        out[first + i] = to_auxiliary(results[i]);
-      }
-    });
   }
 
   void first_hits(const Rect& tile, std::span<FirstHit> out) override {
@@ -180,6 +167,21 @@ class GpuExecutor final : public Executor {
   }
 
  private:
+  // By the loop, whatever makes the picture.
+  bool sample_auxiliaries(const Rect& tile, uint32_t index, std::span<AuxiliarySample> out) {
+    if (!auxiliary_kernel_)
+      auxiliary_kernel_ = kernels_->make("kernels/render.comp.glsl", "#define AUXILIARY\n");
+    const auto trace = [&](const shader::Dispatch& push, gpu::Buffer& output) {
+      return dispatch(*auxiliary_kernel_, push, output);
+    };
+    return for_bands<shader::AuxiliaryResult>(tile, 1, index, trace, [&](size_t first, auto results) {
+      for (size_t i = 0; i < results.size(); ++i) {
+        check_traced(results[i].flags, device_.info().driver_version);
+        out[first + i] = to_auxiliary(results[i]);
+      }
+    });
+  }
+
   // Those of sample `index`, if there are to be any. Returns false when interrupted.
   bool send_out_photons(uint32_t index) {
     if (!photons_) return true;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host/aov/aov.hpp"
+#include "host/film/channel.hpp"
 #include "host/image/image.hpp"
 #include "host/image/tone.hpp"
 
@@ -15,7 +15,7 @@ namespace eyeray::v0 {
 struct Picture::Data {
   image::Tone tone;
   image::Image color;
-  std::vector<std::pair<aov::Aov, image::Image>> aovs;
+  std::vector<std::pair<film::Channel, image::Image>> aovs;
   int samples_done = 0;
   bool complete = false;
   uint64_t rays = 0;

@@ -13,28 +13,19 @@
 #include "host/library/scene.hpp"
 #include "host/render/flags.hpp"
 #include "host/render/shutter.hpp"
-#include "host/scene/integrator.hpp"
 #include "host/scene/sampler.hpp"
 
 namespace eyeray::library {
 namespace {
 
-using aov::AovNeeds;
-
 // Those that were named; of "all", those that the integrator has.
-std::vector<aov::Aov> aovs_of(const v0::RenderOptions& options, const Scene& scene) {
+film::Channels channels_wanted(const v0::RenderOptions& options, const Scene& scene) {
   if (options.aovs.empty()) return {};
-  std::vector<aov::Aov> aovs = aov::parse_aovs(fmt::format("{}", fmt::join(options.aovs, ",")));
-  if (walks_at_random(scene.render.integrator) || !aov::any_needs(aovs, AovNeeds::auxiliary)) return aovs;
-  if (aovs.size() != aov::aov_types().size())
-    throw Error(ExitCode::bad_input,
-                "the AOVs albedo and shading_normal are of paths: render.integrator=\"path\", or see normal");
-  std::erase_if(aovs, [](aov::Aov each) { return each->needs == AovNeeds::auxiliary; });
-  return aovs;
+  return film::channels_of(scene, film::parse_channels(fmt::format("{}", fmt::join(options.aovs, ","))));
 }
 
 render::RenderOptions driver_options(const v0::RenderOptions& options, const Scene& scene,
-                                     const std::vector<aov::Aov>& aovs) {
+                                     const film::Channels& aovs) {
   if (!(options.noise >= 0 && options.noise <= 1) || !(options.clamp >= 0 && options.clamp <= 1e15))
     throw Error(ExitCode::bad_input, "noise is from 0 to 1, and clamp from 0 to 1e15");
   if (options.noise > 0 && sample_count_of(scene.image.pattern) != SampleCount::any)
@@ -44,10 +35,7 @@ render::RenderOptions driver_options(const v0::RenderOptions& options, const Sce
                 sample_patterns[uint32_t(scene.image.pattern)]);
   render::RenderOptions driver;
   driver.crop = crop_of(options.crop, scene);
-  driver.pixel_kinds = aov::any_needs(aovs, AovNeeds::ray_kinds);
-  driver.pixel_noise = aov::any_needs(aovs, AovNeeds::noise);
-  driver.pixel_brightest = aov::any_needs(aovs, AovNeeds::brightest);
-  driver.pixel_auxiliary = aov::any_needs(aovs, AovNeeds::auxiliary);
+  driver.channels = aovs;
   driver.noise = options.noise;
   driver.clamp = options.clamp;
   driver.progress = progress_of(options.progress, options.cancellation);
@@ -57,23 +45,22 @@ render::RenderOptions driver_options(const v0::RenderOptions& options, const Sce
 // One picture while it comes.
 class Collector {
  public:
-  Collector(const Scene& scene, const Rect& crop, std::vector<aov::Aov> aovs, v0::Picture::Data& picture)
+  Collector(const Scene& scene, const Rect& crop, film::Channels aovs, v0::Picture::Data& picture)
       : scene_(scene), crop_(crop), picture_(picture) {
-    for (const aov::Aov each : aovs) picture_.aovs.emplace_back(each, image::Image());
+    for (const film::Channel each : aovs) picture_.aovs.emplace_back(each, image::Image());
   }
 
-  void take(const render::FinishedRows& rows) {
+  void take(const film::Rows& rows) {
     copy(rows.color, rows.first, picture_.color);
     for (auto& [aov, image] : picture_.aovs)
-      if (const auto* values = std::get_if<aov::ValuesOfRows>(&aov->values))
-        copy((*values)(rows), rows.first, image);
+      if (aov->of_samples()) copy(rows[aov], rows.first, image);
   }
 
   // False when it was cancelled.
   bool trace_first_hits(executors::Executor& executor) {
-    std::vector<std::unique_ptr<aov::LegendEntries>> entries;
+    std::vector<std::unique_ptr<film::LegendEntries>> entries;
     for (const auto& [aov, image] : picture_.aovs)
-      entries.push_back(aov->is_of_first_hits() && aov->legend ? aov->legend(scene_) : nullptr);
+      entries.push_back(aov->legend ? aov->legend(scene_) : nullptr);
     return render::trace_first_hits(executor, crop_, [&](int first, std::span<const FirstHit> hits) {
       for (const FirstHit& hit : hits) {
         flags |= hit.flags;
@@ -81,7 +68,8 @@ class Collector {
       }
       for (size_t i = 0; i < entries.size(); ++i) {
         auto& [aov, image] = picture_.aovs[i];
-        if (aov->is_of_first_hits()) copy(aov_image(aov, hits, crop_.width, entries[i].get()), first, image);
+        if (!aov->of_samples())
+          copy(film::channel_image(aov, hits, crop_.width, entries[i].get()), first, image);
       }
     });
   }
@@ -104,27 +92,27 @@ void render_into(v0::Picture::Data& picture, v0::Renderer::Data& renderer, const
                  const v0::RenderOptions& options) {
   const Stopwatch watch;
   picture.tone = scene.image.tone;
-  const std::vector<aov::Aov> aovs = aovs_of(options, scene);
+  const film::Channels aovs = channels_wanted(options, scene);
   const render::RenderOptions driver = driver_options(options, scene, aovs);
   const executors::Backend backend = backend_of(options.backend);
   executors::ExecutorOptions how = executor_options(renderer, backend == executors::Backend::gpu);
-  how.ray_kinds = driver.pixel_kinds;
+  how.ray_kinds = film::any_needs(aovs, film::Needs::ray_kinds);
   // The next scene is likely one that differs in what moved.
   how.constants = executors::repay_kernels(scene.image.all_samples());
-  how.search_cost = aov::any_needs(aovs, AovNeeds::search_cost);
+  how.search_cost = film::any_needs(aovs, film::Needs::search_cost);
   const auto executor = render::make_picture_executor(backend, scene, how);
 
   Collector collector(scene, driver.crop, aovs, picture);
-  const render::RenderTotals totals = render::render_rows(
-      scene, *executor, driver, [&](const render::FinishedRows& rows) { collector.take(rows); });
+  const render::RenderTotals totals =
+      render::render_rows(scene, *executor, driver, [&](const film::Rows& rows) { collector.take(rows); });
   picture.samples_done = totals.samples_done;
   picture.rays = totals.rays;
   picture.sampling_seconds = totals.seconds;
   picture.complete = !totals.interrupted;
-  if (picture.complete && aov::need_first_hits(aovs))
+  if (picture.complete && film::any_of_first_hits(aovs))
     picture.complete = collector.trace_first_hits(*executor);
   if (!picture.complete)
-    std::erase_if(picture.aovs, [](const auto& each) { return each.first->is_of_first_hits(); });
+    std::erase_if(picture.aovs, [](const auto& each) { return !each.first->of_samples(); });
   std::vector<std::string> warnings;
   if (backend != executors::Backend::reference && !std::exchange(renderer.warned_of_caches, true))
     warnings = DiskCache::of_user().warnings();

@@ -12,12 +12,12 @@ namespace {
 constexpr int widest_filled_gap = 4;
 
 int blocks_of(int pixels) {
-  return (pixels + noise_block - 1) / noise_block;
+  return (pixels + film::noise_block - 1) / film::noise_block;
 }
 
 }  // namespace
 
-AdaptiveSampling::AdaptiveSampling(double target, const PixelSums& sums)
+AdaptiveSampling::AdaptiveSampling(double target, const film::Film& sums)
     : target_(target),
       width_(sums.width()),
       height_(sums.height()),
@@ -25,16 +25,17 @@ AdaptiveSampling::AdaptiveSampling(double target, const PixelSums& sums)
       rows_(blocks_of(height_)),
       active_(size_t(columns_) * size_t(rows_)) {
   for (int y = 0; y < rows_; ++y)
-    for (int x = 0; x < columns_; ++x) row_of_blocks(y)[x] = !sums.finished(x * noise_block, y * noise_block);
+    for (int x = 0; x < columns_; ++x)
+      row_of_blocks(y)[x] = !sums.finished(x * film::noise_block, y * film::noise_block);
   left_ = std::ranges::count(active_, 1);
 }
 
 Rect AdaptiveSampling::block(int x, int y) const {
-  const int left = x * noise_block, top = y * noise_block;
-  return {left, top, std::min(noise_block, width_ - left), std::min(noise_block, height_ - top)};
+  const int left = x * film::noise_block, top = y * film::noise_block;
+  return {left, top, std::min(film::noise_block, width_ - left), std::min(film::noise_block, height_ - top)};
 }
 
-void AdaptiveSampling::judge(PixelSums& sums) {
+void AdaptiveSampling::judge(film::Film& sums) {
   std::vector<char> noisy(active_.size());
   parallel_for(0, rows_, [&](int y) {
     for (int x = 0; x < columns_; ++x)
@@ -66,9 +67,9 @@ void AdaptiveSampling::judge(PixelSums& sums) {
 
 std::vector<Rect> AdaptiveSampling::left(int row, int height) const {
   std::vector<Rect> parts;
-  for (int y = row / noise_block; y * noise_block < row + height; ++y) {
-    const int top = std::max(row, y * noise_block);
-    const int bottom = std::min({row + height, (y + 1) * noise_block, height_});
+  for (int y = row / film::noise_block; y * film::noise_block < row + height; ++y) {
+    const int top = std::max(row, y * film::noise_block);
+    const int bottom = std::min({row + height, (y + 1) * film::noise_block, height_});
     const char* const blocks = row_of_blocks(y);
     for (int x = 0; x < columns_;) {
       const int begin = x;
@@ -77,7 +78,7 @@ std::vector<Rect> AdaptiveSampling::left(int row, int height) const {
         ++x;
         continue;
       }
-      const int first = begin * noise_block, last = std::min(x * noise_block, width_);
+      const int first = begin * film::noise_block, last = std::min(x * film::noise_block, width_);
       // Under one of the same width it is a part of that.
       const auto above = std::ranges::find_if(parts, [&](const Rect& part) {
         return part.x == first && part.width == last - first && part.y + part.height == top;
@@ -91,7 +92,7 @@ std::vector<Rect> AdaptiveSampling::left(int row, int height) const {
   return parts;
 }
 
-double AdaptiveSampling::samples_to_go(const PixelSums& sums, uint64_t samples, int most) const {
+double AdaptiveSampling::samples_to_go(const film::Film& sums, uint64_t samples, int most) const {
   double sum = 0;
   for (int y = 0; y < rows_; ++y) {
     for (int x = 0; x < columns_; ++x) {

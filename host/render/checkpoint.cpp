@@ -16,7 +16,7 @@ static_assert(std::endian::native == std::endian::little, "numbers are written a
 static_assert(sizeof(RenderPosition) == 48, "the file holds it as it lies in memory");
 
 constexpr std::string_view magic = "EYERAYCP";
-constexpr uint32_t version = 6;
+constexpr uint32_t version = 7;
 constexpr uint32_t longest_identity = 65536;
 
 std::filesystem::path rows_of(const std::filesystem::path& file) {
@@ -55,7 +55,7 @@ Checkpoint::Checkpoint(std::filesystem::path file, std::vector<IdentityPart> ide
     : file_(std::move(file)),
       identity_(std::move(identity)),
       seconds_(seconds),
-      rows_(std::make_unique<RowStore>(rows_of(file_))) {}
+      rows_(std::make_unique<film::RowStore>(rows_of(file_))) {}
 
 Checkpoint Checkpoint::begin(std::filesystem::path file, std::vector<IdentityPart> identity, double seconds) {
   std::error_code ignored;
@@ -124,13 +124,13 @@ void Checkpoint::read_header() {
                 file_.string(), fmt::join(differences, ", "));
 }
 
-void Checkpoint::read_sums(PixelSums& sums) {
+void Checkpoint::read_sums(film::Film& film) {
   uint64_t end = uint64_t(input_->tellg()) + sizeof(uint32_t);
-  for (const std::span<std::byte> bytes : sums.parts()) end += bytes.size();
+  for (const std::span<std::byte> bytes : film.parts()) end += bytes.size();
   if (input_bytes_ < end) damaged("it ends too early");
   if (input_bytes_ > end) damaged("it goes on after its end");
   uint32_t checksum = 0, ignored = 0;
-  for (const std::span<std::byte> bytes : sums.parts()) {
+  for (const std::span<std::byte> bytes : film.parts()) {
     if (!input_->read(reinterpret_cast<char*>(bytes.data()), std::streamsize(bytes.size())))
       damaged("it ends too early");
     checksum = crc32(bytes, checksum);
@@ -143,7 +143,7 @@ void Checkpoint::check_rows() const {
     damaged(fmt::format("{} is damaged: its checksum is wrong", rows_of(file_).string()));
 }
 
-void Checkpoint::append_rows(const FinishedRows& rows) {
+void Checkpoint::append_rows(const film::Rows& rows) {
   if (!failure_.empty()) return;
   try {
     rows_->append(rows);
@@ -152,7 +152,7 @@ void Checkpoint::append_rows(const FinishedRows& rows) {
   }
 }
 
-void Checkpoint::save(const RenderPosition& position, const PixelSums& sums) {
+void Checkpoint::save(const RenderPosition& position, const film::Film& film) {
   if (!failure_.empty()) return;
   try {
     rows_->sync();
@@ -168,7 +168,7 @@ void Checkpoint::save(const RenderPosition& position, const PixelSums& sums) {
     AtomicFile file(file_);
     file.write(header);
     uint32_t checksum = 0;
-    for (const std::span<const std::byte> bytes : sums.parts()) {
+    for (const std::span<const std::byte> bytes : film.parts()) {
       file.write(bytes);
       checksum = crc32(bytes, checksum);
     }

@@ -4,7 +4,7 @@
 //
 //   offset   bytes
 //   0        8       "EYERAYCP"
-//   8        4       version of this layout: 6
+//   8        4       version of this layout: 7
 //   12       4       n, at most 65536
 //   16       n       the identity: a line "name: value\n" for each of its parts
 //   16 + n   8 each  RenderPosition, in the order of its members
@@ -12,14 +12,10 @@
 //            4       CRC-32 of all above
 //            40 each the sums of the band's pixels, top row first: red, green, blue (float64), hits, rays,
 //                    flags, samples and in the highest bit whether it takes no more (uint32)
-//            8 each  where rays are counted by kind (the identity says it), of the same pixels: reflected,
-//                    refracted (uint32)
-//            8 each  where noise is measured (likewise), the sums of their squared luminances (float64)
-//            4 each  where it is asked for (likewise), their brightest samples (float32)
-//            48 each where they are asked for (likewise), the sums of their albedos and normals (float64)
+//            8 each  the sums of each channel (the identity names them), of the same pixels (float64)
 //            4       CRC-32 of the sums
 //
-// FILE.rows holds the finished rows above the band (render/row_store.hpp); a picture of one band has none.
+// FILE.rows holds the finished rows above the band (film/row_store.hpp); a picture of one band has none.
 #pragma once
 
 #include <filesystem>
@@ -29,8 +25,7 @@
 #include <vector>
 
 #include "host/core/stopwatch.hpp"
-#include "host/render/row_store.hpp"
-#include "host/render/sums.hpp"
+#include "host/film/row_store.hpp"
 
 namespace eyeray::render {
 
@@ -66,17 +61,17 @@ class Checkpoint {
   // What was read. Then the band's sums, whose size is set, and the finished rows from the top down. Error
   // (file_io) when damaged; where that is found out after rows were given, check_rows says it.
   const RenderPosition& position() const { return position_; }
-  void read_sums(PixelSums& sums);
-  FinishedRows read_rows(int first, int count, int width, Counted counted) {
-    return rows_->read(first, count, width, counted);
+  void read_sums(film::Film& film);
+  film::Rows read_rows(int first, int count, int width, const film::Channels& channels) {
+    return rows_->read(first, count, width, channels);
   }
   void check_rows() const;
   [[noreturn]] void damaged(const std::string& why) const;
 
   bool due() const { return failure_.empty() && since_saved_.seconds() >= seconds_; }
   // Neither throws: what went wrong is in failure(), and from then on nothing more is written.
-  void append_rows(const FinishedRows& rows);
-  void save(const RenderPosition& position, const PixelSums& sums);
+  void append_rows(const film::Rows& rows);
+  void save(const RenderPosition& position, const film::Film& film);
   // Why the file is not what it should be; "" when it is.
   const std::string& failure() const { return failure_; }
   // Whether there is a file to go on from, if only an older one.
@@ -93,7 +88,7 @@ class Checkpoint {
   std::filesystem::path file_;
   std::vector<IdentityPart> identity_;
   double seconds_;
-  std::unique_ptr<RowStore> rows_;
+  std::unique_ptr<film::RowStore> rows_;
   std::unique_ptr<std::ifstream> input_;
   uint64_t input_bytes_ = 0;
   uint32_t rows_checksum_ = 0;

@@ -1,8 +1,9 @@
 #include "host/render/corners.hpp"
 
-#include "host/scene/sampler.hpp"
-
 #include <algorithm>
+
+#include "host/core/error.hpp"
+#include "host/scene/sampler.hpp"
 
 namespace eyeray::render {
 namespace {
@@ -60,15 +61,18 @@ Rect corners_of(const Rect& pixels) {
   return {pixels.x, pixels.y, pixels.width + 1, pixels.height + 1};
 }
 
-FinishedRows CornerMean::add(const FinishedRows& corners) {
-  FinishedRows rows;
+film::Rows CornerMean::add(const film::Rows& corners) {
+  last_.resize(1 + corners.channels.size());
+  film::Rows rows;
   rows.first = std::max(0, corners.first - 1);
-  rows.color = between(last_color_, corners.color, mean);
-  rows.hits = between(last_hits_, corners.hits, mean);
-  rows.rays_traced = between(last_rays_, corners.rays_traced, mean);
-  rows.samples = between(last_samples_, corners.samples, mean);
-  if (corners.has_kinds()) rows.kinds = between(last_kinds_, corners.kinds, mean);
-  rows.flagged = between(last_flagged_, corners.flagged, any_flag);
+  rows.color = between(last_[0], corners.color, mean);
+  rows.channels = corners.channels;
+  for (size_t i = 0; i < corners.channels.size(); ++i) {
+    const film::OfCorners how = corners.channels[i]->of_corners;
+    CHECK(how != film::OfCorners::nothing);
+    rows.values.push_back(
+        between(last_[1 + i], corners.values[i], how == film::OfCorners::any_bit ? any_flag : mean));
+  }
   rows.flagged_pixels = corners.flagged_pixels;
   rows.flags = corners.flags;
   return rows;

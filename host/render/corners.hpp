@@ -3,7 +3,7 @@
 #pragma once
 
 #include "host/core/rect.hpp"
-#include "host/render/sums.hpp"
+#include "host/film/film.hpp"
 #include "host/scene/scene.hpp"
 
 namespace eyeray::render {
@@ -14,17 +14,17 @@ void sample_corners(Scene& scene);
 // The corners of some pixels, as a part of that picture.
 Rect corners_of(const Rect& pixels);
 
-// Rows of corners to rows of pixels, one fewer: means of colours, hits, rays, samples and kinds of rays, and
-// the flags of all four.
+// Rows of corners to rows of pixels, one fewer: the mean colours, and channels as ChannelType::of_corners
+// says.
 class CornerMean {
  public:
   // The rows of pixels that are whole with the next rows of corners, from the top down; images without height
   // where none is. What is flagged are corners.
-  FinishedRows add(const FinishedRows& corners);
+  film::Rows add(const film::Rows& corners);
 
  private:
-  // The last row of corners so far; empty at the start.
-  image::Image last_color_, last_hits_, last_rays_, last_samples_, last_kinds_, last_flagged_;
+  // The last row of corners so far, of the colour and of each channel; none at the start.
+  std::vector<image::Image> last_;
 };
 
 }  // namespace eyeray::render

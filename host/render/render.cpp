@@ -41,6 +41,12 @@ class RowsAtATime {
   int most_;
 };
 
+// Those that are wanted, and those that the driver looks at.
+film::Channels channels_of(const RenderOptions& options) {
+  const film::Channels channels = film::with(options.channels, {"samples"});
+  return options.noise > 0 ? film::with(channels, {"noise"}) : channels;
+}
+
 class Driver {
  public:
   Driver(const Scene& scene, executors::Executor& executor, const RenderOptions& options, const RowSink& sink)
@@ -53,17 +59,16 @@ class Driver {
                                       : Rect{0, 0, scene.image.width, scene.image.height}),
         pixels_(tiles_ ? tiles_->pixels() : crop_.pixels()),
         samples_(scene.image.samples),
-        counted_{.kinds = options.pixel_kinds,
-                 .noise = options.pixel_noise || options.noise > 0,
-                 .brightest = options.pixel_brightest,
-                 .auxiliary = options.pixel_auxiliary},
+        channels_(channels_of(options)),
+        has_auxiliaries_(film::any_needs(channels_, film::Needs::auxiliary)),
         shown_as_one_(std::exp2(-scene.image.tone.exposure)),
         least_samples_(samples_),
         at_a_time_(crop_.width) {
     CHECK(pixels_ > 0 && !(tiles_ && options.noise > 0));
-    const size_t rows = options.band_bytes / (size_t(crop_.width) * sizeof(PixelSums::Pixel));
+    const size_t rows = options.band_bytes / (size_t(crop_.width) * sizeof(film::PixelTotals));
     // A block's noise is known from the whole block. So is a tile from all of it.
-    const size_t unit = counted_.noise || tiles_ ? noise_block : 1;
+    const bool blocks = film::contains(channels_, film::channel_named("noise"));
+    const size_t unit = blocks || tiles_ ? film::noise_block : 1;
     const auto height = size_t(crop_.height);
     band_rows_ = int(rows < height ? std::min(height, std::max<size_t>(rows / unit, 1) * unit) : height);
     progress_.samples_total = uint64_t(pixels_) * uint64_t(samples_);
@@ -81,7 +86,7 @@ class Driver {
         if (whole) hand_on();
         return interrupted_totals(whole ? least_samples_ : 0);
       }
-      const int next = int(position_.finished_rows) + sums_.height();
+      const int next = int(position_.finished_rows) + film_.height();
       if (next == crop_.height) break;
       hand_on();
       begin_band(next);
@@ -100,7 +105,7 @@ class Driver {
     position_.samples = 0;
     position_.extra_rows = 0;
     progress_.band = row / band_rows_;
-    sums_.reset(crop_.width, std::min(band_rows_, crop_.height - row), counted_, shown_as_one_);
+    film_.reset(crop_.width, std::min(band_rows_, crop_.height - row), channels_, shown_as_one_);
     look_for_what_is_left();
   }
 
@@ -113,8 +118,8 @@ class Driver {
         (position.samples == uint64_t(samples_) && position.extra_rows > 0))
       damaged();
     begin_band(int(position.finished_rows));
-    if (position.extra_rows >= uint64_t(sums_.height())) damaged();
-    checkpoint.read_sums(sums_);
+    if (position.extra_rows >= uint64_t(film_.height())) damaged();
+    checkpoint.read_sums(film_);
     look_for_what_is_left();
     position_ = position;
     totals_.rays_resumed = position.rays;
@@ -123,11 +128,11 @@ class Driver {
     for (int row = 0; row < int(position.finished_rows);) {
       if (interrupted()) return false;
       const int count = std::min(rows_of(most_handed_on, crop_.width), int(position.finished_rows) - row);
-      give(checkpoint.read_rows(row, count, crop_.width, counted_));
+      give(checkpoint.read_rows(row, count, crop_.width, film_.channels()));
       row += count;
     }
     checkpoint.check_rows();
-    progress_.samples_done = progress_.samples_resumed = samples_given_ + sums_.samples();
+    progress_.samples_done = progress_.samples_resumed = samples_given_ + film_.samples();
     totals_.samples_resumed = progress_.samples_resumed;
     watch_ = {};
     return true;
@@ -138,7 +143,7 @@ class Driver {
     while (position_.samples < uint64_t(samples_)) {
       if (adaptive_ && position_.extra_rows == 0 && !some_are_left()) break;
       const int row = int(position_.extra_rows);
-      const int height = std::min(at_a_time_.rows(), sums_.height() - row);
+      const int height = std::min(at_a_time_.rows(), film_.height() - row);
       if (interrupted() || !sample(parts_to_sample(row, height))) return false;
       if (!saving_) saving_.emplace();
       position_.rays += parallel_sum(0, int(tile_samples_.size()),
@@ -147,7 +152,7 @@ class Driver {
         for (const PixelSample& each : tile_samples_) totals_.ray_kinds.add(each);
       }
       position_.extra_rows += uint64_t(height);
-      if (position_.extra_rows == uint64_t(sums_.height())) {
+      if (position_.extra_rows == uint64_t(film_.height())) {
         position_.extra_rows = 0;
         ++position_.samples;
       }
@@ -181,16 +186,14 @@ class Driver {
     const Stopwatch watch;
     const double processor_before = processor_seconds();
     std::span<PixelSample> left = tile_samples_;
-    if (counted_.auxiliary) tile_auxiliaries_.resize(pixels);
+    if (has_auxiliaries_) tile_auxiliaries_.resize(pixels);
     std::span<AuxiliarySample> auxiliaries = tile_auxiliaries_;
     try {
       for (const Rect& part : parts) {
         const Rect tile = in_picture(part);
         const std::span<PixelSample> out = left.first(size_t(part.pixels()));
-        if (!executor_.sample(tile, uint32_t(position_.samples), out)) return false;
-        const std::span<AuxiliarySample> beside = auxiliaries.first(counted_.auxiliary ? out.size() : 0);
-        if (counted_.auxiliary && !executor_.auxiliary(tile, uint32_t(position_.samples), beside))
-          return false;
+        const std::span<AuxiliarySample> beside = auxiliaries.first(has_auxiliaries_ ? out.size() : 0);
+        if (!executor_.sample(tile, uint32_t(position_.samples), out, beside)) return false;
         left = left.subspan(out.size());
         auxiliaries = auxiliaries.subspan(beside.size());
         if (options_.witness) options_.witness(tile, uint32_t(position_.samples), out);
@@ -207,10 +210,12 @@ class Driver {
     if (options_.clamp > 0) clamp_samples();
     left = tile_samples_;
     for (const Rect& part : parts) {
-      sums_.add(part, left.first(size_t(part.pixels())));
-      if (counted_.auxiliary) sums_.add(part, auxiliaries.first(size_t(part.pixels())));
-      left = left.subspan(size_t(part.pixels()));
-      if (counted_.auxiliary) auxiliaries = auxiliaries.subspan(size_t(part.pixels()));
+      const std::span<const PixelSample> samples = left.first(size_t(part.pixels()));
+      const std::span<const AuxiliarySample> beside =
+          auxiliaries.first(has_auxiliaries_ ? samples.size() : 0);
+      film_.add(part, samples, beside);
+      left = left.subspan(samples.size());
+      auxiliaries = auxiliaries.subspan(beside.size());
     }
     progress_.samples_done += pixels;
     return true;
@@ -228,18 +233,18 @@ class Driver {
   }
 
   void look_for_what_is_left() {
-    if (options_.noise > 0) adaptive_.emplace(options_.noise, sums_);
+    if (options_.noise > 0) adaptive_.emplace(options_.noise, film_);
   }
 
   // Between two samples: whether the band needs another; and how many all will be.
   bool some_are_left() {
     const uint64_t samples = position_.samples;
-    if (AdaptiveSampling::judges_after(samples)) adaptive_->judge(sums_);
+    if (AdaptiveSampling::judges_after(samples)) adaptive_->judge(film_);
     if (samples >= 8 && std::has_single_bit(samples)) {
       // Bands to come are taken to be like those that were.
       const double until_now =
-          double(progress_.samples_done) + adaptive_->samples_to_go(sums_, samples, samples_);
-      const double pixels = double(crop_.width) * double(position_.finished_rows + uint64_t(sums_.height()));
+          double(progress_.samples_done) + adaptive_->samples_to_go(film_, samples, samples_);
+      const double pixels = double(crop_.width) * double(position_.finished_rows + uint64_t(film_.height()));
       progress_.samples_total = uint64_t(until_now / pixels * double(crop_.pixels()));
     }
     return !adaptive_->finished();
@@ -254,10 +259,10 @@ class Driver {
 
   // Gives the band's rows to the sink, and to the checkpoint where they will be missed.
   void hand_on() {
-    const bool last = int(position_.finished_rows) + sums_.height() == crop_.height;
-    for (int row = 0; row < sums_.height();) {
-      const int count = std::min(rows_of(most_handed_on, crop_.width), sums_.height() - row);
-      FinishedRows rows = sums_.mean(row, count);
+    const bool last = int(position_.finished_rows) + film_.height() == crop_.height;
+    for (int row = 0; row < film_.height();) {
+      const int count = std::min(rows_of(most_handed_on, crop_.width), film_.height() - row);
+      film::Rows rows = film_.rows(row, count);
       rows.first += int(position_.finished_rows);
       position_.flags |= rows.flags;
       position_.flagged_pixels += rows.flagged_pixels;
@@ -267,14 +272,16 @@ class Driver {
     }
   }
 
-  void give(const FinishedRows& rows) {
+  void give(const film::Rows& rows) {
     for (size_t i = 0; i < rows.color.sample_count(); i += 3) {
       const float* const color = &rows.color.samples()[i];
       luminances_given_ += luminance(Vec3(color[0], color[1], color[2]));
     }
-    const float* const noise = options_.noise > 0 ? rows.noise.samples().data() : nullptr;
-    for (size_t i = 0; i < rows.samples.sample_count(); ++i) {
-      const int samples = int(rows.samples.samples()[i]);
+    const float* const noise =
+        options_.noise > 0 ? rows[film::channel_named("noise")].samples().data() : nullptr;
+    const std::vector<float>& counts = rows[film::channel_named("samples")].samples();
+    for (size_t i = 0; i < counts.size(); ++i) {
+      const int samples = int(counts[i]);
       if (samples == 0) continue;  // beside or below a tile
       samples_given_ += uint64_t(samples);
       least_samples_ = std::min(least_samples_, samples);
@@ -287,7 +294,7 @@ class Driver {
   }
 
   void save() {
-    if (options_.checkpoint) options_.checkpoint->save(position_, sums_);
+    if (options_.checkpoint) options_.checkpoint->save(position_, film_);
   }
 
   RenderTotals totals() const {
@@ -315,12 +322,13 @@ class Driver {
   const Rect crop_;       // what is rendered, or the stack of the tiles
   const int64_t pixels_;  // of it
   const int samples_;
-  const Counted counted_;
+  const film::Channels channels_;
+  const bool has_auxiliaries_;
   const double shown_as_one_;
   int band_rows_ = 1;  // of every band but the last, which may have fewer
 
   RenderPosition position_;
-  PixelSums sums_;                            // of the band
+  film::Film film_;                           // of the band
   std::optional<AdaptiveSampling> adaptive_;  // likewise
   uint64_t samples_given_ = 0;                // of pixels of the rows that were handed on
   int least_samples_;                         // of one of them
@@ -365,17 +373,19 @@ Rendering render(const Scene& scene, executors::Executor& executor, const Render
   Rect crop = options.crop;
   if (crop.pixels() == 0) crop = {0, 0, scene.image.width, scene.image.height};
   Rendering result;
-  const auto collect = [&](const FinishedRows& rows) {
+  const auto collect = [&](const film::Rows& rows) {
     if (rows.first == 0) {
       result.color = image::Image(crop.width, crop.height, 3);
       result.hits = image::Image(crop.width, crop.height, 1);
       result.rays_traced = image::Image(crop.width, crop.height, 1);
     }
     copy_rows(rows.color, rows.first, result.color);
-    copy_rows(rows.hits, rows.first, result.hits);
-    copy_rows(rows.rays_traced, rows.first, result.rays_traced);
+    copy_rows(rows[film::channel_named("hits")], rows.first, result.hits);
+    copy_rows(rows[film::channel_named("rays")], rows.first, result.rays_traced);
   };
-  static_cast<RenderTotals&>(result) = render_rows(scene, executor, options, collect);
+  RenderOptions with_counts = options;
+  with_counts.channels = film::with(options.channels, {"hits", "rays"});
+  static_cast<RenderTotals&>(result) = render_rows(scene, executor, with_counts, collect);
   if (result.samples_done == 0) result.color = result.hits = result.rays_traced = image::Image();
   if (!options.first_hits || result.interrupted) return result;
 

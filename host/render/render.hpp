@@ -5,8 +5,8 @@
 
 #include "host/core/ray_counts.hpp"
 #include "host/executors/executor.hpp"
+#include "host/film/film.hpp"
 #include "host/render/brightness.hpp"
-#include "host/render/sums.hpp"
 #include "host/render/tiling.hpp"
 
 namespace eyeray::render {
@@ -29,18 +29,15 @@ struct RenderOptions {
   Rect crop;                                      // in pixels of the whole picture; empty: all of it
   bool first_hits = false;                        // for render(): whether they are wanted
   std::function<void(const Progress&)> progress;  // called between tiles; may be empty
-  // How many bytes of sums to hold (40 a pixel, and what is counted beside). A larger picture is rendered in
+  // How many bytes of sums to hold (40 a pixel, and those of channels). A larger picture is rendered in
   // bands of rows: all samples of one, then of the next. Else it is one band, and so one sample of the whole
   // picture comes after the other.
   size_t band_bytes = size_t{256} << 20;
-  // Count rays by kind, in all and in FinishedRows (8 bytes of sums a pixel more): for either the executor
-  // must (ExecutorOptions::ray_kinds).
-  bool ray_kinds = false;
-  bool pixel_kinds = false;
-  bool pixel_noise = false;      // measure it, in FinishedRows (8 bytes a pixel more too)
-  bool pixel_brightest = false;  // likewise (4 bytes)
-  bool pixel_auxiliary = false;  // likewise (48 bytes); only where paths walk at random
-  // Above 0, pixels whose noise (PixelSums::noise) is no more take no more samples (render/adaptive.hpp), and
+  // What rows have beside `samples` and, with `noise`, the noise. What channels need, the executor must
+  // count.
+  film::Channels channels;
+  bool ray_kinds = false;  // count rays by kind in all: then the executor must too
+  // Above 0, pixels whose noise (Film::noise) is no more take no more samples (render/adaptive.hpp), and
   // scene.image.samples is the most that one takes.
   double noise = 0;
   // Above 0, samples count for no more than this in any channel, which makes means too dark.
@@ -83,7 +80,7 @@ struct RenderTotals {
   double greatest_noise = 0;
 };
 
-using RowSink = std::function<void(const FinishedRows&)>;
+using RowSink = std::function<void(const film::Rows&)>;
 
 // Renders scene.image through `executor` and hands its rows on as they are finished, some megabytes at a
 // time. When interrupted, a picture of one band is handed on whole, if every pixel has a sample; of several
@@ -106,7 +103,7 @@ bool trace_first_hits(executors::Executor& executor, const Rect& crop, const Fir
 struct Rendering : RenderTotals {
   image::Image color;                // of the crop; linear RGB, the mean of the samples
   std::vector<FirstHit> first_hits;  // of the crop; empty unless asked for
-  image::Image hits, rays_traced;    // as in FinishedRows
+  image::Image hits, rays_traced;    // the channels `hits` and `rays`
 };
 
 // As render_rows; when interrupted, the images are empty unless samples_done > 0, and first_hits is empty.

@@ -30,13 +30,10 @@ class Shutter final : public Executor {
     show(scene_.animation.frame);
   }
 
-  bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) override {
+  bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out,
+              std::span<AuxiliarySample> auxiliaries) override {
     show_moment_of(index);
-    return timed([&] { return executor_->sample(tile, index, out); });
-  }
-  bool auxiliary(const Rect& tile, uint32_t index, std::span<AuxiliarySample> out) override {
-    show_moment_of(index);
-    return timed([&] { return executor_->auxiliary(tile, index, out); });
+    return timed([&] { return executor_->sample(tile, index, out, auxiliaries); });
   }
   void first_hits(const Rect& tile, std::span<FirstHit> out) override {
     show(scene_.animation.frame);

@@ -47,8 +47,9 @@ Tiling::Tiling(int width, int height, int shards)
   const int64_t tiles_a_shard =
       std::clamp(int64_t(std::sqrt(pixels_a_shard / pixels_by_tiles)), least_tiles, int64_t{tiles_wanted});
   const int columns_wanted = divided_up(tiles_a_shard * shards, rows_);
-  const int blocks = divided_up(width, noise_block);
-  tile_width_ = std::max(blocks / columns_wanted * noise_block, std::min(least_width, blocks * noise_block));
+  const int blocks = divided_up(width, film::noise_block);
+  tile_width_ = std::max(blocks / columns_wanted * film::noise_block,
+                         std::min(least_width, blocks * film::noise_block));
   columns_ = divided_up(width, tile_width_);
 
   owners_.resize(size_t(count()));

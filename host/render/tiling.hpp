@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "host/core/rect.hpp"
-#include "host/render/sums.hpp"
+#include "host/film/film.hpp"
 
 namespace eyeray::render {
 
@@ -33,9 +33,9 @@ class Tiling {
   // `width`, `height`, `shards` ≥ 1.
   Tiling(int width, int height, int shards);
 
-  static constexpr int tile_height = noise_block;
+  static constexpr int tile_height = film::noise_block;
   static constexpr int tiles_wanted = 16;
-  static constexpr int least_width = 4 * noise_block;
+  static constexpr int least_width = 4 * film::noise_block;
 
   int tile_width() const { return tile_width_; }  // of all but the last of a row
   int columns() const { return columns_; }

@@ -52,14 +52,14 @@ RayCounts ray_counts_of(const Json& json) {
   return kinds;
 }
 
-Json to_json(const aov::LegendTally& legend) {
+Json to_json(const film::LegendTally& legend) {
   Json entries = Json::array();
   for (const auto& [index, entry] : legend.entries) entries.push_back({index, entry.text, entry.pixels});
   return {{"nothing", legend.nothing}, {"entries", std::move(entries)}};
 }
 
-aov::LegendTally legend_of(const Json& json) {
-  aov::LegendTally legend{whole_number<uint64_t>(json.at("nothing")), {}};
+film::LegendTally legend_of(const Json& json) {
+  film::LegendTally legend{whole_number<uint64_t>(json.at("nothing")), {}};
   for (const Json& entry : json.at("entries"))
     legend.entries[whole_number<uint64_t>(entry.at(0))] = {entry.at(1).get<std::string>(),
                                                            whole_number<uint64_t>(entry.at(2))};
@@ -80,7 +80,7 @@ std::string to_text(const PartHeader& header) {
   Json identity = Json::array(), aovs = Json::array();
   for (const render::IdentityPart& part : header.identity)
     identity.push_back({part.name, part.value, part.shown});
-  for (const aov::Aov aov : header.aovs) aovs.push_back(aov->name);
+  for (const film::Channel aov : header.aovs) aovs.push_back(aov->name);
   const Rect& area = header.area;
   return json_text(Json{{"shard", {header.shard.index, header.shard.count}},
                         {"scene", header.scene},
@@ -116,8 +116,9 @@ PartHeader header_of(const std::string& text) {
     header.device = json.at("device").get<std::string>();
     header.build = json.at("build").get<std::string>();
     for (const Json& name : json.at("aovs")) {
-      const auto found = std::ranges::find(aov::aov_types(), name.get<std::string>(), &aov::AovType::name);
-      if (found == aov::aov_types().end())
+      const auto found =
+          std::ranges::find(film::channel_types(), name.get<std::string>(), &film::ChannelType::name);
+      if (found == film::channel_types().end())
         throw Error(ExitCode::file_io, "this eyeray has no AOV {}", name.get<std::string>());
       header.aovs.push_back(&*found);
     }
@@ -132,7 +133,7 @@ PartHeader header_of(const std::string& text) {
 
 std::string to_text(const PartTotals& totals) {
   Json legends = Json::array();
-  for (const aov::LegendTally& legend : totals.legends) legends.push_back(to_json(legend));
+  for (const film::LegendTally& legend : totals.legends) legends.push_back(to_json(legend));
   return json_text(Json{{"rays", totals.rays},
                         {"flagged_pixels", totals.flagged_pixels},
                         {"flagged_hits", totals.flagged_hits},

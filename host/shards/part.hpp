@@ -28,9 +28,9 @@
 #include <string>
 #include <vector>
 
-#include "host/aov/aov.hpp"
-#include "host/aov/legend.hpp"
 #include "host/core/ray_counts.hpp"
+#include "host/film/channel.hpp"
+#include "host/film/legend.hpp"
 #include "host/image/tone.hpp"
 #include "host/render/brightness.hpp"
 #include "host/render/checkpoint.hpp"
@@ -49,12 +49,12 @@ struct PartHeader {
   bool random_paths = false;  // whether bright samples may be fireflies
   std::string device;         // for people
   std::string build;          // cli/build_facts.hpp, sum_of_sources
-  std::vector<aov::Aov> aovs;
+  film::Channels aovs;
   // What decides the bits: the same in all parts of one picture.
   std::vector<render::IdentityPart> identity;
 
   size_t planes() const { return 1 + aovs.size(); }
-  int channels(size_t plane) const { return plane == 0 ? 3 : aovs[plane - 1]->channels; }
+  int channels(size_t plane) const { return plane == 0 ? 3 : aovs[plane - 1]->components; }
 };
 
 // Known after the last.
@@ -65,10 +65,10 @@ struct PartTotals {
   uint32_t flags = 0;
   uint64_t clamped = 0;
   render::Brightness brightness;
-  std::optional<RayCounts> ray_kinds;     // where they were asked for
-  double seconds = 0;                     // of sampling
-  double processor_seconds = 0;           // the same, of all threads
-  std::vector<aov::LegendTally> legends;  // one an AOV, empty of those that have none
+  std::optional<RayCounts> ray_kinds;      // where they were asked for
+  double seconds = 0;                      // of sampling
+  double processor_seconds = 0;            // the same, of all threads
+  std::vector<film::LegendTally> legends;  // one an AOV, empty of those that have none
 
   // Those of another part. Kinds of rays are known where both know them.
   void add(const PartTotals& other);

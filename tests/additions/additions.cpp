@@ -116,7 +116,7 @@ TEST_CASE("each page on adding a kind is true: two files and a row, and its scen
     CAPTURE(page.name);
     const bool aov = page.name == "adding-an-aov.md";
     CHECK(page.code.size() == (aov ? 0 : 2));
-    CHECK(page.rows.size() == 1);
+    CHECK(page.rows.size() == (aov ? 2 : 1));
     CHECK(page.scenes.size() == (aov ? 0 : 1));
     tree.add(page);
   }
@@ -137,10 +137,11 @@ TEST_CASE("each page on adding a kind is true: two files and a row, and its scen
     }
   }
   const Page& any = *std::ranges::find_if(pages, [](const Page& page) { return !page.scenes.empty(); });
-  const ProcessResult seen = tree.run({"render", tree / any.scenes[0].path, "--backend", "twin", "-s",
-                                       "32x24", "--aov", "height", "-o", tree / "seen.png", "--quiet"});
+  const ProcessResult seen =
+      tree.run({"render", tree / any.scenes[0].path, "--backend", "twin", "-s", "32x24", "--aov",
+                "height,clipped", "-o", tree / "seen.png", "--quiet"});
   CHECK_MESSAGE(seen.code == 0, seen.err);
-  CHECK(fs::exists(tree / "seen.height.pfm"));
+  for (const char* aov : {"height", "clipped"}) CHECK(fs::exists(tree / fmt::format("seen.{}.pfm", aov)));
 
   // A half that is missing is an error that bears its name.
   for (const Page& page : pages) {

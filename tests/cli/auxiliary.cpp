@@ -94,9 +94,10 @@ TEST_CASE("they are layers of an .exr as denoisers name them, and of paths alone
   const ProcessResult refused =
       run_eyeray({"render", "scenes/whitted.toml", "--aov", "albedo", "-o", folder / "no.pfm"});
   CHECK(refused.code == 2);
-  CHECK(refused.err ==
-        "eyeray: error: the AOVs albedo and shading_normal are of paths: -D render.integrator=path, or see "
-        "normal\n");
+  CHECK(
+      refused.err ==
+      "eyeray: error: only paths have the AOVs albedo and shading_normal: -D render.integrator=path follows "
+      "them, and every integrator has the AOV normal\n");
 }
 
 TEST_CASE("samples that stand out are counted; --clamp cuts them, and says that the picture is biased") {

@@ -70,5 +70,5 @@ TEST_CASE("what --classic settles itself cannot be asked for beside it") {
   };
   CHECK(refused({"--spp", "4"}).find("--classic") != std::string::npos);
   CHECK(refused({"--max-depth", "2"}).find("--classic") != std::string::npos);
-  CHECK(refused({"--aov", "depth"}).find("no rays through the centres of pixels") != std::string::npos);
+  CHECK(refused({"--aov", "depth"}).find("lacks the AOVs depth; it has hits, bounces,") != std::string::npos);
 }

@@ -61,6 +61,7 @@ TEST_CASE("--noise that cannot be reached is told, and what makes none is refuse
     CHECK(refusal({"--noise", wrong}).find("is not a number from 0.0001 to 1") != std::string::npos);
   refusal({"--noise", "0.1", "--classic"});
   CHECK(refusal({"--classic", "--aov", "noise"}) ==
-        "eyeray: error: --classic samples have no noise that could be measured\n");
+        "eyeray: error: --classic samples the corners of pixels and so lacks the AOVs noise; it has hits, "
+        "bounces, rays, ray_kinds, samples, flags\n");
   CHECK(folder.names() == std::set<std::string>{"a.png", "scene.toml"});
 }

@@ -116,28 +116,29 @@ TEST_CASE("the kinds of each pixel's rays are the means of its samples, in bands
     REQUIRE(executor->sample(all, i, samples[i]));
   }
   render::RenderOptions how;
-  how.pixel_kinds = true;
-  how.band_bytes = size_t(40 * 7) * sizeof(render::PixelSums::Pixel);
+  how.channels = film::parse_channels("ray_kinds");
+  const film::Channel kinds = how.channels[0];
+  how.band_bytes = size_t(40 * 7) * sizeof(film::PixelTotals);
   size_t i = 0;
-  const auto totals = render_rows(scene, *executor, how, [&](const render::FinishedRows& rows) {
-    REQUIRE(rows.has_kinds());
-    for (size_t k = 0; k < rows.hits.sample_count(); ++k, ++i) {
+  const auto totals = render_rows(scene, *executor, how, [&](const film::Rows& rows) {
+    for (size_t k = 0; k < rows.color.sample_count() / 3; ++k, ++i) {
       uint32_t reflected = 0, refracted = 0, rays = 0;
       for (const auto& of_index : samples) {
         reflected += of_index[i].reflected;
         refracted += of_index[i].refracted;
         rays += of_index[i].rays;
       }
-      CHECK(rows.kinds.samples()[3 * k] == float(reflected / 3.0));
-      CHECK(rows.kinds.samples()[3 * k + 1] == float(refracted / 3.0));
-      CHECK(rows.kinds.samples()[3 * k + 2] == float((rays - 3 - reflected - refracted) / 3.0));
+      CHECK(rows[kinds].samples()[3 * k] == float(reflected / 3.0));
+      CHECK(rows[kinds].samples()[3 * k + 1] == float(refracted / 3.0));
+      CHECK(rows[kinds].samples()[3 * k + 2] == float((rays - 3 - reflected - refracted) / 3.0));
     }
   });
   CHECK(totals.bands > 1);
   CHECK(i == size_t(all.pixels()));
 
-  how.pixel_kinds = false;
-  render_rows(scene, *executor, how, [](const render::FinishedRows& rows) { CHECK_FALSE(rows.has_kinds()); });
+  how.channels.clear();
+  render_rows(scene, *executor, how,
+              [&](const film::Rows& rows) { CHECK_FALSE(film::contains(rows.channels, kinds)); });
 }
 
 TEST_CASE("between two mirrors a ray is reflected as often as it may be") {

@@ -28,14 +28,14 @@ void write(const std::filesystem::path& file, const std::string& bytes) {
   std::ofstream(file, std::ios::binary).write(bytes.data(), std::streamsize(bytes.size()));
 }
 
-// Of everything that may be counted, what the bits of `first` say.
-Counted counted_by(uint8_t first) {
-  Counted counted;
-  counted.kinds = first & 1;
-  counted.noise = first & 2;
-  counted.brightest = first & 4;
-  counted.auxiliary = first & 8;
-  return counted;
+// Of the channels of samples, those that the bits of `first` say.
+film::Channels channels_by(uint8_t first) {
+  film::Channels channels;
+  int bit = 0;
+  for (const film::ChannelType& type : film::channel_types())
+    if (type.of_samples() && type.of_samples()->sums > 0 && (first >> (bit++ % 8) & 1))
+      channels.push_back(&type);
+  return channels;
 }
 
 struct Folder {
@@ -55,9 +55,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   static const Folder folder;
   const std::filesystem::path file = folder.path + "/a.checkpoint", rows = file.string() + ".rows";
   std::string_view bytes(reinterpret_cast<const char*>(data), size);
-  const Counted counted = counted_by(size > 0 ? data[size - 1] : 0);
-  PixelSums sums;
-  sums.reset(side, side, counted);
+  const film::Channels channels = channels_by(size > 0 ? data[size - 1] : 0);
+  film::Film film;
+  film.reset(side, side, channels);
 
   if (bytes.starts_with("size: ")) {
     const auto take = [&](size_t count) {
@@ -69,10 +69,10 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const std::string identity = take(std::min(bytes.find('\0'), bytes.size()));
     take(1);
     std::string position = take(sizeof(RenderPosition)), all;
-    for (const std::span<std::byte> part : sums.parts()) all += take(part.size());
+    for (const std::span<std::byte> part : film.parts()) all += take(part.size());
     const std::string stored(bytes);
     std::string header =
-        "EYERAYCP" + word(6) + word(uint32_t(identity.size())) + identity + position + word(sum_of(stored));
+        "EYERAYCP" + word(7) + word(uint32_t(identity.size())) + identity + position + word(sum_of(stored));
     header += word(sum_of(header));
     write(file, header + all + word(sum_of(all)));
     write(rows, stored);
@@ -82,11 +82,11 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   }
   try {
     Checkpoint checkpoint = Checkpoint::resume(file, {{"size", "4x4"}}, 1);
-    checkpoint.read_sums(sums);
-    (void)sums.samples();
-    if (sums.mean(0, side).color.height() != side) std::abort();
+    checkpoint.read_sums(film);
+    (void)film.samples();
+    if (film.rows(0, side).color.height() != side) std::abort();
     for (int row = 0; row < int(std::min<uint64_t>(checkpoint.position().finished_rows, side)); ++row)
-      if (checkpoint.read_rows(row, 1, side, counted).hits.sample_count() != side) std::abort();
+      if (checkpoint.read_rows(row, 1, side, channels).color.sample_count() != 3 * side) std::abort();
     checkpoint.check_rows();
   } catch (const Error& error) {
     if (error.code() != ExitCode::file_io && error.code() != ExitCode::bad_input) std::abort();

@@ -21,8 +21,9 @@ class NoisyExecutor final : public FakeExecutor {
  public:
   using FakeExecutor::FakeExecutor;
 
-  bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) override {
-    if (!FakeExecutor::sample(tile, index, out)) return false;
+  bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out,
+              std::span<AuxiliarySample> auxiliaries) override {
+    if (!FakeExecutor::sample(tile, index, out, auxiliaries)) return false;
     for (int i = 0; i < tile.pixels(); ++i) {
       const int x = tile.x + i % tile.width, y = tile.y + i / tile.width;
       uint32_t hash = uint32_t(x) * 0x9E3779B9u ^ uint32_t(y) * 0x85EBCA6Bu ^ index * 0xC2B2AE35u;
@@ -37,7 +38,7 @@ class NoisyExecutor final : public FakeExecutor {
 RenderOptions until(double noise, int rows, int width) {
   RenderOptions options;
   options.noise = noise;
-  options.band_bytes = size_t(rows) * size_t(width) * sizeof(PixelSums::Pixel);
+  options.band_bytes = size_t(rows) * size_t(width) * sizeof(film::PixelTotals);
   return options;
 }
 
@@ -58,8 +59,8 @@ TEST_CASE("pixels stop where they are good: at once, after what their variance w
       CHECK(progress.samples_done <= progress.samples_total);
       shown = progress.samples_done;
     };
-    const RenderTotals totals = render_rows(scene, executor, options, [&](const FinishedRows& rows) {
-      for (const float value : rows.samples.samples()) samples.push_back(int(value));
+    const RenderTotals totals = render_rows(scene, executor, options, [&](const film::Rows& rows) {
+      for (const float value : rows[film::channel_named("samples")].samples()) samples.push_back(int(value));
     });
     REQUIRE(samples.size() == 81u * 45u);
     uint64_t sum = 0;
@@ -86,13 +87,13 @@ TEST_CASE("the noise that is told is the noise there is") {
   const Scene scene = scene_of(480, 160, 128);
   NoisyExecutor executor;
   RenderOptions options = until(0, 160, 480);
-  options.pixel_noise = true;
+  options.channels = film::parse_channels("noise");
   int within = 0, all = 0;
-  render_rows(scene, executor, options, [&](const FinishedRows& rows) {
+  render_rows(scene, executor, options, [&](const film::Rows& rows) {
     for (int y = 0; y < rows.color.height(); ++y) {
       for (int x = 48; x < 480; ++x) {
         const double off = std::abs(double(rows.color.pixel(x, y)[0]) - 0.5);
-        within += off <= double(*rows.noise.pixel(x, y)) * (0.5 + 0.01);
+        within += off <= double(*rows[film::channel_named("noise")].pixel(x, y)) * (0.5 + 0.01);
         ++all;
       }
     }
@@ -106,11 +107,11 @@ TEST_CASE("the noise of bands is that of the whole picture, however few rows the
   std::vector<float> whole;
   for (const int rows : {33, 20, 1}) {
     RenderOptions options = until(0, rows, 70);
-    options.pixel_noise = true;
+    options.channels = film::parse_channels("noise");
     NoisyExecutor executor;
     std::vector<float> noise;
-    const RenderTotals totals = render_rows(scene, executor, options, [&](const FinishedRows& finished) {
-      const std::vector<float>& values = finished.noise.samples();
+    const RenderTotals totals = render_rows(scene, executor, options, [&](const film::Rows& finished) {
+      const std::vector<float>& values = finished[film::channel_named("noise")].samples();
       noise.insert(noise.end(), values.begin(), values.end());
     });
     CHECK(totals.bands == (rows == 33 ? 1 : rows == 20 ? 3 : 5));
@@ -120,9 +121,9 @@ TEST_CASE("the noise of bands is that of the whole picture, however few rows the
 }
 
 TEST_CASE("what is dark is measured against what the picture shows as 1") {
-  PixelSums sums;
+  film::Film sums;
   for (const double exposure : {0.0, 3.0}) {
-    sums.reset(8, 8, {.noise = true}, std::exp2(-exposure));
+    sums.reset(8, 8, film::parse_channels("noise"), std::exp2(-exposure));
     std::vector<PixelSample> samples(64);
     CHECK(std::isnan(sums.noise({0, 0, 8, 8})));
     for (const double value : {0.0, 2e-3}) {
@@ -166,8 +167,8 @@ TEST_CASE("a picture that stops where it is good is the same in bands' own block
 }
 
 TEST_CASE("what is left is covered once, by few rectangles") {
-  PixelSums sums;
-  sums.reset(100, 50, {.noise = true});
+  film::Film sums;
+  sums.reset(100, 50, film::parse_channels("noise"));
   sums.finish({16, 8, 32, 16});
   const AdaptiveSampling adaptive(target, sums);
   std::vector<int> covered(100 * 50);

@@ -54,14 +54,15 @@ TEST_CASE("rows are handed on from the top down, each once, in a crop too") {
   for (const int rows : {1, 4, 100}) {
     FakeExecutor executor;
     RenderOptions options = in_bands(scene, rows, crop);
-    options.band_bytes = size_t(rows) * 20 * sizeof(PixelSums::Pixel);
+    options.band_bytes = size_t(rows) * 20 * sizeof(film::PixelTotals);
+    options.channels = film::parse_channels("hits");
     int next = 0;
-    const RenderTotals totals = render_rows(scene, executor, options, [&](const FinishedRows& finished) {
+    const RenderTotals totals = render_rows(scene, executor, options, [&](const film::Rows& finished) {
       CHECK(finished.first == next);
       CHECK(finished.color.width() == 20);
       next += finished.color.height();
       // The formula of the fake, averaged: hits are the row and the number of the sample.
-      CHECK(*finished.hits.pixel(7, 0) == float(crop.y + finished.first) + 1.5f);
+      CHECK(*finished[options.channels[0]].pixel(7, 0) == float(crop.y + finished.first) + 1.5f);
     });
     CHECK(next == 21);
     CHECK(totals.bands == (rows == 100 ? 1 : (21 + rows - 1) / rows));

@@ -50,13 +50,15 @@ TEST_CASE("the pixels' centres are where the corners were, by every camera") {
 
 TEST_CASE("a pixel is the mean of its corners, however the rows come") {
   const int width = 4, height = 6;
-  FinishedRows all(0, width, height);
-  *all.flagged.pixel(2, 3) = float(stack_overflow);
-  *all.flagged.pixel(3, 3) = float(media_overflow);
+  const film::Channels channels = film::parse_channels("hits,flags");
+  film::Rows all(0, width, height, channels);
+  image::Image &hits = all.values[0], &flags = all.values[1];
+  *flags.pixel(2, 3) = float(stack_overflow);
+  *flags.pixel(3, 3) = float(media_overflow);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       for (int c = 0; c < 3; ++c) all.color.pixel(x, y)[c] = float(x * x + 10 * y * y + 100 * c);
-      *all.hits.pixel(x, y) = float(x * y);
+      *hits.pixel(x, y) = float(x * y);
     }
   }
   for (const int rows : {1, 2, 4, 6}) {
@@ -65,16 +67,16 @@ TEST_CASE("a pixel is the mean of its corners, however the rows come") {
     int next = 0;
     for (int first = 0; first < height; first += rows) {
       const int count = std::min(rows, height - first);
-      FinishedRows some(first, width, count);
-      std::copy_n(all.flagged.pixel(0, first), some.flagged.sample_count(), some.flagged.pixel(0, 0));
+      film::Rows some(first, width, count, channels);
       std::copy_n(all.color.pixel(0, first), some.color.sample_count(), some.color.pixel(0, 0));
-      std::copy_n(all.hits.pixel(0, first), some.hits.sample_count(), some.hits.pixel(0, 0));
+      for (size_t i = 0; i < channels.size(); ++i)
+        std::copy_n(all.values[i].pixel(0, first), some.values[i].sample_count(), some.values[i].pixel(0, 0));
       some.flags = first == 0 ? uint32_t(stack_overflow) : 0u;
-      const FinishedRows pixels = mean.add(some);
+      const film::Rows pixels = mean.add(some);
       CHECK(pixels.flags == some.flags);
       CHECK(pixels.first == next);
       REQUIRE(pixels.color.width() == width - 1);
-      REQUIRE(pixels.color.height() == pixels.hits.height());
+      REQUIRE(pixels.color.height() == pixels.values[0].height());
       for (int row = 0; row < pixels.color.height(); ++row, ++next) {
         for (int x = 0; x < width - 1; ++x) {
           const int y = next;
@@ -82,8 +84,8 @@ TEST_CASE("a pixel is the mean of its corners, however the rows come") {
               float(x * x + (x + 1) * (x + 1)) / 2 + 10 * float(y * y + (y + 1) * (y + 1)) / 2;
           for (int c = 0; c < 3; ++c) CHECK(pixels.color.pixel(x, row)[c] == squares + float(100 * c));
           const bool below = y == 2 || y == 3;
-          CHECK(*pixels.flagged.pixel(x, row) == (!below || x == 0 ? 0.0f : x == 1 ? 2.0f : 3.0f));
-          CHECK(*pixels.hits.pixel(x, row) == float((2 * x + 1) * (2 * y + 1)) / 4);
+          CHECK(*pixels.values[1].pixel(x, row) == (!below || x == 0 ? 0.0f : x == 1 ? 2.0f : 3.0f));
+          CHECK(*pixels.values[0].pixel(x, row) == float((2 * x + 1) * (2 * y + 1)) / 4);
         }
       }
     }

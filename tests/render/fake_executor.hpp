@@ -16,7 +16,8 @@ class FakeExecutor : public executors::Executor {
   // `before_call(n)` is asked before the n-th call of sample, from 0; false interrupts, and it may throw.
   explicit FakeExecutor(std::function<bool(int)> before_call = {}) : before_call_(std::move(before_call)) {}
 
-  bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) override {
+  bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out,
+              std::span<AuxiliarySample> auxiliaries) override {
     if (before_call_ && !before_call_(calls++)) {
       // What lies in `out` now is not to be used.
       for (PixelSample& sample : out) sample = {Vec3(1e9), 1000, 1000, loop_budget};
@@ -31,11 +32,8 @@ class FakeExecutor : public executors::Executor {
                                                            flagged ? uint32_t(stack_overflow) : 0u};
       }
     }
-    return true;
-  }
-  bool auxiliary(const Rect& tile, uint32_t index, std::span<AuxiliarySample> out) override {
-    for (size_t i = 0; i < out.size(); ++i)
-      out[i] = {Vec3(1.0 / (1 + index + double(i))), Vec3(0, tile.y + double(i), index), 0};
+    for (size_t i = 0; i < auxiliaries.size(); ++i)
+      auxiliaries[i] = {Vec3(1.0 / (1 + index + double(i))), Vec3(0, tile.y + double(i), index), 0};
     return true;
   }
   executors::Probed probe(int, int, uint32_t) override { return {}; }
@@ -62,7 +60,7 @@ inline Scene scene_of(int width, int height, int samples) {
 
 // How many bytes of sums make bands of that many rows.
 inline size_t band_of_rows(const Scene& scene, int rows) {
-  return size_t(rows) * size_t(scene.image.width) * sizeof(render::PixelSums::Pixel);
+  return size_t(rows) * size_t(scene.image.width) * sizeof(film::PixelTotals);
 }
 
 inline bool same_bits(const image::Image& a, const image::Image& b) {

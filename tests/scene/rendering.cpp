@@ -25,7 +25,8 @@ class StoppingExecutor final : public Executor {
  public:
   explicit StoppingExecutor(int calls) : calls_left_(calls) {}
 
-  bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out) override {
+  bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out,
+              std::span<AuxiliarySample>) override {
     // Slow enough that the driver does not ask for more at a time.
     std::this_thread::sleep_for(std::chrono::milliseconds(110));
     if (calls_left_-- == 0) {
@@ -39,7 +40,6 @@ class StoppingExecutor final : public Executor {
         out[size_t(y * tile.width + x)] = {Vec3(tile.x + x, tile.y + y, index), 2, 1, 0};
     return true;
   }
-  bool auxiliary(const Rect&, uint32_t, std::span<AuxiliarySample>) override { return false; }
   void first_hits(const Rect&, std::span<FirstHit>) override { asked_first_hits = true; }
   Probed probe(int, int, uint32_t) override { return {}; }
   double query(const QueryBatch&, std::span<QueryHit>) override {

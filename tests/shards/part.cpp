@@ -27,7 +27,7 @@ PartHeader header_of_shard(const render::Shard& shard) {
   header.tone = {0.1, image::ToneCurve::neutral};
   header.device = "none";
   header.build = "1234";
-  header.aovs = aov::parse_aovs("depth,normal");
+  header.aovs = film::parse_channels("depth,normal");
   header.identity = {{"size", "64x48"}, {"scene", "abcd", false}};
   return header;
 }

@@ -34,8 +34,9 @@ class ChangedTwin final : public executors::Executor {
     change_(ways);
     return ways;
   }
-  bool sample(const Rect&, uint32_t, std::span<PixelSample>) override { return false; }
-  bool auxiliary(const Rect&, uint32_t, std::span<AuxiliarySample>) override { return false; }
+  bool sample(const Rect&, uint32_t, std::span<PixelSample>, std::span<AuxiliarySample>) override {
+    return false;
+  }
   void first_hits(const Rect&, std::span<FirstHit>) override {}
   executors::Probed probe(int, int, uint32_t) override { return {}; }
   double query(const QueryBatch&, std::span<QueryHit>) override { return 0; }

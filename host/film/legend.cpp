@@ -1,4 +1,4 @@
-#include "host/aov/legend.hpp"
+#include "host/film/legend.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -8,7 +8,7 @@
 #include "host/image/image_file.hpp"
 #include "host/scene/objects.hpp"
 
-namespace eyeray::aov {
+namespace eyeray::film {
 namespace {
 
 // Bytes to gather before they are written.
@@ -160,4 +160,4 @@ std::filesystem::path write_legend(const LegendTally& tally, const std::filesyst
   return file.finish();
 }
 
-}  // namespace eyeray::aov
+}  // namespace eyeray::film

@@ -5,14 +5,12 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "host/render/sums.hpp"
+#include "host/film/film.hpp"
 
-namespace eyeray::render {
+namespace eyeray::film {
 
-// Rows from the top down; of each its pixels from left to right: the mean colour, the mean of `hits` and
-// `rays_traced`, the samples and the flags, seven float32, and, if they have them, three of the kinds, one of
-// the noise, one of the brightest sample and six of albedo and normal; little-endian. Every failure is an
-// Error (file_io).
+// Rows from the top down; of each its pixels from left to right: three float32 of the colour, then those of
+// each of the rows' channels; little-endian. Every failure is an Error (file_io).
 class RowStore {
  public:
   // Touches nothing yet.
@@ -23,9 +21,9 @@ class RowStore {
 
   // Rows [first, first + count) of a picture that is `width` wide. Read all from 0 on before appending: that
   // is where appending goes on, and whatever stands behind them is dropped.
-  FinishedRows read(int first, int count, int width, Counted counted);
+  Rows read(int first, int count, int width, const Channels& channels);
   // Without a read before it, begins the file anew.
-  void append(const FinishedRows& rows);
+  void append(const Rows& rows);
   // Makes the device keep what was appended.
   void sync();
   // Of all bytes read or appended.
@@ -40,4 +38,4 @@ class RowStore {
   bool dropped_rest_ = false;
 };
 
-}  // namespace eyeray::render
+}  // namespace eyeray::film

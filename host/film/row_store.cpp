@@ -1,27 +1,28 @@
-#include "host/render/row_store.hpp"
+#include "host/film/row_store.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <system_error>
+#include <vector>
 
 #include "host/core/checksum.hpp"
 #include "host/core/error.hpp"
 
-namespace eyeray::render {
+namespace eyeray::film {
 namespace {
 
 // The images that hold what is stored of a pixel, in this order.
-template <typename Rows>
-auto stored_images(Rows& rows) {
-  return std::array{&rows.color, &rows.hits,  &rows.rays_traced, &rows.samples, &rows.flagged,
-                    &rows.kinds, &rows.noise, &rows.brightest,   &rows.albedo,  &rows.normal};
+template <typename AnyRows>
+auto stored_images(AnyRows& rows) {
+  std::vector images{&rows.color};
+  for (auto& values : rows.values) images.push_back(&values);
+  return images;
 }
 
-size_t floats_of(const FinishedRows& rows) {
+size_t floats_of(const Rows& rows) {
   size_t count = 0;
   for (const image::Image* image : stored_images(rows)) count += image->sample_count();
   return count;
@@ -38,11 +39,11 @@ RowStore::~RowStore() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-FinishedRows RowStore::read(int first, int count, int width, Counted counted) {
+Rows RowStore::read(int first, int count, int width, const Channels& channels) {
   if (descriptor_ < 0) descriptor_ = ::open(file_.c_str(), O_RDWR | O_CLOEXEC);
   if (descriptor_ < 0) fail("read", file_, errno);
 
-  FinishedRows rows(first, width, count, counted);
+  Rows rows(first, width, count, channels);
   std::vector<float> stored(floats_of(rows));
   const auto bytes = std::as_writable_bytes(std::span(stored));
   for (size_t done = 0; done < bytes.size();) {
@@ -56,18 +57,18 @@ FinishedRows RowStore::read(int first, int count, int width, Counted counted) {
   checksum_ = crc32(bytes, checksum_);
 
   const float* next = stored.data();
-  for (size_t i = 0; i < rows.hits.sample_count(); ++i) {
-    for (image::Image* image : stored_images(rows)) {
-      if (image->sample_count() == 0) continue;
-      const auto channels = size_t(image->channels());
-      std::copy_n(next, channels, &image->samples()[channels * i]);
-      next += channels;
+  const auto images = stored_images(rows);
+  for (size_t i = 0; i < size_t(width) * size_t(count); ++i) {
+    for (image::Image* image : images) {
+      const auto components = size_t(image->channels());
+      std::copy_n(next, components, &image->samples()[components * i]);
+      next += components;
     }
   }
   return rows;
 }
 
-void RowStore::append(const FinishedRows& rows) {
+void RowStore::append(const Rows& rows) {
   if (descriptor_ < 0) descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (descriptor_ < 0) fail("write", file_, errno);
   if (!dropped_rest_ && ::ftruncate(descriptor_, off_t(end_)) != 0) fail("write", file_, errno);
@@ -75,9 +76,9 @@ void RowStore::append(const FinishedRows& rows) {
 
   std::vector<float> stored;
   stored.reserve(floats_of(rows));
-  for (size_t i = 0; i < rows.hits.sample_count(); ++i) {
-    for (const image::Image* image : stored_images(rows)) {
-      if (image->sample_count() == 0) continue;
+  const auto images = stored_images(rows);
+  for (size_t i = 0; i < rows.color.sample_count() / 3; ++i) {
+    for (const image::Image* image : images) {
       const float* first = &image->samples()[size_t(image->channels()) * i];
       stored.insert(stored.end(), first, first + image->channels());
     }
@@ -102,4 +103,4 @@ void RowStore::remove() {
   std::filesystem::remove(file_, ignored);
 }
 
-}  // namespace eyeray::render
+}  // namespace eyeray::film

@@ -1,0 +1,290 @@
+#include "host/film/channel.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "host/core/diagnostic.hpp"
+#include "host/core/error.hpp"
+#include "host/scene/integrator.hpp"
+#include "host/scene/luminance.hpp"
+
+namespace eyeray::film {
+namespace {
+
+constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
+
+// A count, where there is one.
+Vec3 count(int64_t value) {
+  return Vec3(value < 0 ? no_value : double(value));
+}
+
+// A mean over the samples; a pixel without any, beside a shard's tile, has 0.
+float mean_of(double sum, const PixelTotals& totals) {
+  return float(sum / std::max(1u, unsigned{totals.samples}));
+}
+
+void add_reflected_and_refracted(const PixelSample& sample, const AuxiliarySample&, double* sums) {
+  sums[0] += sample.reflected;
+  sums[1] += sample.refracted;
+}
+
+void means_of_three(const PixelTotals& totals, const double* sums, float* values) {
+  for (int i = 0; i < 3; ++i) values[i] = mean_of(sums[i], totals);
+}
+
+// docs/command-line.md says what each holds.
+constexpr ChannelType types[] = {
+    {.name = "depth",
+     .components = 1,
+     .component_names = {"Z"},
+     .shown_as = image::FalseColor::depth,
+     .values = [](const FirstHit& hit) { return Vec3(hit.t); }},
+    {.name = "position",
+     .components = 3,
+     .shown_as = image::FalseColor::position,
+     .values = [](const FirstHit& hit) { return hit.position; }},
+    {.name = "normal",
+     .components = 3,
+     .shown_as = image::FalseColor::direction,
+     .values = [](const FirstHit& hit) { return hit.normal; }},
+    {.name = "normal_geometric",
+     .components = 3,
+     .shown_as = image::FalseColor::direction,
+     .values = [](const FirstHit& hit) { return hit.normal_geometric; }},
+    {.name = "front",
+     .components = 1,
+     .shown_as = image::FalseColor::scalar,
+     .values = [](const FirstHit& hit) { return Vec3(hit.primitive < 0 ? no_value : hit.cosine > 0); }},
+    {.name = "uv",
+     .components = 3,
+     .component_names = {"U", "V"},
+     .shown_as = image::FalseColor::position,
+     .values = [](const FirstHit& hit) { return Vec3(hit.uv, 0); }},
+    {.name = "shape",
+     .components = 1,
+     .shown_as = image::FalseColor::ids,
+     .values = EntryOfLegend{},
+     .legend = legend_of_shapes},
+    {.name = "primitive",
+     .components = 1,
+     .shown_as = image::FalseColor::ids,
+     .values = [](const FirstHit& hit) { return Vec3(hit.primitive); },
+     .legend = legend_of_primitives},
+    {.name = "material",
+     .components = 1,
+     .shown_as = image::FalseColor::ids,
+     .values = [](const FirstHit& hit) { return Vec3(hit.material); },
+     .legend = legend_of_materials},
+    {.name = "hits",
+     .components = 1,
+     .shown_as = image::FalseColor::scalar,
+     .values = OfSamples{.mean = [](const PixelTotals& totals, const double*,
+                                    float* values) { *values = mean_of(totals.hits, totals); }},
+     .of_corners = OfCorners::mean},
+    {.name = "bounces",
+     .components = 1,
+     .shown_as = image::FalseColor::scalar,
+     .values = OfSamples{.sums = 2,
+                         .add = add_reflected_and_refracted,
+                         .mean =
+                             [](const PixelTotals& totals, const double* sums, float* values) {
+                               *values = mean_of(sums[0], totals) + mean_of(sums[1], totals);
+                             }},
+     .needs = Needs::ray_kinds,
+     .of_corners = OfCorners::mean},
+    {.name = "rays",
+     .components = 1,
+     .shown_as = image::FalseColor::scalar,
+     .values = OfSamples{.mean = [](const PixelTotals& totals, const double*,
+                                    float* values) { *values = mean_of(totals.rays, totals); }},
+     .of_corners = OfCorners::mean},
+    {.name = "ray_kinds",
+     .components = 3,
+     .component_names = {"reflected", "refracted", "shadow"},
+     .shown_as = image::FalseColor::position,
+     .values = OfSamples{.sums = 2,
+                         .add = add_reflected_and_refracted,
+                         .mean =
+                             [](const PixelTotals& totals, const double* sums, float* values) {
+                               values[0] = mean_of(sums[0], totals);
+                               values[1] = mean_of(sums[1], totals);
+                               values[2] =
+                                   mean_of(double(totals.rays) - totals.samples - sums[0] - sums[1], totals);
+                             }},
+     .needs = Needs::ray_kinds,
+     .of_corners = OfCorners::mean},
+    {.name = "samples",
+     .components = 1,
+     .shown_as = image::FalseColor::scalar,
+     .values = OfSamples{.mean = [](const PixelTotals& totals, const double*,
+                                    float* values) { *values = float(totals.samples); }},
+     .of_corners = OfCorners::mean},
+    {.name = "noise",
+     .components = 1,
+     .shown_as = image::FalseColor::scalar,
+     .values =
+         OfSamples{.sums = 1,
+                   .add = [](const PixelSample& sample, const AuxiliarySample&,
+                             double* sums) { *sums += luminance(sample.color) * luminance(sample.color); }}},
+    {.name = "brightest",
+     .components = 1,
+     .shown_as = image::FalseColor::depth,
+     .values = OfSamples{
+         .sums = 1,
+         .add = [](const PixelSample& sample, const AuxiliarySample&,
+                   double* sums) { *sums = std::max(*sums, double(float(luminance(sample.color)))); },
+         .mean = [](const PixelTotals&, const double* sums, float* values) { *values = float(*sums); }}},
+    {.name = "albedo",
+     .components = 3,
+     .component_names = {"R", "G", "B"},
+     .shown_as = image::FalseColor::color,
+     .values = OfSamples{.sums = 3,
+                         .add =
+                             [](const PixelSample&, const AuxiliarySample& auxiliary, double* sums) {
+                               for (int i = 0; i < 3; ++i) sums[i] += auxiliary.albedo[i];
+                             },
+                         .mean = means_of_three},
+     .needs = Needs::auxiliary},
+    {.name = "shading_normal",
+     .components = 3,
+     .shown_as = image::FalseColor::direction,
+     .values = OfSamples{.sums = 3,
+                         .add =
+                             [](const PixelSample&, const AuxiliarySample& auxiliary, double* sums) {
+                               for (int i = 0; i < 3; ++i) sums[i] += auxiliary.normal[i];
+                             },
+                         .mean = means_of_three},
+     .needs = Needs::auxiliary},
+    {.name = "nodes",
+     .components = 1,
+     .shown_as = image::FalseColor::scalar,
+     .values = [](const FirstHit& hit) { return count(hit.cost.nodes); },
+     .needs = Needs::search_cost},
+    {.name = "tests",
+     .components = 1,
+     .shown_as = image::FalseColor::scalar,
+     .values = [](const FirstHit& hit) { return count(hit.cost.tests); },
+     .needs = Needs::search_cost},
+    {.name = "flags",
+     .components = 1,
+     .shown_as = image::FalseColor::scalar,
+     .values = OfSamples{.mean = [](const PixelTotals& totals, const double*,
+                                    float* values) { *values = float(totals.flags); }},
+     .of_corners = OfCorners::any_bit},
+};
+
+std::vector<std::string_view> names() {
+  std::vector<std::string_view> all;
+  for (const ChannelType& type : types) all.push_back(type.name);
+  return all;
+}
+
+Channels in_order(Channels channels) {
+  std::ranges::sort(channels);
+  channels.erase(std::unique(channels.begin(), channels.end()), channels.end());
+  return channels;
+}
+
+}  // namespace
+
+std::span<const ChannelType> channel_types() {
+  return types;
+}
+
+std::string channel_names() {
+  return fmt::format("{}", fmt::join(names(), ", "));
+}
+
+std::string channel_names(const Channels& channels) {
+  std::vector<std::string_view> some;
+  for (const Channel each : channels) some.push_back(each->name);
+  return fmt::format("{}", fmt::join(some, ", "));
+}
+
+Channel channel_named(std::string_view name) {
+  const ChannelType* const found = std::ranges::find(types, name, &ChannelType::name);
+  CHECK(found != std::end(types));
+  return found;
+}
+
+Channels parse_channels(const std::string& list) {
+  Channels channels;
+  for (size_t begin = 0; begin <= list.size();) {
+    const size_t end = std::min(list.find(',', begin), list.size());
+    const std::string name = list.substr(begin, end - begin);
+    begin = end + 1;
+    const ChannelType* found = std::ranges::find(types, name, &ChannelType::name);
+    if (found != std::end(types)) {
+      channels.push_back(found);
+    } else if (name == "all") {
+      for (const ChannelType& type : types) channels.push_back(&type);
+    } else {
+      const std::string nearest = nearest_name(name, names());
+      throw Error(ExitCode::bad_input, "no AOV '{}'{} There are {} and all", name,
+                  nearest.empty() ? "." : fmt::format("; did you mean '{}'?", nearest), channel_names());
+    }
+  }
+  return in_order(std::move(channels));
+}
+
+bool contains(const Channels& channels, Channel channel) {
+  return std::ranges::find(channels, channel) != channels.end();
+}
+
+Channels with(Channels channels, std::initializer_list<std::string_view> names) {
+  for (const std::string_view name : names) channels.push_back(channel_named(name));
+  return in_order(std::move(channels));
+}
+
+bool any_of_first_hits(const Channels& channels) {
+  return !std::ranges::all_of(channels, &ChannelType::of_samples);
+}
+
+bool any_needs(const Channels& channels, Needs what) {
+  return std::ranges::find(channels, what, &ChannelType::needs) != channels.end();
+}
+
+Channels channels_of(const Scene& scene, Channels wanted) {
+  if (walks_at_random(scene.render.integrator) || !any_needs(wanted, Needs::auxiliary)) return wanted;
+  if (wanted.size() != std::size(types))
+    throw Error(
+        ExitCode::bad_input,
+        "only paths have the AOVs albedo and shading_normal: -D render.integrator=path follows them, and "
+        "every integrator has the AOV normal");
+  std::erase_if(wanted, [](Channel each) { return each->needs == Needs::auxiliary; });
+  return wanted;
+}
+
+std::vector<std::string> layer_components(Channel channel) {
+  std::array<std::string_view, 3> components = channel->component_names;
+  if (components[0].empty() && channel->components == 1) components = {"V"};
+  if (components[0].empty()) components = {"X", "Y", "Z"};
+  std::vector<std::string> names;
+  for (const std::string_view component : components)
+    if (!component.empty()) names.push_back(fmt::format("{}.{}", channel->name, component));
+  return names;
+}
+
+std::filesystem::path channel_file(std::filesystem::path output, Channel channel, std::string_view ending) {
+  return output.replace_extension(fmt::format("{}.{}", channel->name, ending));
+}
+
+image::Image channel_image(Channel channel, std::span<const FirstHit> hits, int width,
+                           const LegendEntries* entries) {
+  image::Image image(width, int(hits.size()) / width, channel->components);
+  CHECK_EQ(hits.size() * size_t(channel->components), image.sample_count());
+  float* sample = image.samples().data();
+  if (const ValueOfHit* value_of = std::get_if<ValueOfHit>(&channel->values)) {
+    for (const FirstHit& hit : hits) {
+      const Vec3 value = (*value_of)(hit);
+      for (int i = 0; i < channel->components; ++i) *sample++ = float(value[i]);
+    }
+  } else {
+    for (const FirstHit& hit : hits) *sample++ = hit.primitive < 0 ? -1.0f : float(entries->of(hit));
+  }
+  return image;
+}
+
+}  // namespace eyeray::film

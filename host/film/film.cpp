@@ -1,0 +1,140 @@
+#include "host/film/film.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "host/core/error.hpp"
+#include "host/core/parallel_for.hpp"
+#include "host/scene/luminance.hpp"
+
+namespace eyeray::film {
+
+static_assert(sizeof(PixelTotals) == 40, "checkpoints hold it as it lies in memory");
+
+Rows::Rows(int from, int width, int count, Channels channels_of_samples)
+    : first(from), color(width, count, 3), channels(std::move(channels_of_samples)) {
+  for (const Channel each : channels) values.emplace_back(width, count, each->components);
+}
+
+const image::Image& Rows::operator[](Channel channel) const {
+  const auto found = std::ranges::find(channels, channel);
+  CHECK(found != channels.end());
+  return values[size_t(found - channels.begin())];
+}
+
+void Film::reset(int width, int height, const Channels& channels, double shown_as_one) {
+  width_ = width;
+  height_ = height;
+  shown_as_one_ = shown_as_one;
+  channels_ = channels;
+  std::erase_if(channels_, [](Channel each) { return !each->of_samples(); });
+  pixels_.assign(size_t(width) * size_t(height), {});
+  sums_.resize(channels_.size());
+  for (size_t i = 0; i < channels_.size(); ++i)
+    sums_[i].assign(size_t(channels_[i]->of_samples()->sums) * pixels_.size(), 0);
+}
+
+void Film::add(const Rect& part, std::span<const PixelSample> samples,
+               std::span<const AuxiliarySample> auxiliaries) {
+  CHECK_EQ(samples.size(), size_t(part.pixels()));
+  CHECK(auxiliaries.empty() ? !any_needs(channels_, Needs::auxiliary) : auxiliaries.size() == samples.size());
+  CHECK(part.x + part.width <= width_ && part.y + part.height <= height_);
+  const AuxiliarySample none;
+  parallel_for(0, int(samples.size()), [&](int i) {
+    const PixelSample& sample = samples[size_t(i)];
+    const AuxiliarySample& auxiliary = auxiliaries.empty() ? none : auxiliaries[size_t(i)];
+    const size_t at = index(part.x + i % part.width, part.y + i / part.width);
+    PixelTotals& pixel = pixels_[at];
+    pixel.color += sample.color;
+    pixel.hits += sample.hits;
+    pixel.rays += sample.rays;
+    pixel.flags |= sample.flags | auxiliary.flags;
+    ++pixel.samples;
+    for (size_t c = 0; c < channels_.size(); ++c) {
+      const OfSamples& values = *channels_[c]->of_samples();
+      if (values.add) values.add(sample, auxiliary, &sums_[c][at * size_t(values.sums)]);
+    }
+  });
+}
+
+void Film::finish(const Rect& part) {
+  for (int y = part.y; y < part.y + part.height; ++y)
+    for (int x = part.x; x < part.x + part.width; ++x) pixels_[index(x, y)].finished = 1;
+}
+
+uint64_t Film::samples() const {
+  uint64_t sum = 0;
+  for (const PixelTotals& pixel : pixels_) sum += pixel.samples;
+  return sum;
+}
+
+double Film::noise(const Rect& block) const {
+  const auto channel = std::ranges::find(channels_, channel_named("noise"));
+  CHECK(channel != channels_.end());
+  const std::vector<double>& squares = sums_[size_t(channel - channels_.begin())];
+  double variances = 0, brightness = 0, pixels = 0;
+  for (int y = block.y; y < block.y + block.height; ++y) {
+    for (int x = block.x; x < block.x + block.width; ++x) {
+      const PixelTotals& one = pixel(x, y);
+      const double n = one.samples, sum = luminance(one.color);
+      if (n == 0) continue;  // beside or below a shard's tile
+      if (n < 2) return std::numeric_limits<double>::quiet_NaN();
+      ++pixels;
+      variances += std::max(0.0, squares[index(x, y)] - sum * sum / n) / (n * (n - 1));
+      brightness += sum / n;
+    }
+  }
+  return 1.96 * std::sqrt(variances / pixels) / (brightness / pixels + 0.01 * shown_as_one_);
+}
+
+void Film::fill_noise(int first, image::Image& rows) const {
+  const int end = first + rows.height();
+  for (int top = first / noise_block * noise_block; top < end; top += noise_block) {
+    for (int left = 0; left < width_; left += noise_block) {
+      const Rect block{left, top, std::min(noise_block, width_ - left), std::min(noise_block, height_ - top)};
+      const auto value = float(noise(block));
+      for (int y = std::max(first, top); y < std::min(end, top + block.height); ++y)
+        std::fill_n(rows.pixel(left, y - first), block.width, value);
+    }
+  }
+}
+
+Rows Film::rows(int first, int count) const {
+  Rows rows(first, width_, count, channels_);
+  for (int y = 0; y < count; ++y) {
+    for (int x = 0; x < width_; ++x) {
+      const PixelTotals& totals = pixel(x, first + y);
+      const double divisor = std::max(1u, unsigned{totals.samples});
+      for (int c = 0; c < 3; ++c) rows.color.pixel(x, y)[c] = float(totals.color[c] / divisor);
+      rows.flags |= totals.flags;
+      rows.flagged_pixels += totals.flags != 0;
+    }
+  }
+  for (size_t c = 0; c < channels_.size(); ++c) {
+    const OfSamples& values = *channels_[c]->of_samples();
+    if (!values.mean) {
+      fill_noise(first, rows.values[c]);
+      continue;
+    }
+    for (int y = 0; y < count; ++y)
+      for (int x = 0; x < width_; ++x)
+        values.mean(pixel(x, first + y), sums_[c].data() + index(x, first + y) * size_t(values.sums),
+                    rows.values[c].pixel(x, y));
+  }
+  return rows;
+}
+
+std::vector<std::span<std::byte>> Film::parts() {
+  std::vector<std::span<std::byte>> all{std::as_writable_bytes(std::span(pixels_))};
+  for (std::vector<double>& sums : sums_) all.push_back(std::as_writable_bytes(std::span(sums)));
+  return all;
+}
+
+std::vector<std::span<const std::byte>> Film::parts() const {
+  std::vector<std::span<const std::byte>> all{std::as_bytes(std::span(pixels_))};
+  for (const std::vector<double>& sums : sums_) all.push_back(std::as_bytes(std::span(sums)));
+  return all;
+}
+
+}  // namespace eyeray::film

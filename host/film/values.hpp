@@ -1,0 +1,34 @@
+// The values of some channels as a picture is rendered, and what their ids stand for.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "host/film/film.hpp"
+#include "host/film/legend.hpp"
+
+namespace eyeray::film {
+
+class ChannelValues {
+ public:
+  // `scene` must outlive it.
+  ChannelValues(Channels channels, const Scene& scene);
+
+  const Channels& channels() const { return channels_; }
+  // Is given rows of a channel, by its index.
+  using Sink = std::function<void(size_t channel, const image::Image& rows)>;
+  // Of those that are made of these.
+  void give(const Rows& rows, const Sink& sink) const;
+  // Of those that are made of first hits, `width` a row, which their legends see.
+  void give(std::span<const FirstHit> hits, int width, const Sink& sink);
+  // Of a channel of ids, by its index; null of another.
+  const Legend* legend(size_t channel) const { return legends_[channel] ? &*legends_[channel] : nullptr; }
+
+ private:
+  Channels channels_;
+  std::vector<std::optional<Legend>> legends_;  // as many
+};
+
+}  // namespace eyeray::film
