@@ -186,7 +186,8 @@ void add_picture(py::module_& module) {
       .def_property_readonly("rays", &Picture::rays)
       .def_property_readonly("seconds", &Picture::seconds)
       .def_property_readonly("sampling_seconds", &Picture::sampling_seconds)
-      .def_property_readonly("warning", &Picture::warning)
+      .def_property_readonly("warnings",
+                             [](const Picture& picture) { return diagnostics_of(picture.warnings()); })
       .def("write", &Picture::write, py::arg("file"), py::call_guard<py::gil_scoped_release>(),
            "As .png, .pfm, .hdr or .exr.");
 }

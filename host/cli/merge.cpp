@@ -11,7 +11,7 @@
 #include "host/core/standard_streams.hpp"
 #include "host/core/termination.hpp"
 #include "host/image/image_file.hpp"
-#include "host/render/flags.hpp"
+#include "host/render/warnings.hpp"
 #include "host/scene/luminance.hpp"
 #include "host/shards/part_set.hpp"
 
@@ -106,6 +106,11 @@ Picture MergeCommand::merge(shards::PartSet& set) const {
   if (header.random_paths)
     picture.fireflies = totals.brightness.above(render::Fireflies::times * luminances / pixels);
   picture.ray_kinds = totals.ray_kinds;
+  picture.warnings = render::warnings_of({.flags = picture.flags,
+                                          .flagged = std::max(picture.flagged_pixels, picture.flagged_hits),
+                                          .fireflies = picture.fireflies,
+                                          .clamp = picture.clamp,
+                                          .clamped = picture.clamped});
   picture.seconds = watch.seconds();
   return picture;
 }
@@ -145,10 +150,7 @@ ExitCode MergeCommand::run() {
   if (header.build != sum_of_sources())
     print_lines(stderr, "eyeray: warning: the parts were rendered by another build of eyeray than this\n");
   const Picture picture = merge(set);
-  const uint64_t flagged = std::max(picture.flagged_pixels, picture.flagged_hits);
-  for (const std::string& warning :
-       {render::flag_warning(picture.flags, flagged), clamp_warning(picture), firefly_warning(picture)})
-    if (!warning.empty()) print_lines(stderr, "eyeray: warning: {}\n", warning);
+  for (const std::string& warning : picture.warnings) print_lines(stderr, "eyeray: warning: {}\n", warning);
   if (!quiet) print_lines(stderr, "{}\n", summary(picture));
   if (json) print_json(to_json(picture));
   return ExitCode::ok;

@@ -169,8 +169,8 @@ Picture make_picture(PictureRequest request, const std::function<void(const rend
   });
   if (prepared->checkpoint && !picture.interrupted) prepared->checkpoint->remove();
 
-  describe(request, *prepared, totals, picture);
-  if (scene.is_mesh_alone && !scene.environment) picture.illegible = legibility.warning();
+  describe(request, *prepared, totals, picture,
+           scene.is_mesh_alone && !scene.environment ? legibility.warning() : "");
   for (const StageTimes& times : {prepared->executor->times(), encoding}) {
     for (const auto& [stage, seconds] : times.stages()) picture.times.add(stage, seconds);
   }
@@ -210,30 +210,6 @@ std::string summary(const Picture& picture) {
       picture.samples_resumed ? fmt::format("resumed with {} rays, then ", picture.rays_resumed) : "",
       picture.rays - picture.rays_resumed, format_seconds(picture.sampling_seconds),
       format_rate(rays_per_second(picture)), format_seconds(picture.seconds), picture.device);
-}
-
-std::string firefly_warning(const Picture& picture) {
-  if (picture.fireflies == 0 || picture.clamp > 0) return "";
-  return fmt::format(
-      "{} sample{} more than {:g} times as bright as the picture is on the mean, and {} in full; the AOV "
-      "brightest shows where",
-      picture.fireflies, picture.fireflies == 1 ? " is" : "s are", render::Fireflies::times,
-      picture.fireflies == 1 ? "counts" : "count");
-}
-
-std::string clamp_warning(const Picture& picture) {
-  if (picture.clamp == 0) return "";
-  return fmt::format("--clamp makes a biased picture: {} sample{} cut to {:g}", picture.clamped,
-                     picture.clamped == 1 ? " was" : "s were", picture.clamp);
-}
-
-std::string noise_warning(const Picture& picture) {
-  if (!picture.noise || picture.noise->share == 1) return "";
-  return fmt::format(
-      "{:.3g} % of the pixels have more noise than {}, up to {:.2g}: {} samples a pixel were too "
-      "few{}",
-      100 * (1 - picture.noise->share), picture.noise->wanted, picture.noise->greatest, picture.most_samples,
-      picture.interrupted ? "" : "; --spp N allows more");
 }
 
 std::string stages(const StageTimes& times) {

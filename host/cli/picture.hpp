@@ -90,7 +90,7 @@ struct Picture {
   uint64_t rays_resumed = 0;           // of `rays`, those behind samples_resumed
   std::filesystem::path checkpoint;    // left behind, to go on from; empty: none
   std::optional<RayCounts> ray_kinds;  // of this run, where they were asked for
-  std::string illegible;               // a warning about the look of a mesh file alone, or ""
+  std::vector<std::string> warnings;   // render::warnings_of
   StageTimes times;
 };
 
@@ -102,13 +102,6 @@ Picture make_part(PictureRequest request, const std::function<void(const render:
 // "whitted.png: 640×480, 4 samples a pixel, 1200000 rays in 0.35 s (3.43 Mrays/s), 0.8 s in all, on gpu: …".
 // The rays divided by their seconds are the rate.
 std::string summary(const Picture& picture);
-// What there is to say of samples that are brighter than others by far; "" where none is, or they are seen
-// to.
-std::string firefly_warning(const Picture& picture);
-// What --clamp did; "" without it.
-std::string clamp_warning(const Picture& picture);
-// What there is to say of noise that is more than was wanted; "" where none is.
-std::string noise_warning(const Picture& picture);
 // "load 1.2 ms, compile 30 ms, …".
 std::string stages(const StageTimes& times);
 Json to_json(const Picture& picture);

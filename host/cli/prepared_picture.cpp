@@ -7,6 +7,7 @@
 #include "host/core/standard_streams.hpp"
 #include "host/render/corners.hpp"
 #include "host/render/shutter.hpp"
+#include "host/render/warnings.hpp"
 #include "host/scene/integrator.hpp"
 #include "host/scene/sampler.hpp"
 
@@ -100,7 +101,7 @@ std::unique_ptr<PreparedPicture> prepare(PictureRequest& request, StageTimes& ti
 }
 
 void describe(const PictureRequest& request, const PreparedPicture& prepared,
-              const render::RenderTotals& totals, Picture& picture) {
+              const render::RenderTotals& totals, Picture& picture, const std::string& illegible) {
   const Scene& scene = prepared.scene;
   if (prepared.checkpoint && picture.interrupted && prepared.checkpoint->on_disk())
     picture.checkpoint = prepared.checkpoint->file();
@@ -129,6 +130,14 @@ void describe(const PictureRequest& request, const PreparedPicture& prepared,
   picture.samples_resumed = totals.samples_resumed;
   picture.rays_resumed = totals.rays_resumed;
   if (request.ray_kinds) picture.ray_kinds = totals.ray_kinds;
+
+  render::PictureQuality quality;
+  // Of a part the rest is its picture's to say.
+  if (!request.shard) quality = render::quality_of(scene, prepared.options, totals);
+  quality.flags = picture.flags;
+  quality.flagged = std::max(picture.flagged_pixels, picture.flagged_hits);
+  quality.illegible = illegible;
+  picture.warnings = render::warnings_of(quality);
 }
 
 }  // namespace eyeray::cli

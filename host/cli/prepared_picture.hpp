@@ -24,8 +24,8 @@ struct PreparedPicture {
 // InputError for whatever keeps it from being rendered.
 std::unique_ptr<PreparedPicture> prepare(PictureRequest& request, StageTimes& times,
                                          const std::function<void(const render::Progress&)>& progress);
-// What there is to say of it after its render.
+// What there is to say of it after its render. `illegible`: Legibility::warning() of it.
 void describe(const PictureRequest& request, const PreparedPicture& prepared,
-              const render::RenderTotals& totals, Picture& picture);
+              const render::RenderTotals& totals, Picture& picture, const std::string& illegible = "");
 
 }  // namespace eyeray::cli

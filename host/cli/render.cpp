@@ -11,7 +11,6 @@
 #include "host/core/escaped_text.hpp"
 #include "host/core/readable.hpp"
 #include "host/core/standard_streams.hpp"
-#include "host/render/flags.hpp"
 #include "host/shards/part.hpp"
 
 namespace eyeray::cli {
@@ -122,16 +121,9 @@ ExitCode RenderCommand::run_picture(PictureRequest wanted, Json& said) {
                                 : make_picture(std::move(wanted), progress_reporter(quiet));
   request.executor.open_device = picture.open_device;
 
-  const uint64_t flagged = std::max(picture.flagged_pixels, picture.flagged_hits);
-  if (const std::string warning = render::flag_warning(picture.flags, flagged); !warning.empty())
-    print_lines(stderr, "eyeray: warning: {}\n", warning);
+  for (const std::string& warning : picture.warnings) print_lines(stderr, "eyeray: warning: {}\n", warning);
   if (picture.interrupted && picture.files.empty())
     throw Error(ExitCode::interrupted, "{}", what_was_kept(picture, false));
-  if (const std::string warning = noise_warning(picture); !warning.empty())
-    print_lines(stderr, "eyeray: warning: {}\n", warning);
-  // A part's are its picture's to say.
-  for (const std::string& warning : {clamp_warning(picture), firefly_warning(picture), picture.illegible})
-    if (!warning.empty() && !share) print_lines(stderr, "eyeray: warning: {}\n", warning);
   if (!quiet) print_lines(stderr, "{}\n", summary(picture));
   if (stats) print_stages(picture);
   if (picture.ray_kinds) print_rays(*picture.ray_kinds, picture.sampling_seconds);

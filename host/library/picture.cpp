@@ -50,8 +50,8 @@ double Picture::seconds() const noexcept {
 double Picture::sampling_seconds() const noexcept {
   return data_->sampling_seconds;
 }
-std::string Picture::warning() const {
-  return data_->warning;
+const std::vector<Diagnostic>& Picture::warnings() const noexcept {
+  return data_->warnings;
 }
 
 void Picture::write(const std::filesystem::path& file) const {

@@ -21,7 +21,7 @@ struct Picture::Data {
   uint64_t rays = 0;
   double seconds = 0;
   double sampling_seconds = 0;
-  std::string warning;
+  std::vector<Diagnostic> warnings;
 };
 
 }  // namespace eyeray::v0

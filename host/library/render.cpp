@@ -11,8 +11,9 @@
 #include "host/library/picture.hpp"
 #include "host/library/renderer.hpp"
 #include "host/library/scene.hpp"
-#include "host/render/flags.hpp"
+#include "host/render/legibility.hpp"
 #include "host/render/shutter.hpp"
+#include "host/render/warnings.hpp"
 #include "host/scene/sampler.hpp"
 
 namespace eyeray::library {
@@ -103,8 +104,12 @@ void render_into(v0::Picture::Data& picture, v0::Renderer::Data& renderer, const
   const auto executor = render::make_picture_executor(backend, scene, how);
 
   Collector collector(scene, driver.crop, aovs, picture);
+  render::Legibility legibility(scene.render.background, scene.image.tone.exposure);
   const render::RenderTotals totals =
-      render::render_rows(scene, *executor, driver, [&](const film::Rows& rows) { collector.take(rows); });
+      render::render_rows(scene, *executor, driver, [&](const film::Rows& rows) {
+        collector.take(rows);
+        legibility.see(rows.color);
+      });
   picture.samples_done = totals.samples_done;
   picture.rays = totals.rays;
   picture.sampling_seconds = totals.seconds;
@@ -116,11 +121,13 @@ void render_into(v0::Picture::Data& picture, v0::Renderer::Data& renderer, const
   std::vector<std::string> warnings;
   if (backend != executors::Backend::reference && !std::exchange(renderer.warned_of_caches, true))
     warnings = DiskCache::of_user().warnings();
-  if (std::string flags = render::flag_warning(totals.flags | collector.flags,
-                                               std::max(totals.flagged_pixels, collector.flagged_hits));
-      !flags.empty())
-    warnings.push_back(std::move(flags));
-  picture.warning = fmt::format("{}", fmt::join(warnings, "\n"));
+  render::PictureQuality quality = render::quality_of(scene, driver, totals);
+  quality.flags |= collector.flags;
+  quality.flagged = std::max(quality.flagged, collector.flagged_hits);
+  if (scene.is_mesh_alone && !scene.environment) quality.illegible = legibility.warning();
+  std::ranges::move(render::warnings_of(quality), std::back_inserter(warnings));
+  for (std::string& warning : warnings)
+    picture.warnings.push_back({false, "", 0, 0, std::move(warning)});
   picture.seconds = watch.seconds();
 }
 

@@ -207,9 +207,10 @@ class EYERAY_API Picture {
   uint64_t rays() const noexcept;     // eye, reflected, refracted and shadow rays
   double seconds() const noexcept;    // of all of render()
   double sampling_seconds() const noexcept;
-  // What to know of it, a line each: pixels that may be wrong, and why; and of a renderer's first picture,
-  // that a cache is not used since others could have changed it. Else empty.
-  std::string warning() const;
+  // What `eyeray render` warns of: pixels that may be wrong, noise that is left, what clamp did, samples that
+  // are far brighter than others, a model that is hardly seen; and of a renderer's first picture, that a
+  // cache is not used since others could have changed it. They name no file.
+  const std::vector<Diagnostic>& warnings() const noexcept;
 
   // The colours as .png (sRGB, with the scene's exposure and tone curve), .pfm, .hdr or .exr (linear
   // float). Error: bad_input for another ending or an empty picture, file_io. No half-written file bears

@@ -116,7 +116,7 @@ TEST_CASE("samples that stand out are counted; --clamp cuts them, and says that 
   const std::string& warned = counted.second;
   CAPTURE(warned);
   CHECK(honest.at("fireflies") > 0);
-  CHECK(warned.find(" more than 1000 times as bright as the picture is on the mean") != std::string::npos);
+  CHECK(warned.find(" more than 1000 times as bright as the mean of the picture") != std::string::npos);
   CHECK(!honest.contains("clamp"));
   const Image brightest = read_image(folder / "a.brightest.pfm");
   CHECK(std::ranges::max(brightest.samples()) > 10);
@@ -127,7 +127,7 @@ TEST_CASE("samples that stand out are counted; --clamp cuts them, and says that 
   CAPTURE(said);
   CHECK(cut.at("clamp").at("at") == 0.5);
   CHECK(cut.at("clamp").at("samples") > 0);
-  CHECK(said.find("--clamp makes a biased picture: ") != std::string::npos);
+  CHECK(said.find("the picture is biased: clamp cut ") != std::string::npos);
   CHECK(std::ranges::max(read_image(folder / "a.pfm").samples()) <= 0.5f);
 
   CHECK(run_eyeray({"verify", folder.scene(), "--clamp", "1"}).code == 2);

@@ -89,7 +89,8 @@ TEST_CASE("a renderer's first picture warns of a cache that others may write to"
   setenv("EYERAY_CACHE_DIR", folder.c_str(), 1);
   Renderer one;
   const auto warning = [&](Backend backend) {
-    return one.render(Scene::read(small), {.backend = backend}).warning();
+    const Picture picture = one.render(Scene::read(small), {.backend = backend});
+    return picture.warnings().empty() ? std::string() : picture.warnings()[0].message;
   };
   CHECK(warning(Backend::reference) == "");
   CHECK(warning(Backend::gpu).starts_with("the cache " + folder + " is not used"));
@@ -98,12 +99,28 @@ TEST_CASE("a renderer's first picture warns of a cache that others may write to"
   std::filesystem::remove_all(folder);
 }
 
+TEST_CASE("a picture bears the warnings that the command line prints") {
+  const auto only_warning = [&](const Scene& scene, const RenderOptions& options) {
+    const Picture picture = renderer().render(scene, options);
+    REQUIRE(picture.warnings().size() == 1);
+    CHECK_FALSE(picture.warnings()[0].is_error);
+    return picture.warnings()[0].message;
+  };
+  const Scene lamps =
+      Scene::read("scenes/path/lamps.toml", {.defines = {"image.width=32", "image.height=24"}});
+  CHECK(only_warning(lamps, {.clamp = 0.5}).starts_with("the picture is biased: clamp cut "));
+  CHECK(only_warning(lamps, {.noise = 0.001}).ends_with("samples a pixel are too few; allow more"));
+  const Scene dark = Scene::read("scenes/meshes/knot.ply",
+                                 {.defines = {"image.width=32", "image.height=24", "image.exposure=9"}});
+  CHECK(only_warning(dark, {}).find("exposure") != std::string::npos);
+}
+
 TEST_CASE("a picture's planes have the shapes that the header says") {
   const Picture picture = renderer().render(Scene::read(small), {.aovs = {"depth", "normal", "hits"}});
   CHECK(picture.complete());
   CHECK(picture.samples_done() == 1);
   CHECK(picture.rays() > 64 * 48);
-  CHECK(picture.warning() == "");
+  CHECK(picture.warnings().empty());
   const Plane color = picture.color(), depth = picture.aov("depth"), normal = picture.aov("normal");
   CHECK(
       (color.width == 64 && color.height == 48 && color.channels == 3 && color.values.size() == 64 * 48 * 3));

@@ -13,7 +13,7 @@ SMALL = "tests/library/small.toml"
 
 def test_shapes_and_values():
     picture = eyeray.render(eyeray.Scene.read(SMALL), aovs=["depth", "normal", "shape"])
-    assert picture.complete and picture.samples_done == 1 and picture.rays > 64 * 48 and picture.warning == ""
+    assert picture.complete and picture.samples_done == 1 and picture.rays > 64 * 48 and picture.warnings == ()
     assert picture.aovs == ("depth", "normal", "shape")
     assert picture.color.shape == (48, 64, 3) and picture.color.dtype == np.float32
     assert picture.aov("depth").shape == (48, 64)
