@@ -12,9 +12,10 @@ SHADER_BEGIN
 #define PRISM_TOP 1.0f
 #define PRISM_WALLS 2.0f
 
-// Seen along y the ray is a line, and the walls are edges that it passes at certain distances. On which side of the line an edge's end
-// lies depends on that end alone, so the line passes an even number of edges. It is within the outline where it has passed an odd number; so the
-// caps are asked of the very distances at which the walls are hit, and no ray passes between them.
+// Seen along y the ray is a line, and the walls are edges that it passes at certain distances, on the way in or out. On which side of the line an
+// edge's end lies depends on that end alone, so the line goes out as often as in. It is within the outline where it has gone in more often; so
+// the caps are asked of the very distances at which the walls are hit, and no ray passes between them. From inside only a wall on the way out counts, and
+// from outside one on the way in: beside an edge of two walls rounding may swap their distances.
 float prism_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   ObjectRay r = object_ray(s, ray, 1.7320508f);
   float least = 1.0e-12f * max_component(abs3(r.d));
@@ -39,15 +40,15 @@ float prism_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   uint at = s.extra + OBJECT_PARAMETERS + 3u;
   uint end = near <= far && r.t + far > AFTER(ray) ? at + uint(object_parameters(s).x) : at;
 
-  bool enters = false;
-  bool leaves = false;
-#if HAS_CSG
-  bool inside = false;  // having crossed what is not beyond AFTER(ray)
-#endif
-  float nearest = T_MISS;
-  float wall = PRISM_WALLS;
-  uv = vec2(PRISM_BOTTOM, 0.0f);
-  for (; at < end; at++) {
+  // How many times more it has gone in than out: where it starts, and at the caps.
+  int depth = 0;
+  int depth_at_enter = 0;
+  int depth_at_leave = 0;
+  float way_in = T_MISS;
+  float way_out = T_MISS;
+  float wall_in = PRISM_WALLS;
+  float wall_out = PRISM_WALLS;
+  for (float wall = PRISM_WALLS; at < end; at++, wall += 1.0f) {
     vec4 edge = bits_to_floats(load_outline(at));
     vec2 p = vec2(edge.x - r.o.x, edge.y - r.o.z);
     vec2 q = vec2(edge.z - r.o.x, edge.w - r.o.z);
@@ -56,29 +57,38 @@ float prism_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
     float along_p = per_distance.x * p.x + per_distance.y * p.y;
     float along_q = per_distance.x * q.x + per_distance.y * q.y;
     float distance = (along_p * side_q - along_q * side_p) / (side_q - side_p);
-    bool passed = (side_p > 0.0f) != (side_q > 0.0f);
-    enters = enters != (passed && distance < enter);
-    leaves = leaves != (passed && distance < leave);
-    bool nearer = passed && distance >= enter && distance < leave && r.t + distance > AFTER(ray) && distance < nearest;
-    nearest = nearer ? distance : nearest;
-    uv.x = nearer ? wall : uv.x;
-    wall += 1.0f;
-#if HAS_CSG
-    inside = inside != (passed && distance >= enter && distance < leave && r.t + distance <= AFTER(ray));
-#endif
+    bool passes_in = side_p > 0.0f && !(side_q > 0.0f);
+    bool passes_out = side_q > 0.0f && !(side_p > 0.0f);
+    int change = (passes_in ? 1 : 0) - (passes_out ? 1 : 0);
+    bool ahead = r.t + distance > AFTER(ray);
+    depth_at_enter += distance < enter ? change : 0;
+    depth_at_leave += distance < leave ? change : 0;
+    depth += ahead ? 0 : change;
+    bool between = ahead && distance >= enter && distance < leave;
+    bool in_nearer = passes_in && between && distance < way_in;
+    bool out_nearer = passes_out && between && distance < way_out;
+    way_in = in_nearer ? distance : way_in;
+    wall_in = in_nearer ? wall : wall_in;
+    way_out = out_nearer ? distance : way_out;
+    wall_out = out_nearer ? wall : wall_out;
   }
 
-  bool upwards = to_bottom < to_top;
-  bool first = enters && r.t + enter > AFTER(ray) && enter < nearest;
-  nearest = first ? enter : nearest;
-  uv.x = first ? (upwards ? PRISM_BOTTOM : PRISM_TOP) : uv.x;
-  bool last = leaves && r.t + leave > AFTER(ray) && leave < nearest;
-  nearest = last ? leave : nearest;
-  uv.x = last ? (upwards ? PRISM_TOP : PRISM_BOTTOM) : uv.x;
+  bool before = r.t + enter > AFTER(ray);
+  bool inside = !before && r.t + leave > AFTER(ray) && depth > 0;
+  float cap_in = to_bottom < to_top ? PRISM_BOTTOM : PRISM_TOP;
+  float nearest = way_in;
+  uv = vec2(wall_in, 0.0f);
+  if (before && depth_at_enter > 0) {
+    nearest = enter;
+    uv.x = cap_in;
+  }
+  if (inside) {
+    bool cap = way_out == T_MISS && depth_at_leave > 0;
+    nearest = cap ? leave : way_out;
+    uv.x = cap ? PRISM_TOP - cap_in : wall_out;
+  }
 #if HAS_CSG
-  // Where it crosses two walls at the same t, at a vertex or where the prism is thin, the second is still to come: at the next t there is.
-  inside = inside != (enters && r.t + enter <= AFTER(ray));
-  inside = inside != (leaves && r.t + leave <= AFTER(ray));
+  // Where it passes two walls at the same t, at a vertex or where the prism is thin, the second is still to come: at the next t there is.
   bool late = ray.side != SIDE_UNKNOWN && inside != (ray.side == SIDE_INSIDE);
   if (late) return ray.after + (2.0f * EPSILON * abs(ray.after) + 1.0e-37f);
 #endif
