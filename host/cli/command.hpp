@@ -91,7 +91,7 @@ std::pair<int, int> parse_pixel(const std::string& text);
 Acceleration parse_acceleration(const std::string& name);
 
 // --device, --shaders, --fast-math, --validate, --timeout, --no-constants, --no-optimiser, --acceleration,
-// --splits, --profile, --loads, --stack, and the hidden --inject-fault.
+// --splits, --profile, --loads, --stack.
 void add_executor_options(CLI::App& command, executors::ExecutorOptions& options);
 
 // "gpu,twin", none of them twice; Error (bad_input) for anything else.

@@ -23,7 +23,6 @@ std::vector<render::IdentityPart> identity_of_picture(const PictureRequest& requ
       {"options laid over the scene", ContentHash().add(request.scene.as_written()).hex(), false},
       {"shaders of --shaders", hash_of_files(executor.source_files()), false},
       {"--fast-math", request.executor.fast_math ? "on" : "off"},
-      {"--inject-fault", request.executor.fault},
       {"version of eyeray", EYERAY_VERSION},
       {"sources of eyeray", std::string(sum_of_sources()), false},
   };

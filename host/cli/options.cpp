@@ -254,7 +254,6 @@ void add_executor_options(CLI::App& command, executors::ExecutorOptions& options
       ->option_text("SET")
       ->group(group)
       ->check(CLI::IsMember({"core", "sync"}));
-  command.add_option("--inject-fault", options.fault)->group("");
 }
 
 void add_backend_option(CLI::App& command, executors::Backend& backend) {

@@ -116,7 +116,6 @@ struct ExecutorOptions {
   std::shared_ptr<Tunables> tunables;       // gpu: constants of shaders that move; null: none do
   bool compile_twin = false;                // twin: compile shader_folder's files as C++ (twin_module.hpp)
   std::string sanitizers;                   // twin, with compile_twin: as -fsanitize takes them
-  std::string fault;                        // gpu, tests only: a fault to inject (docs/verification.md)
 };
 
 // Whether so many samples repay kernels that have the scene inside, where kernels without it would do for

@@ -9,7 +9,6 @@
 #include "host/core/termination.hpp"
 #include "host/executors/dispatch_size.hpp"
 #include "host/executors/executors.hpp"
-#include "host/executors/fault.hpp"
 #include "host/executors/gpu_queries.hpp"
 #include "host/executors/loop_budget.hpp"
 #include "host/executors/open_device.hpp"
@@ -37,7 +36,6 @@ class GpuExecutor final : public Executor {
   GpuExecutor(const Scene& scene, records::PackedScene packed, std::shared_ptr<OpenDevice> open_device,
               const StageTimes& times, const ExecutorOptions& options)
       : options_(options),
-        fault_(options.fault),
         eye_(scene.camera.eye),
         image_(scene.image),
         open_device_(std::move(open_device)),
@@ -45,7 +43,6 @@ class GpuExecutor final : public Executor {
         profile_(choose_profile(options.profile, device_.info())),
         uploaded_(device_, profile_.texel_buffers) {
     times_ = times;
-    fault_.damage(packed);
     const uint32_t lanes = device_.info().limits.subgroup_size;
     const TracePlan plan = plan_tracing(profile_, options.profile, scene.image, packed, lanes);
     workgroups_.subgroup = lanes;
@@ -117,7 +114,6 @@ class GpuExecutor final : public Executor {
     Probed result;
     for_bands<shader::SampleResult>({x, y, 1, 1}, 1, index, trace, [&](size_t, auto results) {
       result.sample = to_sample(results[0], true);
-      fault_.damage(std::span(&result.sample, 1));
     });
     stop_if_interrupted();
     result.rays = probe.tree(records.read_records<shader::ProbeRecord>(ShaderProbe::capacity));
@@ -154,7 +150,7 @@ class GpuExecutor final : public Executor {
     std::string text =
         fmt::format("denormals {}, infinities {}", kept(facts.denormals_kept), kept(facts.infinities_kept));
     if (facts.loop_cap) text += fmt::format(", loops end after {} iterations", facts.loop_iterations);
-    const bool exact = facts.exact_arithmetic && !options_.fast_math && !fault_.contracts();
+    const bool exact = facts.exact_arithmetic && !options_.fast_math;
     if (exact && !drawn_) return "exact, " + text;
     return fmt::format("{}, {}, on {}, {}", exact ? "exact, eye rays drawn" : "not exact", text,
                        device_.info().name, device_.info().driver_version);
@@ -200,7 +196,6 @@ class GpuExecutor final : public Executor {
         if (photons_) out[first + i].flags |= photons_->flags();
       }
     });
-    fault_.damage(out.subspan(first, results.size()));
   }
 
   void make_kernels_for(records::PackedScene& packed, const TracePlan& plan) {
@@ -226,10 +221,10 @@ class GpuExecutor final : public Executor {
                            .optimise = options_.optimise,
                            .flatten = profile_.flatten,
                            .validate = options_.validate_spirv};
-    if (options_.fast_math || fault_.contracts()) how.strict = std::nullopt;
+    if (options_.fast_math) how.strict = std::nullopt;
     // A capped driver grants 65 535 iterations to all loops together (docs/lavapipe.md).
     const uint32_t most_iterations = open_device_->facts().loop_cap ? 50'000 : LoopGuard().most();
-    kernels_.emplace(SceneKernels::Workshop{*open_device_, fault_, times_, how, options_.tunables.get(),
+    kernels_.emplace(SceneKernels::Workshop{*open_device_, times_, how, options_.tunables.get(),
                                             most_iterations, options_.ray_kinds},
                      uploaded_, ShaderFiles(options_.shader_folder, specialise(packed, specialisation)));
     if (specialisation.formula_numbers) uploaded_.add(formula_numbers_buffer(numbers.words()));
@@ -272,7 +267,7 @@ class GpuExecutor final : public Executor {
       const size_t pixels = size_t(height) * size_t(tile.width);
       gpu::Buffer& output = output_for(pixels * sizeof(Result));
       shader::Dispatch push{};
-      push.tile_x = uint32_t(tile.x) + fault_.shift();
+      push.tile_x = uint32_t(tile.x);
       push.tile_y = uint32_t(tile.y + row * stride);
       push.tile_width = uint32_t(tile.width);
       push.tile_height = uint32_t(height);
@@ -321,7 +316,6 @@ class GpuExecutor final : public Executor {
   }
 
   ExecutorOptions options_;
-  Fault fault_;
   Vec3 eye_;
   ImageSettings image_;
   std::shared_ptr<OpenDevice> open_device_;

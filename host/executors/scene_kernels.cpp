@@ -50,7 +50,7 @@ gpu::ShaderSource SceneKernels::source(const std::string& entry, bool guarded) {
     if (const auto original = files_.replaced(name); text && original && guarded)
       text = guard_.guard(files_.shown(std::string(name)), *text, *original);
     if (text && name == "scene.glsl" && !files_.folder().empty()) *text = guard_.definitions() + *text;
-    return text ? std::optional(workshop_.fault.damage(name, std::move(*text))) : std::nullopt;
+    return text;
   };
   return gpu::read_shader(read, entry);
 }

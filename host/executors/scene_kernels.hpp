@@ -10,7 +10,6 @@
 #include "host/core/error.hpp"
 #include "host/core/raw_vector.hpp"
 #include "host/core/stopwatch.hpp"
-#include "host/executors/fault.hpp"
 #include "host/executors/loop_guard.hpp"
 #include "host/executors/open_device.hpp"
 #include "host/executors/shader_files.hpp"
@@ -31,7 +30,6 @@ class SceneKernels {
   // What they are made of and with; all of it must outlive them.
   struct Workshop {
     OpenDevice& device;
-    const Fault& fault;
     StageTimes& times;
     gpu::KernelOptions how;
     Tunables* tunables;  // null: none

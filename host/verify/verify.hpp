@@ -19,7 +19,7 @@ namespace eyeray::verify {
 struct Options {
   std::vector<executors::Backend> backends{
       executors::Backend::gpu, executors::Backend::twin};  // compared with the reference, in this order
-  executors::ExecutorOptions executor;                     // of all of them; `fault` is injected here
+  executors::ExecutorOptions executor;                     // of all of them
   Rect crop;                                               // what is compared; empty: the whole picture
   std::optional<double> max_explained;                     // instead of the scene's
   int64_t ulp = 0;                                         // the bound of gate A

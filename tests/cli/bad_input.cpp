@@ -214,9 +214,8 @@ TEST_CASE("without a Vulkan driver or loader nothing is rendered, and what to in
 TEST_CASE("a shader that does not compile is shown at its line") {
   const SceneFolder folder;
   const std::string shaders = folder / "shaders";
-  REQUIRE(run_eyeray({"shaders", "--export", shaders}).code == 0);
-  write_text(shaders + "/kernels/pixel.glsl",
-             with_pixel_code(read_text(shaders + "/kernels/pixel.glsl"), "  color = nonsense;\n"));
+  lay_shader(shaders, "kernels/pixel.glsl",
+             with_pixel_code(own_shader("kernels/pixel.glsl"), "  color = nonsense;\n"));
   const ProcessResult result =
       run_eyeray({"render", folder.scene(), "-o", folder / "a.png", "--shaders", shaders});
   CAPTURE(result.err);
@@ -243,9 +242,8 @@ TEST_CASE("--acceleration tree is bvh until 0.2, and not told of") {
 TEST_CASE("a shader of --shaders that lies where none is read is told, with its place") {
   const SceneFolder folder;
   const std::string shaders = folder / "shaders";
-  std::filesystem::create_directories(shaders + "/shapes");
-  write_text(shaders + "/sphere.glsl", "as folders were before shaders lay in folders\n");
-  write_text(shaders + "/shapes/own.glsl", "no shader's name\n");
+  lay_shader(shaders, "sphere.glsl", "as folders were before shaders lay in folders\n");
+  lay_shader(shaders, "shapes/own.glsl", "no shader's name\n");
   const ProcessResult result =
       run_eyeray({"render", folder.scene(), "-o", folder / "a.png", "--shaders", shaders});
   CHECK(result.code == 0);
@@ -258,9 +256,8 @@ TEST_CASE("a shader of --shaders that lies where none is read is told, with its 
 TEST_CASE("a kernel of the user's that reads no push constants runs; one that wants others is told") {
   const SceneFolder folder;
   const std::string shaders = folder / "shaders";
-  std::filesystem::create_directories(shaders + "/kernels");
   const auto render = [&](const std::string& kernel) {
-    write_text(shaders + "/kernels/render.comp.glsl",
+    lay_shader(shaders, "kernels/render.comp.glsl",
                "#version 450\nlayout(local_size_x = 64) in;\n"
                "layout(std430, set = 0, binding = 7) buffer Words { uint words[]; };\n" +
                    kernel);
@@ -286,7 +283,7 @@ TEST_CASE("a kernel of the user's that reads no push constants runs; one that wa
 
 TEST_CASE("a shader that loops for ever is given up after --timeout") {
   const SceneFolder folder;
-  export_endless_shaders(folder / "shaders");
+  lay_endless_shader(folder / "shaders");
   const ProcessResult result = run_eyeray({"render", folder.scene(), "-s", "256x256", "-o", folder / "a.png",
                                            "--shaders", folder / "shaders", "--timeout", "0.3"});
   CAPTURE(result.err);

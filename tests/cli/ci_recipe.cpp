@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "scene.hpp"
+#include "tests/support/faults.hpp"
 //
 #include "tests/support/doctest.hpp"
 
@@ -44,7 +45,7 @@ TEST_CASE("the CI recipe verifies on lavapipe, and leaves a report whatever come
   CHECK(passed.code == 0);
   CHECK(read_text(folder / "report/junit.xml").find("failures=\"0\"") != std::string::npos);
 
-  const ProcessResult failed = run("-s 16x12 --inject-fault light");
+  const ProcessResult failed = run("-s 16x12 --shaders " + lay_fault(folder, "light"));
   CHECK(failed.code == 1);
   CHECK(failed.out.find("\n::error file=") != std::string::npos);
   CHECK(read_text(folder / "summary.md").find("| failed |") != std::string::npos);

@@ -84,7 +84,7 @@ TEST_CASE("dev stops a shader that never ends, and renders again once it is mend
   const SceneFolder folder;
   const std::string pixel = folder / "shaders/kernels/pixel.glsl";
   replace_in_file(folder.scene(), "width = 64\nheight = 48", "width = 256\nheight = 256");
-  export_endless_shaders(folder / "shaders");
+  lay_endless_shader(folder / "shaders");
   Dev dev(folder, "4");
   REQUIRE(dev.says("within 4 s: look for a loop that does not end"));
   REQUIRE(dev.says("watching for changes"));
@@ -165,7 +165,7 @@ TEST_CASE("dev outlives hostile shaders, and keeps the last good picture") {
   };
 
   // So much work that it counts as endless; a newer edit need not wait for its end.
-  export_endless_shaders(folder / "endless");
+  lay_endless_shader(folder / "endless");
   write_text(pixel, read_text(folder / "endless/kernels/pixel.glsl"));
   REQUIRE(dev.says("pixel.glsl changed"));
   back_to_good();

@@ -10,18 +10,13 @@ using namespace eyeray::test;
 
 namespace {
 
-// A folder with a scene, and the shaders with `statements` in a sphere's intersection, whose line 35 they
-// are.
+// A folder with a scene, and a shader with `statements` in a sphere's intersection, whose line 35 they are.
 class Shaders : public SceneFolder {
  public:
-  Shaders() {
-    REQUIRE(run_eyeray({"shaders", "--export", *this / "shaders"}).code == 0);
-    own_ = read_text(sphere());
-  }
   std::string sphere() const { return *this / "shaders/shapes/sphere.glsl"; }
   void insert(const std::string& statements) const {
     const std::string before = "  return discriminant >= 0.0f ? t : T_NONE;\n";
-    write_text(sphere(), replaced(own_, before, statements + before));
+    lay_changed_shader(*this / "shaders", "shapes/sphere.glsl", before, statements + before);
   }
   ProcessResult run(std::vector<std::string> words, const std::vector<std::string>& more = {}) const {
     words.insert(words.begin() + 1, scene());
@@ -29,9 +24,6 @@ class Shaders : public SceneFolder {
     words.insert(words.end(), more.begin(), more.end());
     return run_eyeray(words);
   }
-
- private:
-  std::string own_;
 };
 
 }  // namespace

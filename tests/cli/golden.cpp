@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene.hpp"
+#include "tests/support/faults.hpp"
 //
 #include "tests/support/doctest.hpp"
 
@@ -70,7 +71,7 @@ TEST_CASE("what fails, or is black, becomes no golden picture") {
                                      folder / "kept", "--against", golden});
     return run_eyeray(options);
   };
-  const ProcessResult broken = verify({"--update=force", "--inject-fault", "light"});
+  const ProcessResult broken = verify({"--update=force", "--shaders", lay_fault(folder, "light")});
   CHECK(broken.code == 1);
   CHECK(broken.out.find("it was not updated: another gate fails") != std::string::npos);
   CHECK(!std::filesystem::exists(golden));

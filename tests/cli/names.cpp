@@ -6,6 +6,7 @@
 
 #include "host/image/image_file.hpp"
 #include "scene.hpp"
+#include "tests/support/faults.hpp"
 //
 #include "tests/support/doctest.hpp"
 
@@ -89,7 +90,7 @@ TEST_CASE("verify says by name what differing pixels hit") {
   const NamedScene folder;
   const ProcessResult result =
       run_eyeray({"verify", folder.scene(), "--crop", "30,22,4,4", "--backends", "gpu", "--quiet",
-                  "--inject-fault", "light", "--keep", folder / "kept"});
+                  "--shaders", lay_fault(folder, "light"), "--keep", folder / "kept"});
   CAPTURE(result.out);
   CHECK(result.code == 1);
   CHECK(result.out.find("primitive 0 (sphere \"left eye\", " + folder.scene() +

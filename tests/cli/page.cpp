@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene.hpp"
+#include "tests/support/faults.hpp"
 //
 #include "tests/support/doctest.hpp"
 
@@ -41,7 +42,7 @@ TEST_CASE("the page of a report holds its pictures, numbers and the values of pi
   CHECK_FALSE(scene.at("pictures").contains("twin"));  // bit for bit the GPU's
   CHECK(scene.at("pixels").empty());
 
-  CHECK(report_on(folder, {"--inject-fault", "light"}).code == 1);
+  CHECK(report_on(folder, {"--shaders", lay_fault(folder, "light")}).code == 1);
   const auto failed = data_of(page_of(folder)).at("scenes").at(0);
   CHECK(failed.at("pictures").contains("twin"));
   CHECK(failed.at("causes").at("unexplained").at("pixels") > 20);
@@ -53,9 +54,8 @@ TEST_CASE("the page of a report holds its pictures, numbers and the values of pi
 
 TEST_CASE("a report names the shaders of --shaders that differ") {
   const SceneFolder folder;
-  std::filesystem::create_directories(folder / "my/bsdf");
   const std::string shader = folder / "my/bsdf/fresnel.glsl";
-  write_text(shader, read_text("shaders/bsdf/fresnel.glsl"));
+  lay_shader(folder / "my", "bsdf/fresnel.glsl", own_shader("bsdf/fresnel.glsl"));
   const auto changed = [&] {
     report_on(folder, {"--shaders", folder / "my"});
     return data_of(page_of(folder)).at("scenes").at(0).at("changed_shaders");
@@ -98,7 +98,7 @@ TEST_CASE("nothing that a scene is called ends the page's data") {
 
 TEST_CASE("a browser shows the page, and the view that its link names" * doctest::test_suite("long")) {
   const SceneFolder folder;
-  REQUIRE(report_on(folder, {"--inject-fault", "light"}).code == 1);
+  REQUIRE(report_on(folder, {"--shaders", lay_fault(folder, "light")}).code == 1);
   const auto shown = [&](const std::string& view) {
     const ProcessResult result =
         run_process({"chromium", "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
@@ -129,7 +129,7 @@ TEST_CASE("the page's keys, slider, split, zoom and read-out do what the manual 
   REQUIRE(
       run_eyeray({"render", folder.scene(), "-s", "16x12", "-D", "camera.fov=30", "-q", "-o", golden}).code ==
       0);
-  REQUIRE(report_on(folder, {"--inject-fault", "light", "--against", golden}).code == 1);
+  REQUIRE(report_on(folder, {"--shaders", lay_fault(folder, "light"), "--against", golden}).code == 1);
   const ProcessResult result =
       run_process({"node", "tests/cli/page/drive.mjs", folder / "report/index.html", folder.path()}, {}, 900);
   CAPTURE(result.err);

@@ -110,12 +110,11 @@ TEST_CASE("of several samples that is shown which differs, or which is asked for
 
 TEST_CASE("a PROBE in a user's shader is a line, and what the shader breaks is found at it") {
   const TemporaryFolder folder;
-  std::filesystem::create_directories(folder.path() / "bsdf");
   const std::string shader = folder / "bsdf/fresnel.glsl";
   const std::string whole = "return 0.5f * (parallel * parallel + crossed * crossed);";
-  write_text(shader, read_text("shaders/bsdf/fresnel.glsl"));
-  replace_in_file(shader, whole,
-                  "PROBE(parallel, parallel);\n  return 0.4f * (parallel * parallel + crossed * crossed);");
+  lay_changed_shader(
+      folder.path(), "bsdf/fresnel.glsl", whole,
+      "PROBE(parallel, parallel);\n  return 0.4f * (parallel * parallel + crossed * crossed);");
   const Probed probed = probe({"scenes/whitted.toml", "48,45", "-s", "96x72", "--shaders", folder.path()});
   CHECK(probed.code == 1);
   const Json& first = probed.json.at("first_difference");

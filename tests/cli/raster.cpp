@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/support/process.hpp"
+#include "tests/support/faults.hpp"
 //
 #include "tests/support/doctest.hpp"
 
@@ -37,13 +37,15 @@ TEST_CASE("the report says how many pixels are equal, and what was not drawn") {
 
 TEST_CASE("a pixel that gate R fails is looked at with --raster, and JUnit's XML has the gate") {
   const TemporaryFolder folder;
+  const std::string shaders = lay_fault(folder, "position");
   const ProcessResult result = run_eyeray(
       {"verify", "scenes/whitted.toml", "-s", "96x72", "--raster", "--quiet", "--keep", folder / "kept",
-       "--junit", folder / "report.xml", "--report", folder / "page", "--inject-fault", "position"});
+       "--junit", folder / "report.xml", "--report", folder / "page", "--shaders", shaders});
   CHECK(result.code == 1);
   CHECK(has(result.out, "gate R: gpu against the rasteriser: "));
   CHECK(has(result.out, " pixels aside of its pixel, and at t "));
-  CHECK(has(result.out, "look closer: eyeray verify scenes/whitted.toml -s 96x72 --raster --crop "));
+  CHECK(has(result.out, "look closer: eyeray verify scenes/whitted.toml -s 96x72 --shaders '" + shaders +
+                            "' --raster --crop "));
   CHECK(has(read_text(folder / "report.xml"), "gate R FAILED gpu = the rasteriser"));
   CHECK(has(read_text(folder / "page/index.html"), "gate R FAILED gpu = the rasteriser"));
 }

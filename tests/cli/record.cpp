@@ -1,5 +1,6 @@
 // verify --record.
 #include "scene.hpp"
+#include "tests/support/faults.hpp"
 //
 #include "tests/support/doctest.hpp"
 
@@ -18,7 +19,7 @@ TEST_CASE("verify records what a healthy scene needs, and nothing of one that fa
   CHECK(verify({"--record", "-s", "8x6"}).err ==
         "eyeray: error: --record takes scenes as their files say: leave out -s 8x6\n");
   CHECK(verify({"--record", "--crop", "0,0,8,6"}).code == 2);
-  CHECK(verify({"--record", "--inject-fault", "light"}).code == 1);
+  CHECK(verify({"--record", "--shaders", lay_fault(folder, "light")}).code == 1);
   CHECK(read_text(folder.scene()) == before);
 
   const ProcessResult recorded = verify({"--record"});

@@ -6,6 +6,7 @@
 
 #include "host/image/image_file.hpp"
 #include "scene.hpp"
+#include "tests/support/faults.hpp"
 //
 #include "tests/support/doctest.hpp"
 
@@ -131,11 +132,11 @@ TEST_CASE(
   REQUIRE(render("right", {"--backend", "twin"}).code == 0);
   const Image right = read_image(folder / "right.pfm");
   const Image no_flags = read_image(folder / "right.flags.pfm");
+  const std::string steps = lay_fault(folder, "steps");
   // One ray after the other, and in packets, which trace shadow rays in a kernel of their own.
   for (const std::string rays : {"lanes", "packets"}) {
     CAPTURE(rays);
-    const ProcessResult result =
-        render(rays, {"--inject-fault", "steps", "--acceleration", "bvh", "--rays", rays});
+    const ProcessResult result = render(rays, {"--shaders", steps, "--acceleration", "bvh", "--rays", rays});
     CAPTURE(result.err);
     REQUIRE(result.code == 0);
     const Image picture = read_image(folder / (rays + ".pfm"));

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene.hpp"
+#include "tests/support/faults.hpp"
 //
 #include "tests/support/doctest.hpp"
 
@@ -64,9 +65,10 @@ TEST_CASE("verify takes a folder: every scene in it and below, and no part of an
 TEST_CASE("verify --github annotates failures and adds to the step's summary") {
   const SceneFolder folder;
   write_text(folder / "summary.md", "before\n");
-  const ProcessResult result = run_eyeray({"verify", folder.scene(), "-s", "16x12", "--quiet", "--keep",
-                                           folder / "kept", "--inject-fault", "light", "--github"},
-                                          {{"GITHUB_STEP_SUMMARY", folder / "summary.md"}});
+  const ProcessResult result =
+      run_eyeray({"verify", folder.scene(), "-s", "16x12", "--quiet", "--keep", folder / "kept", "--shaders",
+                  lay_fault(folder, "light"), "--github"},
+                 {{"GITHUB_STEP_SUMMARY", folder / "summary.md"}});
   CHECK(result.code == 1);
   CHECK(result.out.find("\n::error file=") != std::string::npos);
   CHECK(read_text(folder / "summary.md").starts_with("before\n### eyeray verify\n\n1 scene in "));

@@ -1,13 +1,11 @@
 // Estimators of the same light against each other, by shaders that are altered: what finds a lamp, shadow
 // rays or paths that run into it, and what ends paths, change the noise and not the mean. Where no closed
 // form says what a scene shows, they do.
-#include <filesystem>
-
 #include "host/scene/integrator.hpp"
 #include "host/scene/sampler.hpp"
 #include "tests/support/environments.hpp"
 #include "tests/support/estimate.hpp"
-#include "tests/support/process.hpp"
+#include "tests/support/shader_overlay.hpp"
 //
 #include "tests/support/doctest.hpp"
 
@@ -42,14 +40,9 @@ const Change unpaid_roulette{"next.throughput = next.throughput / survival",
 
 Estimate estimated(const Scene& scene, const Changes& changes) {
   const TemporaryFolder folder;
-  std::filesystem::create_directories(folder.path() / "integrators");
-  std::string text = read_text("shaders/integrators/path.glsl");
-  for (const Change& change : changes) {
-    const size_t at = text.find(change.from);
-    REQUIRE(at != std::string::npos);
-    text.replace(at, std::string(change.from).size(), change.to);
-  }
-  write_text(folder / "integrators/path.glsl", text);
+  std::string text = own_shader("integrators/path.glsl");
+  for (const Change& change : changes) text = replaced(text, change.from, change.to);
+  lay_shader(folder.path(), "integrators/path.glsl", text);
   executors::ExecutorOptions options;
   options.shader_folder = folder.path();
   return estimate(scene, Backend::gpu, options);

@@ -7,7 +7,7 @@
 #include "host/loader/scene_file.hpp"
 #include "host/pack/pack.hpp"
 #include "tests/support/entries.hpp"
-#include "tests/support/process.hpp"
+#include "tests/support/shader_overlay.hpp"
 //
 #include "tests/support/doctest.hpp"
 
@@ -127,18 +127,16 @@ TEST_CASE("… in every kind of scene" * doctest::test_suite("long")) {
 
 TEST_CASE("a user's PROBE shows values of every type, where they are and at which ray") {
   const test::TemporaryFolder folder;
-  std::filesystem::create_directories(folder.path() / "integrators");
-  std::string text = test::read_text("shaders/integrators/whitted.glsl");
   const std::string place = "  bool deeper = path.depth < frame.max_depth;\n";
-  REQUIRE(text.find(place) != std::string::npos);
-  text.insert(text.find(place) + place.size(),
-              "  PROBE(a_float, 0.25f); PROBE( a_vec2, vec2(1.0f, 2.0f) );\n"
-              "  PROBE(a_vec3, vec3(1.0f, 2.0f, 3.0f));\n"
-              "  if (deeper) PROBE(a_vec4, vec4(1.0f, 2.0f, 3.0f, 4.0f));\n"
-              "  PROBE(an_int, -7);\n"
-              "  PROBE(a_uint, 0xffffffffu);\n"
-              "  PROBE(a_bool, deeper);\n");
-  test::write_text(folder / "integrators/whitted.glsl", text);
+  const std::string text = test::replaced(test::own_shader("integrators/whitted.glsl"), place,
+                                          place +
+                                              "  PROBE(a_float, 0.25f); PROBE( a_vec2, vec2(1.0f, 2.0f) );\n"
+                                              "  PROBE(a_vec3, vec3(1.0f, 2.0f, 3.0f));\n"
+                                              "  if (deeper) PROBE(a_vec4, vec4(1.0f, 2.0f, 3.0f, 4.0f));\n"
+                                              "  PROBE(an_int, -7);\n"
+                                              "  PROBE(a_uint, 0xffffffffu);\n"
+                                              "  PROBE(a_bool, deeper);\n");
+  test::lay_shader(folder.path(), "integrators/whitted.glsl", text);
   const auto line = uint32_t(std::ranges::count(text.substr(0, text.find("PROBE(a_float")), '\n')) + 1;
 
   const Scene scene = small("scenes/whitted.toml");

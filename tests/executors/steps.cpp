@@ -4,6 +4,7 @@
 
 #include "host/executors/executor.hpp"
 #include "tests/support/empty_scene.hpp"
+#include "tests/support/faults.hpp"
 #include "tests/support/random_scene.hpp"
 
 #include "tests/support/doctest.hpp"
@@ -46,6 +47,8 @@ std::vector<QueryHit> ask(Executor& executor, std::span<const Query> rays, Query
 }  // namespace
 
 TEST_CASE("iteration limits: each way to trace flags the same rays, and all others are right") {
+  const test::TemporaryFolder folder;
+  const std::string shaders = test::lay_fault(folder, "steps");
   const Scene scene = crowd();
   Random random(6);
   std::vector<Query> rays(2000);
@@ -64,7 +67,7 @@ TEST_CASE("iteration limits: each way to trace flags the same rays, and all othe
                            {"by four lanes", "cooperative", false},
                            {"together", "lanes", true}}) {
       ExecutorOptions options;
-      options.fault = "steps";
+      options.shader_folder = shaders;
       options.profile.incoherent = way.incoherent;
       options.profile.profile = "cpu";
       const auto gpu = make_executor(Backend::gpu, scene, options);

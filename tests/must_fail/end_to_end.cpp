@@ -1,9 +1,10 @@
-// Faults injected on the GPU side only: the program itself must notice, say why, and answer 1.
+// Faults in the GPU's shaders alone: the program itself must notice, say why, and answer 1.
 #include <algorithm>
 #include <limits>
+#include <set>
 
 #include "host/image/image_file.hpp"
-#include "tests/support/process.hpp"
+#include "tests/support/faults.hpp"
 //
 #include "tests/support/doctest.hpp"
 
@@ -17,18 +18,18 @@ ProcessResult verify(const TemporaryFolder& folder, const std::string& fault,
                      std::vector<std::string> scene = {"scenes/whitted.toml"}) {
   scene.insert(scene.begin(), "verify");
   scene.insert(scene.end(), {"-s", "96x72", "--quiet", "--keep", folder / "kept"});
-  if (!fault.empty()) scene.insert(scene.end(), {"--inject-fault", fault});
+  if (!fault.empty()) scene.insert(scene.end(), {"--shaders", lay_fault(folder, fault)});
   return run_eyeray(scene);
 }
 
-struct Fault {
-  std::string name;
+struct Expected {
+  std::string fault;
   std::vector<const char*> reasons;  // that the report must give
   std::vector<std::string> scene = {"scenes/whitted.toml"};
 };
 
-// All faults that there are.
-std::vector<Fault> faults() {
+// Of every fault.
+std::vector<Expected> all_expected() {
   const char* bits = "gate A: gpu and twin";
   const char* colors = "gate B: gpu against the reference, colours";
   const char* first_hits = "gate C: gpu against the reference, first hits";
@@ -81,7 +82,6 @@ std::vector<Fault> faults() {
       {"black", {bits, colors}},
       {"stale", {bits, counts, colors, "the worst is 95,71"}},
       {"shift", {bits, first_hits, counts, colors}},
-      {"contraction", {bits}},
       {"random",
        {bits, counts, colors},
        {"scenes/whitted.toml", "--spp", "4", "-D", "image.pattern=jittered", "--max-explained", "0.02"}},
@@ -128,22 +128,22 @@ std::vector<Fault> faults() {
 }
 
 // Verifies a scene with the fault, and looks for what the report must say.
-void expect_noticed(const Fault& fault) {
-  CAPTURE(fault.name);
+void expect_noticed(const Expected& expected) {
+  CAPTURE(expected.fault);
   const TemporaryFolder folder;
-  const ProcessResult result = verify(folder, fault.name, fault.scene);
+  const ProcessResult result = verify(folder, expected.fault, expected.scene);
   CAPTURE(result.out);
   CAPTURE(result.err);
   CHECK(result.code == 1);
-  CHECK(result.out.starts_with("FAILED " + fault.scene[0]));
-  for (const char* reason : fault.reasons) {
+  CHECK(result.out.starts_with("FAILED " + expected.scene[0]));
+  for (const char* reason : expected.reasons) {
     CAPTURE(reason);
     CHECK(result.out.find(reason) != std::string::npos);
   }
   CHECK(result.out.find("twin against the reference") == std::string::npos);
-  CHECK(read_text(folder / "kept/command.txt").find(fault.name) != std::string::npos);
+  CHECK(read_text(folder / "kept/command.txt").find(expected.fault) != std::string::npos);
   const std::string causes = read_text(folder / "kept/gpu-causes.json");
-  const std::string last = fault.reasons.back();
+  const std::string last = expected.reasons.back();
   if (last.starts_with("gate B") || last.starts_with("gate D"))
     CHECK(causes.find("unexplained") != std::string::npos);
 }
@@ -180,44 +180,35 @@ TEST_CASE("without a fault verify passes and keeps nothing") {
   CHECK(folder.names().empty());
 }
 
-TEST_CASE("a fault in geometry, in packing and in one bit are noticed, each with its reason") {
-  for (const Fault& fault : faults())
-    for (const char* name : {"edge", "near_light", "bit"})
-      if (fault.name == name) expect_noticed(fault);
-}
-
-TEST_CASE("every fault on the GPU's side is noticed, with its reason, and is in the documents" *
-          doctest::test_suite("long")) {
-  for (const Fault& fault : faults()) {
-    expect_noticed(fault);
-    CHECK(read_text("docs/verification.md").find(fmt::format("\n| `{}` | ", fault.name)) !=
-          std::string::npos);
+TEST_CASE("every fault has its place in a shader, what is expected of it, and a row in the documents") {
+  const TemporaryFolder folder;
+  const std::string document = read_text("docs/verification.md");
+  std::set<std::string> names, expected;
+  for (const Fault& fault : faults) {
+    const std::string name(fault.name);
+    CAPTURE(name);
+    CHECK_NOTHROW(lay_fault(folder, name));
+    CHECK(document.find(fmt::format("\n| `{}` | ", name)) != std::string::npos);
+    names.insert(name);
   }
-  // There are no others, but the one that is no picture's.
-  const TemporaryFolder folder;
-  const ProcessResult unknown = verify(folder, "none");
-  CHECK(unknown.code == 2);
-  for (const Fault& fault : faults()) CHECK(unknown.err.find(fault.name) != std::string::npos);
-  CHECK(std::ranges::count(unknown.err, ',') == std::ptrdiff_t(faults().size()));
+  for (const Expected& each : all_expected()) expected.insert(each.fault);
+  CHECK(expected == names);
+  CHECK(names.size() == std::size(faults));
+  CHECK_THROWS(lay_fault(folder, "none"));
 }
 
-TEST_CASE("a shader of eyeray's own that does not compile is eyeray's fault, and a user's is the user's") {
-  const TemporaryFolder folder;
-  const ProcessResult own = verify(folder, "syntax");
-  CAPTURE(own.err);
-  CHECK(own.code == 70);
-  CHECK(own.err.starts_with("eyeray: error: internal error: kernels/pixel.glsl:"));
-  CHECK(own.err.find("please report it") != std::string::npos);
+TEST_CASE("a fault in geometry, of a light's place and of one bit are noticed, each with its reason") {
+  for (const Expected& expected : all_expected())
+    for (const char* name : {"edge", "near_light", "bit"})
+      if (expected.fault == name) expect_noticed(expected);
+}
 
-  std::string text = read_text("shaders/kernels/pixel.glsl");
-  const size_t place = text.find("result.primitive = hit.id;");
-  REQUIRE(place != std::string::npos);
-  std::filesystem::create_directories(folder / "shaders/kernels");
-  write_text(folder / "shaders/kernels/pixel.glsl", text.insert(place, "nonsense; "));
-  const ProcessResult users = verify(folder, "", {"scenes/whitted.toml", "--shaders", folder / "shaders"});
-  CAPTURE(users.err);
-  CHECK(users.code == 2);
-  CHECK(users.err.find("please report it") == std::string::npos);
+TEST_CASE("every fault on the GPU's side is noticed, with its reason" * doctest::test_suite("long")) {
+  for (const Expected& expected : all_expected()) expect_noticed(expected);
+}
+
+TEST_CASE("a driver that may contract a·b + c is noticed") {
+  expect_noticed({"", {"gate A: gpu and twin"}, {"scenes/whitted.toml", "--fast-math"}});
 }
 
 TEST_CASE("compare answers 1 to pictures of another size, too different, or not a number") {

@@ -2,7 +2,7 @@
 // that changes what an eye ray hits, and stay silent about the twin and the reference.
 #include <nlohmann/json.hpp>
 
-#include "tests/support/process.hpp"
+#include "tests/support/faults.hpp"
 //
 #include "tests/support/doctest.hpp"
 
@@ -16,7 +16,7 @@ nlohmann::json gate_r(const std::string& scene, const std::string& fault) {
   const TemporaryFolder folder;
   std::vector<std::string> arguments = {"verify", scene,     "-s",     "96x72",        "--raster",
                                         "--json", "--quiet", "--keep", folder / "kept"};
-  if (!fault.empty()) arguments.insert(arguments.end(), {"--inject-fault", fault});
+  if (!fault.empty()) arguments.insert(arguments.end(), {"--shaders", lay_fault(folder, fault)});
   const ProcessResult result = run_eyeray(arguments);
   CAPTURE(result.err);
   CHECK(result.code == (fault.empty() ? 0 : 1));
