@@ -44,7 +44,8 @@ void describe(CLI::App& app) {
       "First picture:   eyeray render scenes/whitted.toml -o whitted.png\n"
       "Proof:           eyeray verify scenes/whitted.toml\n"
       "Exit codes: 0 ok, 1 a comparison failed, 2 bad usage, scene or shader, 3 no usable Vulkan device,\n"
-      "            4 file input or output, 5 time-out, 128 + N ended by signal N.\n"
+      "            4 file input or output, 5 time-out, 6 a checkpoint that nothing goes on from,\n"
+      "            128 + N ended by signal N.\n"
       "Data goes to standard output, words to standard error. Under --json a failure is JSON too: "
       "{\"error\": ...}.");
 }

@@ -18,7 +18,8 @@ enum class ExitCode : int {
   no_device = 3,  // no usable Vulkan device, or it was lost
   file_io = 4,
   timed_out = 5,
-  internal = 70,  // a fault of eyeray's own (sysexits' EX_SOFTWARE)
+  cannot_resume = 6,  // nothing goes on from this checkpoint: a render has to begin anew
+  internal = 70,      // a fault of eyeray's own (sysexits' EX_SOFTWARE)
   interrupted = 130,
 };
 

@@ -76,7 +76,7 @@ Checkpoint Checkpoint::resume(std::filesystem::path file, std::vector<IdentityPa
 }
 
 void Checkpoint::damaged(const std::string& why) const {
-  throw Error(ExitCode::file_io, "cannot resume from {}: {}", file_.string(), why);
+  throw Error(ExitCode::cannot_resume, "cannot resume from {}: {}", file_.string(), why);
 }
 
 // The next `value` of the file, added to `checksum`.
@@ -119,7 +119,7 @@ void Checkpoint::read_header() {
                                      : "the " + part.name);
   }
   if (!differences.empty())
-    throw Error(ExitCode::bad_input,
+    throw Error(ExitCode::cannot_resume,
                 "cannot resume from {}: it was made with other options or files; what differs: {}",
                 file_.string(), fmt::join(differences, ", "));
 }
@@ -136,6 +136,14 @@ void Checkpoint::read_sums(film::Film& film) {
     checksum = crc32(bytes, checksum);
   }
   if (take<uint32_t>(ignored) != checksum) damaged("it is damaged: its checksum is wrong");
+}
+
+film::Rows Checkpoint::read_rows(int first, int count, int width, const film::Channels& channels) {
+  try {
+    return rows_->read(first, count, width, channels);
+  } catch (const Error& error) {
+    damaged(error.what());
+  }
 }
 
 void Checkpoint::check_rows() const {

@@ -51,20 +51,18 @@ class Checkpoint {
   // Will be written at `file` every `seconds`. Error (bad_input) when it is there already, so that a
   // forgotten one is not lost; Error (file_io) when it cannot be written.
   static Checkpoint begin(std::filesystem::path file, std::vector<IdentityPart> identity, double seconds);
-  // Reads it, to be written again. Error (file_io) when it is missing or damaged, Error (bad_input) that
-  // names what differs when it is not of this render.
+  // Reads it, to be written again. Error (cannot_resume) when it is missing, damaged, or not of this render;
+  // the message then names what differs.
   static Checkpoint resume(std::filesystem::path file, std::vector<IdentityPart> identity, double seconds);
 
   const std::filesystem::path& file() const { return file_; }
   bool resumes() const { return input_ != nullptr; }
 
   // What was read. Then the band's sums, whose size is set, and the finished rows from the top down. Error
-  // (file_io) when damaged; where that is found out after rows were given, check_rows says it.
+  // (cannot_resume) when damaged; where that is found out after rows were given, check_rows says it.
   const RenderPosition& position() const { return position_; }
   void read_sums(film::Film& film);
-  film::Rows read_rows(int first, int count, int width, const film::Channels& channels) {
-    return rows_->read(first, count, width, channels);
-  }
+  film::Rows read_rows(int first, int count, int width, const film::Channels& channels);
   void check_rows() const;
   [[noreturn]] void damaged(const std::string& why) const;
 

@@ -146,7 +146,7 @@ TEST_CASE("another scene, size, sampling or backend does not resume, and is told
 
   const auto refusal = [&](Arguments arguments) {
     const ProcessResult result = run_eyeray(with(std::move(arguments), {"--resume", checkpoint}));
-    CHECK(result.code == 2);
+    CHECK(result.code == 6);
     CHECK(read_text(checkpoint) == kept);
     const std::string start = "eyeray: error: cannot resume from " + checkpoint +
                               ": it was made with other options or files; what differs: ";
@@ -184,7 +184,7 @@ TEST_CASE("what is no checkpoint is an error of that file") {
   const auto refusal = [&](const std::string& file) {
     const ProcessResult result =
         run_eyeray({"render", folder.scene(), "-o", folder / "a.png", "--resume", file});
-    CHECK(result.code == 4);
+    CHECK(result.code == 6);
     CHECK(result.err.starts_with("eyeray: error: cannot resume from " + file + ": "));
   };
   refusal(folder / "none");

@@ -48,7 +48,8 @@ bool refused(const Scene& scene, int band_rows, const std::string& file) {
     render_rest(scene, band_rows, file);
     return false;
   } catch (const Error& error) {
-    return error.code() == ExitCode::file_io && std::string(error.what()).find(file) != std::string::npos;
+    return error.code() == ExitCode::cannot_resume &&
+           std::string(error.what()).find(file) != std::string::npos;
   }
 }
 
@@ -169,7 +170,7 @@ TEST_CASE("what another render left is refused, and what differs is named") {
     try {
       Checkpoint::resume(file, other, seldom);
     } catch (const Error& error) {
-      CHECK(error.code() == ExitCode::bad_input);
+      CHECK(error.code() == ExitCode::cannot_resume);
       return std::string(error.what());
     }
     return std::string();
