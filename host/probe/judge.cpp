@@ -1,6 +1,7 @@
 #include "host/probe/judge.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <bit>
@@ -78,16 +79,15 @@ class Judge {
     if (!misses(ray)) return;
     // What a missing ray leads to is missing, too.
     if (ray.parent != 0 && overlay_.rays()[ray.parent].traced == ray.traced) return;
-    std::string with, without;
+    std::vector<std::string> with;
     bool same = true;
     for (size_t i = 0; i < executors_.size(); ++i) {
-      std::string& names = ray.traced[i] ? with : without;
-      names += (names.empty() ? "" : " and ") + name(i);
+      if (ray.traced[i]) with.push_back(name(i));
       same = same && (!is_exact(i) || ray.traced[i] == ray.traced[exact_[0]]);
     }
     ray.verdict = same && ray.traced_around && ray.missed_around ? Verdict::explained : Verdict::differs;
     ray.difference =
-        fmt::format("only {} {} this ray", with, with.find(" and ") == with.npos ? "has" : "have");
+        fmt::format("only {} {} this ray", fmt::join(with, " and "), with.size() == 1 ? "has" : "have");
   }
 
   const ProbedValue* reference(const Ray& ray, std::string_view name) const {
