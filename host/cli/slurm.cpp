@@ -1,20 +1,17 @@
 // eyeray slurm: pictures as arrays of Slurm's jobs (docs/many-machines.md).
 #include <fmt/ranges.h>
-#include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "host/cli/build_facts.hpp"
 #include "host/cli/frames.hpp"
 #include "host/cli/picture.hpp"
-#include "host/cli/within.hpp"
+#include "host/cli/picture_files.hpp"
 #include "host/core/content_hash.hpp"
 #include "host/core/standard_streams.hpp"
-#include "host/core/termination.hpp"
-#include "host/slurm/array_render.hpp"
+#include "host/slurm/array.hpp"
 
 namespace fs = std::filesystem;
 
@@ -27,20 +24,17 @@ struct SlurmCommand {
   std::vector<std::string> sbatch_words;
   std::vector<std::string> render_words = {};
   int shards = 0;
-  int retries = 2;
   std::string folder;
   std::string frames;  // FIRST:LAST[:STEP]; empty: the one that the scene shows
   std::string video;   // of them; empty: none
-  double poll_seconds = 5;
-  bool submit_only = false;
+  bool no_submit = false;
   bool quiet = false;
   bool json = false;
 
   ExitCode run();
   void check_options() const;
-  slurm::ArrayRequest array_of(const std::string& scene) const;
-  void add_outputs(slurm::ArrayRequest& array) const;
-  void watch(std::vector<slurm::ArrayRender>& renders) const;
+  slurm::Array array_of(const std::string& scene) const;
+  void add_outputs(slurm::Array& array, const fs::path& scene) const;
 };
 
 // The options that `render` has too, as they were given.
@@ -49,13 +43,9 @@ std::vector<std::string> words_of_render(const CLI::App& command, const std::vec
   for (const CLI::Option* option : command.get_options()) {
     const std::string name = option->get_name();
     if (option->count() == 0 || !name.starts_with('-') || std::ranges::find(own, name) != own.end()) continue;
-    if (option->get_items_expected_max() == 0) {
-      words.push_back(name);
-      continue;
-    }
     for (const std::string& value : option->results()) {
       words.push_back(name);
-      words.push_back(value);
+      if (option->get_items_expected_max() > 0) words.push_back(value);
     }
   }
   return words;
@@ -63,121 +53,99 @@ std::vector<std::string> words_of_render(const CLI::App& command, const std::vec
 
 void SlurmCommand::check_options() const {
   for (const std::string& word : sbatch_words)
-    for (const char* own : {"--array", "-a", "--wrap", "--parsable", "--dependency", "-d"})
+    for (const char* own : {"--array", "-a", "--dependency", "-d", "--job-name", "-J", "--wait", "-W"})
       if (word == own || word.starts_with(std::string(own) + "="))
         throw Error(ExitCode::bad_input, "{} is eyeray's to say: leave it out", own);
-  if (!more_scenes.empty() && (!request.outputs.empty() || !folder.empty()))
+  if (!more_scenes.empty() && !(request.outputs.empty() && folder.empty() && video.empty()))
     throw Error(ExitCode::bad_input,
-                "several scenes have a picture and a folder each, named after them: leave out "
-                "-o and --folder");
-  if (!more_scenes.empty() && !video.empty()) throw Error(ExitCode::bad_input, "--video is of one scene");
+                "several scenes have a picture and a folder each, named after them: leave out -o, --folder "
+                "and --video");
   if (!video.empty() && frames.empty()) throw Error(ExitCode::bad_input, "--video is about --frames");
   if (!video.empty()) check_video_name(video);
 }
 
-// Adds the products of the array: pictures that a merge writes, or frames, each by a share of them.
-void SlurmCommand::add_outputs(slurm::ArrayRequest& array) const {
-  const fs::path name = fs::path(array.scene).filename();
+// Adds what the array makes: a picture, by its last job, or frames, every N-th of them a share.
+void SlurmCommand::add_outputs(slurm::Array& array, const fs::path& scene) const {
   std::vector<std::string> outputs = request.outputs;
   if (outputs.empty())
-    outputs.push_back(frames.empty() ? fs::path(name).replace_extension(".png").string()
-                                     : name.stem().string() + ".%04d.png");
-  std::vector<std::string>& words = frames.empty() ? array.merge_words : array.frame_words;
-  if (!frames.empty()) words = {"--frames", frames};
+    outputs.push_back(frames.empty() ? scene.filename().replace_extension(".png").string()
+                                     : scene.stem().string() + ".%04d.png");
+  std::vector<std::string>& words = frames.empty() ? array.last_words : array.render_words;
+  if (!frames.empty()) words.insert(words.end(), {"--frames", frames});
   for (const std::string& output : outputs) words.insert(words.end(), {"-o", output});
   if (request.half) words.emplace_back("--half");
-
   if (frames.empty()) {
     array.files = outputs;
     return;
   }
-  for (const int frame : parse_frames(frames))
-    for (const std::string& output : outputs) array.files.push_back(frame_name(output, frame));
-  array.video = video;
-  if (!video.empty()) array.files.push_back(video);
+  array.frames_of_shares.resize(size_t(shards));
+  for (size_t share = 0; const int frame : parse_frames(frames)) {
+    std::vector<std::string> names;
+    for (const std::string& output : outputs) names.push_back(frame_name(output, frame));
+    array.files.insert(array.files.end(), names.begin(), names.end());
+    std::ranges::copy(files_written(names, request.aovs), std::back_inserter(array.frames_of_shares[share]));
+    share = (share + 1) % size_t(shards);
+  }
+  if (video.empty()) return;
+  array.files.push_back(video);
+  array.last_words = {"--video", video};
 }
 
-slurm::ArrayRequest SlurmCommand::array_of(const std::string& scene) const {
-  const SceneOptions options = request.scene.for_file(scene);
+slurm::Array SlurmCommand::array_of(const std::string& scene) const {
   // Faults of a scene are errors now, not on the nodes.
-  const Scene loaded = options.load();
+  const Scene loaded = request.scene.for_file(scene).load();
   check_crop(request.crop, loaded.image);
 
-  slurm::ArrayRequest array;
+  slurm::Array array;
   array.program = fs::read_symlink("/proc/self/exe").string();
-  array.scene = scene;
   array.render_words = render_words;
-  add_outputs(array);
+  array.render_words.insert(array.render_words.begin(), scene);
   array.sbatch_words = sbatch_words;
   array.folder = folder.empty() ? fs::path(scene).stem().string() + ".slurm" : folder;
   array.shards = shards;
-  array.retries = retries;
-  ContentHash hash;
-  hash.add(hash_of_files(loaded.files)).add(sum_of_sources()).add(std::to_string(shards));
-  for (const std::string& word : render_words) hash.add(word);
-  for (const std::string& word : array.frame_words) hash.add(word);
-  array.identity = hash.hex();
+  array.contents = ContentHash().add(hash_of_files(loaded.files)).add(sum_of_sources()).hex();
+  add_outputs(array, scene);
   return array;
 }
 
-std::string text_of(const slurm::ArrayRender& render, const slurm::ArrayProgress& progress) {
-  std::string text =
-      fmt::format("{}: {} of {} parts", render.request().scene, progress.parts, render.request().shards);
-  if (progress.done) return text + (render.request().frame_words.empty() ? ", merged" : ", done");
-  if (!progress.trouble.empty()) return text + "; Slurm does not answer: " + progress.trouble;
-  if (progress.merging) return text + ", being merged";
-  return text + fmt::format(", {} running, {} waiting{}", progress.running, progress.waiting,
-                            progress.reason.empty() ? "" : " (" + progress.reason + ")");
-}
-
-// Until all pictures are there.
-void SlurmCommand::watch(std::vector<slurm::ArrayRender>& renders) const {
-  std::vector<std::string> said(renders.size());
-  std::vector<bool> done(renders.size());
-  while (true) {
-    for (size_t i = 0; i < renders.size(); ++i) {
-      if (done[i]) continue;
-      const slurm::ArrayProgress progress = renders[i].look();
-      done[i] = progress.done;
-      const std::string text = text_of(renders[i], progress);
-      if (!quiet && text != said[i]) print_lines(stderr, "{}\n", text);
-      said[i] = text;
-    }
-    if (submit_only || std::ranges::all_of(done, std::identity())) return;
-    const Stopwatch watch;
-    while (watch.seconds() < poll_seconds && !interrupted())
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    if (interrupted()) return;
-  }
+// How far a picture is and what became of its jobs, and which were `submitted` now.
+void print(const slurm::Array& array, const slurm::ArrayState& state,
+           const std::vector<std::string>& submitted) {
+  const size_t there = size_t(array.shards) - state.missing.size();
+  print_lines(stderr, "{}: {} of {} shares are there{}\n", array.render_words[0], there, array.shards,
+              state.done ? ", and all is done" : "");
+  if (!state.queue.empty()) print_lines(stderr, "in the queue, as {}:\n", array.job_name);
+  for (const std::string& line : state.queue) print_lines(stderr, "  {}\n", line);
+  if (!state.output.empty()) print_lines(stderr, "why not all is done: {}\n", state.output.string());
+  for (const std::string& line : state.failures) print_lines(stderr, "  {}\n", line);
+  if (!submitted.empty())
+    print_lines(stderr, "submitted {}; squeue, sacct and scancel know them by --name={}\n",
+                fmt::join(submitted, ", "), array.job_name);
 }
 
 ExitCode SlurmCommand::run() {
   check_options();
-  std::vector<std::string> scenes{request.scene.file()};
-  scenes.insert(scenes.end(), more_scenes.begin(), more_scenes.end());
-  std::vector<slurm::ArrayRender> renders;
-  renders.reserve(scenes.size());
-  for (const std::string& scene : scenes) renders.emplace_back(array_of(scene));
-  {
-    // Between a job's submission and the note of its number nothing is to end.
-    const Saving saving;
-    watch(renders);
-  }
+  std::vector<slurm::Array> arrays{array_of(request.scene.file())};
+  for (const std::string& scene : more_scenes) arrays.push_back(array_of(scene));
+  for (slurm::Array& array : arrays) prepare(array);
 
-  std::vector<int> jobs;
-  int retried = 0;
-  Json files = Json::array();
-  for (const slurm::ArrayRender& render : renders) {
-    std::ranges::copy(render.jobs(), std::back_inserter(jobs));
-    retried += render.retried();
-    for (const std::string& file : render.request().files) files.push_back(file);
+  Json pictures = Json::array();
+  for (const slurm::Array& array : arrays) {
+    const slurm::ArrayState state = state_of(array);
+    for (const std::string& fault : state.faults) print_lines(stderr, "eyeray: warning: {}\n", fault);
+    std::vector<std::string> jobs;
+    if (!no_submit && !state.done && state.queue.empty()) jobs = submit(array, state);
+    if (!quiet) print(array, state, jobs);
+    pictures.push_back({{"scene", array.render_words[0]},
+                        {"files", array.files},
+                        {"done", state.done},
+                        {"missing", state.missing},
+                        {"job_name", array.job_name},
+                        {"queue", state.queue},
+                        {"failures", state.failures},
+                        {"submitted", jobs}});
   }
-  if (interrupted())
-    throw Error(ExitCode::interrupted,
-                "interrupted; the jobs go on: the same command shows them again, and scancel {} ends them",
-                fmt::join(jobs, " "));
-  if (json)
-    print_json({{"files", files}, {"jobs", jobs}, {"retried", retried}, {"submitted_only", submit_only}});
+  if (json) print_json({{"pictures", pictures}});
   return ExitCode::ok;
 }
 
@@ -188,40 +156,24 @@ void add_slurm(CLI::App& app, Run& run, const std::vector<std::string>& sbatch_w
   const auto options = std::make_shared<SlurmCommand>();
   options->sbatch_words = sbatch_words;
   options->request.add_to(*command);
-  const std::string group = "Slurm";
   command->add_option("MORE", options->more_scenes, "Further scenes, under the same options.")
       ->option_text(" ");
-  command->add_option("--shards", options->shards, "How many shares, and so jobs, there are.")
-      ->option_text("N")
+  const auto add = [&](const char* name, auto& value, const char* text, const char* description) {
+    return command->add_option(name, value, description)->option_text(text)->group("Slurm");
+  };
+  add("--shards", options->shards, "N", "How many shares, and so jobs, there are.")
       ->required()
-      ->check(CLI::Range(1, render::most_shards))
-      ->group(group);
+      ->check(CLI::Range(1, render::most_shards));
+  add("--frames", options->frames, "FIRST:LAST[:STEP]",
+      "These frames of a scene that moves, every N-th of them a share; -o out.%04d.png.");
+  add("--video", options->video, "FILE", "A video of them, too, by ffmpeg on the last job's node.");
+  add("--folder", options->folder, "DIR",
+      "For parts, checkpoints and scripts, where all nodes see it. Default: SCENE.slurm here.");
   command
-      ->add_option("--frames", options->frames,
-                   "These frames of a scene that moves, every N-th of them a share; -o out.%04d.png.")
-      ->option_text("FIRST:LAST[:STEP]")
-      ->group(group);
-  command->add_option("--video", options->video, "A video of them, too, by ffmpeg on the last job's node.")
-      ->option_text("FILE")
-      ->group(group);
-  command
-      ->add_option("--folder", options->folder,
-                   "For parts, checkpoints and scripts, where all nodes see it. Default: SCENE.slurm here.")
-      ->option_text("DIR")
-      ->group(group);
-  command->add_option("--retries", options->retries, "How often a share that failed is tried again.")
-      ->option_text("N=2")
-      ->check(CLI::Range(0, 1000))
-      ->group(group);
-  command->add_option("--poll", options->poll_seconds, "How often Slurm is asked.")
-      ->option_text("SECONDS=5")
-      ->check(within(0.05, 3600))
-      ->group(group);
-  command
-      ->add_flag("--submit-only", options->submit_only,
-                 "Submit what is missing and end; the same command looks again.")
-      ->group(group);
-  command->add_flag("-q,--quiet", options->quiet, "No progress; warnings and errors remain.");
+      ->add_flag("--no-submit", options->no_submit,
+                 "Write the scripts, and say how far the picture is; submit nothing.")
+      ->group("Slurm");
+  command->add_flag("-q,--quiet", options->quiet, "Only warnings and errors.");
   command->add_flag("--json", options->json, "Say what was done as JSON on standard output.");
   command->footer(
       "Examples:\n"
@@ -229,11 +181,12 @@ void add_slurm(CLI::App& app, Run& run, const std::vector<std::string>& sbatch_w
       "--time=1:00:00\n"
       "  eyeray slurm scenes/animation.toml --frames 0:47 --shards 12 --video animation.mp4 -- "
       "--time=1:00:00\n"
-      "Words behind -- are sbatch's. Ctrl-C leaves the jobs running: the same command takes them up again.");
+      "Words behind -- are sbatch's. The same command again says how far the jobs are, and when they have\n"
+      "ended submits what is missing.");
   command->callback([options, command, &run] {
     options->render_words =
         words_of_render(*command, {"--output", "--half", "--shards", "--frames", "--video", "--folder",
-                                   "--retries", "--poll", "--submit-only", "--quiet", "--json", "--help"});
+                                   "--no-submit", "--quiet", "--json", "--help"});
     run = [options] { return options->run(); };
   });
 }

@@ -40,7 +40,7 @@ const Library libraries[] = {
      {"gpu", "formula"}},
     {std::regex(R"(toml\+\+/.*)"), {"scene", "loader"}, {"scene", "loader"}},
     {std::regex(R"(nlohmann/json\.hpp)"),
-     {"shards", "slurm", "film", "bench", "cli", "compare", "dev", "importers", "loader", "verify", "probe"},
+     {"shards", "film", "bench", "cli", "compare", "dev", "importers", "loader", "verify", "probe"},
      {"importers", "dev"}},
     {std::regex(R"(microhttpd\.h)"), {"dev"}, {}},
     {std::regex(R"(tiny_.*)"), {"importers"}, {}},

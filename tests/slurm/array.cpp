@@ -1,11 +1,10 @@
 // Arrays on a real Slurm: they make the picture of one machine, whatever happens to their jobs.
 #include <fmt/format.h>
 
-#include <fstream>
-#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "cluster.hpp"
+#include "fake_slurm.hpp"
 #include "tests/cli/scene.hpp"
 //
 #include "tests/support/doctest.hpp"
@@ -16,11 +15,7 @@ using namespace eyeray::test;
 namespace {
 
 using Words = std::vector<std::string>;
-
-Words operator+(Words words, const Words& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
+using Json = nlohmann::json;
 
 // One for all cases: it takes seconds to start.
 Cluster& cluster() {
@@ -28,250 +23,172 @@ Cluster& cluster() {
   return one;
 }
 
-// A scene, its picture by one machine, and how Slurm is to render it.
-class ArrayOf {
- public:
-  explicit ArrayOf(const Words& options, int shards = 3)
-      : command_(Words{"slurm", folder_.scene(), "--shards", std::to_string(shards), "--folder", work(),
-                       "--poll", "0.1", "-o", folder_ / "merged.pfm"} +
-                 options) {
-    const Words render = Words{"render", folder_.scene(), "--quiet", "-o", folder_ / "whole.pfm"} + options;
-    REQUIRE(run_eyeray(render).code == 0);
-  }
-
-  std::string work() const { return folder_ / "work"; }
-  const SceneFolder& folder() const { return folder_; }
-  Environment environment() const { return cluster().environment(); }
-  ProcessResult run(const Words& more = {}, const Environment& more_environment = {}) const {
-    Environment all = environment();
-    all.insert(all.end(), more_environment.begin(), more_environment.end());
-    return run_eyeray(command_ + more, all);
-  }
-  std::unique_ptr<Process> start() const {
-    return std::make_unique<Process>(Words{eyeray_binary()} + command_, environment());
-  }
-  int array() const {
-    return nlohmann::json::parse(read_text(work() + "/render.json")).at("arrays").at(0).at(0);
-  }
-  bool is_whole() const { return read_text(folder_ / "whole.pfm") == read_text(folder_ / "merged.pfm"); }
-
- private:
-  SceneFolder folder_;
-  Words command_;
-};
-
-// A render that takes long enough to be hit.
-const Words slow{"--backend", "twin", "-s", "240x160", "--spp", "64", "-D", "image.pattern=jittered"};
-const Words quick{"--backend", "twin"};
-
-// The process whose words have `word` among them; 0 where none has.
-pid_t process_with(const std::string& word, const std::string& other) {
-  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
-    const std::string name = entry.path().filename();
-    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-    const std::string words = read_text(entry.path() / "cmdline");
-    const bool is_eyeray = words.starts_with(eyeray_binary());
-    if (is_eyeray && words.find(word) != std::string::npos && words.find(other) != std::string::npos)
-      return pid_t(std::stol(name));
-  }
-  return 0;
-}
-
 template <typename Condition>
 bool happens(const Condition& condition) {
   const Stopwatch watch;
   while (!condition()) {
     if (watch.seconds() > 600) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
   return true;
 }
 
+// A scene, and how Slurm is to render it.
+class ArrayOf {
+ public:
+  explicit ArrayOf(Words options, const std::string& folder = "work") : options_(std::move(options)) {
+    work_ = folder_ / folder;
+  }
+
+  const SceneFolder& folder() const { return folder_; }
+  std::string work(const std::string& name) const { return work_ + "/" + name; }
+  ProcessResult run(const Words& more = {}, const Environment& more_environment = {}) const {
+    Environment environment = cluster().environment();
+    environment.insert(environment.end(), more_environment.begin(), more_environment.end());
+    Words command{"slurm", folder_.scene(), "--shards", "3", "--folder", work_, "--json"};
+    for (const Words& words : {options_, more}) command.insert(command.end(), words.begin(), words.end());
+    return run_eyeray(command, environment);
+  }
+  // What it says of the picture.
+  Json said(const Words& more = {}, const Environment& environment = {}) const {
+    const ProcessResult result = run(more, environment);
+    CAPTURE(result.err);
+    REQUIRE(result.code == 0);
+    return Json::parse(result.out).at("pictures").at(0);
+  }
+  // Until none of its jobs is in the queue.
+  Json ended() const {
+    Json last;
+    CHECK(happens([&] { return (last = said({"--no-submit"})).at("queue").empty(); }));
+    return last;
+  }
+  bool is_whole() const {
+    Words render{"render", folder_.scene(), "--quiet", "-o", folder_ / "whole.pfm"};
+    render.insert(render.end(), options_.begin(), options_.end() - 2);  // but its -o
+    REQUIRE(run_eyeray(render).code == 0);
+    return read_text(folder_ / "whole.pfm") == read_text(options_.back());
+  }
+  Words merged() const { return {"-o", folder_ / "merged.pfm"}; }
+  void add(const Words& words) { options_.insert(options_.end(), words.begin(), words.end()); }
+
+ private:
+  SceneFolder folder_;
+  std::string work_;
+  Words options_;
+};
+
+// A picture that is rendered at once, and one that takes long enough to be hit.
+const Words quick{"--backend", "twin"};
+const Words slow{"--backend", "twin", "-s", "240x160", "--spp", "64", "-D", "image.pattern=jittered"};
+
 }  // namespace
 
 TEST_CASE("an array makes the picture of one machine, and says how far it is") {
-  const ArrayOf array(quick);
-  const ProcessResult result = array.run({"--json", "--", "--job-name=mine"});
-  CAPTURE(result.err);
-  REQUIRE(result.code == 0);
+  ArrayOf array(quick);
+  array.add(array.merged());
+  const Json first = array.said({"--", "--comment=mine"});
+  CHECK(first.at("missing") == Json{1, 2, 3});
+  REQUIRE(first.at("submitted").size() == 2);
+  const Json done = array.ended();
+  CHECK(done.at("done") == true);
+  CHECK(done.at("files") == Json{array.folder() / "merged.pfm"});
   CHECK(array.is_whole());
-  CHECK(result.err.find("0 of 3 parts") != std::string::npos);
-  CHECK(result.err.find("3 of 3 parts, merged\n") != std::string::npos);
-  const auto said = nlohmann::json::parse(result.out);
-  CHECK(said.at("files") == nlohmann::json{array.folder() / "merged.pfm"});
-  CHECK(said.at("retried") == 0);
   CHECK(cluster()
-            .ask({"scontrol", "-o", "show", "job", std::to_string(array.array())})
-            .out.find("JobName=mine") != std::string::npos);
-
+            .ask({"scontrol", "-o", "show", "job", first.at("submitted").at(0).get<std::string>()})
+            .out.find("Comment=mine") != std::string::npos);
   // What is there is not rendered again; another picture's parts are not taken.
-  const int first = array.array();
-  CHECK(array.run().code == 0);
-  CHECK(array.array() == first);
+  CHECK(array.said().at("submitted").empty());
   write_text(array.folder().scene(), read_text(array.folder().scene()) + "\n# changed\n");
-  const ProcessResult other = array.run();
-  CHECK(other.code == 2);
-  CHECK(other.err.find("holds parts of another picture") != std::string::npos);
+  CHECK(array.run().code == 2);
 }
 
-TEST_CASE("a share that is killed is rendered again, from its checkpoint on" * doctest::test_suite("long")) {
-  const ArrayOf array(slow + Words{"-D", "render.max_depth=3"});
-  const auto watcher = array.start();
-  pid_t killed = 0;
-  REQUIRE(happens([&] {
-    watcher->wait(0.01);
-    killed = process_with("2/3", array.work());
-    return killed > 0;
-  }));
-  ::kill(killed, SIGKILL);
-  REQUIRE(watcher->wait(3600));
-  CAPTURE(watcher->err());
-  CHECK(watcher->code() == 0);
+TEST_CASE("cancelled and requeued, an array goes on by the same command" * doctest::test_suite("long")) {
+  ArrayOf array(slow);
+  array.add(array.merged());
+  const Json first = array.said();
+  const auto job = first.at("submitted").at(0).get<std::string>();
+  const auto runs = [&] { return array.said().at("queue").dump().find("RUNNING") != std::string::npos; };
+  REQUIRE(happens(runs));
+  // Nothing is submitted twice.
+  CHECK(array.said().at("submitted").empty());
+  // As preemption does.
+  CHECK(cluster().ask({"scontrol", "requeue", job + "_1"}).code == 0);
+  REQUIRE(happens(runs));
+  CHECK(cluster().ask({"scancel", "--name=" + first.at("job_name").get<std::string>()}).code == 0);
+  CHECK(array.ended().at("done") == false);
+  CHECK(array.said().at("submitted").size() == 2);
+  CHECK(array.ended().at("done") == true);
   CHECK(array.is_whole());
 }
 
-TEST_CASE("a share that is requeued, as by preemption, goes on under its job's number" *
-          doctest::test_suite("long")) {
-  const ArrayOf array(slow + Words{"-D", "render.max_depth=3"});
-  const auto watcher = array.start();
-  REQUIRE(happens([&] {
-    watcher->wait(0.01);
-    return process_with("1/3", array.work()) > 0;
+TEST_CASE("near its limit on time a share waits in the queue again" * doctest::test_suite("long")) {
+  ArrayOf array({"--backend", "twin", "-s", "640x480", "--spp", "65536"});
+  array.add(array.merged());
+  // A warning 60 s before the end of a minute comes at once.
+  const Json first = array.said({"--", "--time=1"});
+  CHECK(happens([&] {
+    const auto jobs =
+        cluster().ask({"scontrol", "-o", "show", "job", first.at("submitted").at(0).get<std::string>()});
+    return jobs.out.find(" Restarts=1 ") != std::string::npos;
   }));
-  const int job = array.array();
-  CHECK(cluster().ask({"scontrol", "requeue", fmt::format("{}_1", job)}).code == 0);
-  REQUIRE(watcher->wait(3600));
-  CAPTURE(watcher->err());
-  CHECK(watcher->code() == 0);
-  CHECK(array.array() == job);
-  CHECK(array.is_whole());
+  cluster().ask({"scancel", "--name=" + first.at("job_name").get<std::string>()});
+  array.ended();
 }
 
-TEST_CASE("the watching may be interrupted, and taken up again" * doctest::test_suite("long")) {
-  const ArrayOf array(slow);
-  const auto watcher = array.start();
-  REQUIRE(happens([&] { return watcher->wait_for_error_text("0 of 3 parts", 1); }));
-  watcher->send_signal(SIGINT);
-  REQUIRE(watcher->wait(600));
-  CHECK(watcher->code() == 130);
-  const int job = array.array();
-  CHECK(watcher->err().find(fmt::format("the same command shows them again, and scancel {} ", job)) !=
+TEST_CASE("a node without Vulkan says so where the command says it does") {
+  ArrayOf array({});
+  array.add(array.merged());
+  array.said({}, {{"EYERAY_VULKAN_LOADER", "/nowhere/libvulkan.so.1"}});
+  CHECK(array.ended().at("missing").size() == 3);
+  CHECK(array.run({"--no-submit"}).err.find("why not all is done: " + array.work("1.output")) !=
         std::string::npos);
-  const ProcessResult rest = array.run();
-  CAPTURE(rest.err);
-  CHECK(rest.code == 0);
-  CHECK(array.array() == job);
-  CHECK(array.is_whole());
-}
-
-TEST_CASE("a cancelled array is told, and not begun again by itself" * doctest::test_suite("long")) {
-  const ArrayOf array(slow);
-  const auto watcher = array.start();
-  REQUIRE(happens([&] { return watcher->wait_for_error_text(" running", 1); }));
-  const int job = array.array();
-  REQUIRE(cluster().ask({"scancel", std::to_string(job)}).code == 0);
-  REQUIRE(watcher->wait(3600));
-  CHECK(watcher->code() == 130);
-  CHECK(watcher->err().find(fmt::format("the array {}", job)) != std::string::npos);
-  CHECK(watcher->err().find("was cancelled with ") != std::string::npos);
-  const ProcessResult rest = array.run();
-  CAPTURE(rest.err);
-  CHECK(rest.code == 0);
-  CHECK(array.is_whole());
-}
-
-TEST_CASE("a node without Vulkan says so, and is not asked for ever") {
-  const ArrayOf array(Words{}, 2);
-  const ProcessResult result =
-      array.run({"--retries", "1"}, {{"EYERAY_VULKAN_LOADER", "/nowhere/libvulkan.so.1"}});
-  CAPTURE(result.err);
-  CHECK(result.code == 3);
-  CHECK(result.err.find("share 1/2 on ") != std::string::npos);
-  CHECK(result.err.find(", tried 2 times: ") != std::string::npos);
-  CHECK(result.err.find("Vulkan") != std::string::npos);
-  // Nothing of it is left in the queue.
-  CHECK(happens([&] { return cluster().ask({"squeue", "-h"}).out.empty(); }));
+  CHECK(read_text(array.work("1.output")).find("Vulkan") != std::string::npos);
 }
 
 TEST_CASE("the folder of an array may have any name without a backslash") {
-  for (const std::string name : {"-x", "100%j", "it's %%A", "a \\ b"}) {
+  for (const std::string name : {"-x", "100%j", "it's %%A"}) {
     CAPTURE(name);
-    const SceneFolder folder;
-    const std::string work = folder / name;
-    const ProcessResult result = run_eyeray(Words{"slurm", folder.scene(), "--shards", "2", "--folder", work,
-                                                  "--poll", "0.1", "-o", folder / "merged.pfm"} +
-                                                quick,
-                                            cluster().environment());
-    CAPTURE(result.err);
-    if (name.find('\\') != std::string::npos) {
-      CHECK(result.code == 2);
-      CHECK(result.err.find("backslash") != std::string::npos);
-      continue;
-    }
-    CHECK(result.code == 0);
-    CHECK(std::filesystem::exists(folder / "merged.pfm"));
-    std::set<std::string> outputs;
-    for (const auto& entry : std::filesystem::directory_iterator(work))
-      if (entry.path().extension() == ".output") outputs.insert(entry.path().filename());
-    CHECK(outputs.size() == 3);
-    CHECK(outputs.contains("merge.output"));
+    ArrayOf array(quick, name);
+    array.add(array.merged());
+    array.said();
+    CHECK(array.ended().at("done") == true);
+    for (const char* output : {"1.output", "3.output", "merge.output"})
+      CHECK(std::filesystem::exists(array.work(output)));
   }
-}
-
-TEST_CASE("a folder that vanishes is told" * doctest::test_suite("long")) {
-  const ArrayOf array(slow);
-  const auto watcher = array.start();
-  REQUIRE(happens([&] { return watcher->wait_for_error_text(" running", 1); }));
-  const int job = array.array();
-  std::filesystem::rename(array.work(), array.folder() / "elsewhere");
-  REQUIRE(watcher->wait(3600));
-  CHECK(watcher->code() == 4);
-  CHECK(watcher->err().find("work is gone, and with it the parts") != std::string::npos);
-  cluster().ask({"scancel", std::to_string(job)});
-  CHECK(happens([&] { return cluster().ask({"squeue", "-h"}).out.empty(); }));
-}
-
-TEST_CASE("a part that is damaged is named by the merge" * doctest::test_suite("long")) {
-  const ArrayOf array(quick);
-  REQUIRE(array.run().code == 0);
-  const std::string part = array.work() + "/2-of-3.eyeray";
-  std::string damaged = read_text(part);
-  damaged[damaged.size() / 2] = char(damaged[damaged.size() / 2] ^ 1);
-  write_text(part, damaged);
-  std::filesystem::remove(array.work() + "/merged");
-  const ProcessResult result = array.run();
-  CHECK(result.code == 4);
-  CHECK(result.err.find("the merge failed: ") != std::string::npos);
-  CHECK(result.err.find("2-of-3.eyeray: it is damaged: its checksum is wrong") != std::string::npos);
+  CHECK(ArrayOf(quick, "a \\ b").run().code == 2);
 }
 
 TEST_CASE("an animation is an array of shares of its frames") {
-  const SceneFolder folder;
-  write_text(folder.scene(), std::string(small_scene) + R"(
+  ArrayOf array(quick);
+  write_text(array.folder().scene(), std::string(small_scene) + R"(
 [[track]]
 target = "sphere.0.radius"
 keyframes = [[0, 1], [10, 0.2]]
 )");
-  const Words command{"slurm", folder.scene(),       "--frames",      "0:4",    "--shards",
-                      "2",     "--folder",           folder / "work", "--poll", "0.1",
-                      "-o",    folder / "f%02d.pfm", "--backend",     "twin",   "--json"};
-  const ProcessResult result = run_eyeray(command, cluster().environment());
-  CAPTURE(result.err);
-  REQUIRE(result.code == 0);
-  CHECK(nlohmann::json::parse(result.out).at("files").size() == 5);
-  CHECK(run_eyeray({"render", folder.scene(), "--backend", "twin", "-q", "-D", "animation.frame=4", "-o",
-                    folder / "four.pfm"})
-            .code == 0);
-  CHECK((read_text(folder / "f04.pfm") == read_text(folder / "four.pfm")));
+  // A stand-in for ffmpeg, which copies the list of frames to its last argument.
+  const FakePrograms programs;
+  programs.add("ffmpeg",
+               "for last; do :; done\n[ \"$1\" = -version ] && exit 0\n"
+               "while [ \"$1\" != -i ]; do shift; done\ncp \"$2\" \"$last\"\n");
+  array.add({"--frames", "0:4", "-o", array.folder() / "f%02d.png", "--video", array.folder() / "it's.mp4"});
+  CHECK(array.said().at("submitted").size() == 2);
+  const Json done = array.ended();
+  CHECK(done.at("done") == true);
+  CHECK(done.at("files").size() == 6);
+  CHECK(read_text(array.folder() / "it's.mp4").find("f04.png") != std::string::npos);
+  std::filesystem::remove(array.folder() / "f04.png");
+  CHECK(array.said().at("missing") == Json{2});
+  CHECK(array.ended().at("done") == true);
 }
 
 TEST_CASE("without Slurm, and with words that are eyeray's own, it ends at once") {
   const SceneFolder folder;
-  const Words command{"slurm", folder.scene(), "--shards", "2", "--folder", folder / "work"};
+  Words command{"slurm", folder.scene(), "--shards", "2", "--folder", folder / "work"};
   const ProcessResult nothing = run_eyeray(command, {{"PATH", "/nowhere"}});
   CHECK(nothing.code == 4);
   CHECK(nothing.err.find("there is no ") != std::string::npos);
-  const ProcessResult own = run_eyeray(command + Words{"--", "--array=1-4"});
+  command.insert(command.end(), {"--", "--array=1-4"});
+  const ProcessResult own = run_eyeray(command);
   CHECK(own.code == 2);
   CHECK(own.err.find("--array is eyeray's to say") != std::string::npos);
 }
