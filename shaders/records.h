@@ -40,8 +40,7 @@ SHADER_BEGIN
 #define BINDING_PHOTON_CELLS 26  // where each key's photons begin, and where the last one's end
 #define BINDING_PHOTON_PASS 27
 #define BINDING_EMITTER_MEDIA 28
-#define BINDING_DRAWN 29
-#define BINDING_FORMULA_NUMBERS 30
+#define BINDING_FORMULA_NUMBERS 29
 
 #define NONE 0xffffffffu
 #define T_MISS 3.0e38f  // "no hit": beyond every t, below infinity, so that an infinite t is a miss
@@ -328,10 +327,6 @@ struct Dispatch {
   uint count;   // pixels of the tile, or rays of a query
   uint stride;  // of a picture by the loop: of so many pixels along each axis one, the first of the tile's
 };
-
-// ---- What a rasteriser draws at a pixel: a triangle's slot and 1, or -----------------------------------------------------
-#define DRAWN_NOTHING 0u
-#define DRAWN_OTHER 0xffffffffu  // what is no triangle of a BVH
 
 SHADER_END
 

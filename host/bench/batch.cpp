@@ -64,19 +64,6 @@ double largest(const Vec3& v) {
 
 }  // namespace
 
-std::vector<uint32_t> primary_pixels(int width, int height) {
-  std::vector<uint32_t> pixels;
-  pixels.reserve(size_t(width) * size_t(height));
-  for (int top = 0; top < height; top += block) {
-    for (int left = 0; left < width; left += block) {
-      for (int y = top; y < std::min(top + block, height); ++y) {
-        for (int x = left; x < std::min(left + block, width); ++x) pixels.push_back(uint32_t(y * width + x));
-      }
-    }
-  }
-  return pixels;
-}
-
 Batch primary_batch(const Scene& scene, int width, int height) {
   ImageSettings image = scene.image;
   image.width = width;
@@ -84,9 +71,15 @@ Batch primary_batch(const Scene& scene, int width, int height) {
   const reference::CameraRays camera(scene.camera, image);
   Batch batch{"primary", QueryKind::nearest, true, {}};
   batch.rays.reserve(size_t(width) * size_t(height));
-  for (const uint32_t pixel : primary_pixels(width, height)) {
-    const Ray ray = camera.ray({int(pixel) % width + 0.5, int(pixel) / width + 0.5});
-    batch.rays.push_back({ray.o, ray.d});
+  for (int top = 0; top < height; top += block) {
+    for (int left = 0; left < width; left += block) {
+      for (int y = top; y < std::min(top + block, height); ++y) {
+        for (int x = left; x < std::min(left + block, width); ++x) {
+          const Ray ray = camera.ray({x + 0.5, y + 0.5});
+          batch.rays.push_back({ray.o, ray.d});
+        }
+      }
+    }
   }
   return batch;
 }

@@ -17,9 +17,6 @@ struct Batch {
   std::vector<Query> rays;
 };
 
-// Row by row, the number of the pixel that each of primary_batch's rays goes through.
-std::vector<uint32_t> primary_pixels(int width, int height);
-
 // The rays through the centres of the pixels of a width × height picture, in blocks of 8 × 8 pixels.
 Batch primary_batch(const Scene& scene, int width, int height);
 

@@ -5,7 +5,6 @@
 #include "host/bench/field_run.hpp"
 #include "host/bench/own_contenders.hpp"
 #include "host/bench/programs.hpp"
-#include "host/bench/rasterizer_contender.hpp"
 #include "host/bench/standard_scenes.hpp"
 #include "host/contenders/povray_scene.hpp"
 #include "host/core/atomic_file.hpp"
@@ -34,19 +33,7 @@ Scene load(const std::string& name, const Options& options) {
   return loader::load_scene(name, overrides);
 }
 
-// nullptr where it cannot draw the scene, which is remarked.
-std::unique_ptr<RasterizerContender> rasterizer_for(const std::string& name, const Scene& scene,
-                                                    const std::string& device, const Listener& listener) {
-  try {
-    return std::make_unique<RasterizerContender>(scene, device);
-  } catch (const Error& error) {
-    if (error.code() != ExitCode::bad_input) throw;
-    listener.remark(fmt::format("{}: without the rasteriser: {}", name, error.what()));
-    return nullptr;
-  }
-}
-
-SceneReport race_on(const std::string& name, const Options& options, const Listener& listener) {
+SceneReport race_on(const std::string& name, const Options& options) {
   const PictureOptions& pictures = options.pictures;
   const StandardScene* const standard = as_standard(name);
   const FieldOptions field{.width = pictures.width, .height = pictures.height, .runs = pictures.runs};
@@ -54,13 +41,9 @@ SceneReport race_on(const std::string& name, const Options& options, const Liste
   scene.image.width = field.width;
   scene.image.height = field.height;
   const OwnContenders ours(scene, pictures.backends, options.incoherent, pictures.device);
-  const auto rasterizer =
-      options.with_rasterizer ? rasterizer_for(name, scene, pictures.device, listener) : nullptr;
-  const Contender draws = rasterizer ? rasterizer->contender() : Contender{};
-  SceneReport report = run_field(name, standard ? std::string(standard->family) : name, scene, field,
-                                 ours.contenders(), rasterizer ? &draws : nullptr);
+  SceneReport report =
+      run_field(name, standard ? std::string(standard->family) : name, scene, field, ours.contenders());
   for (Build& build : ours.builds()) report.builds.push_back(std::move(build));
-  if (rasterizer) report.builds.push_back(rasterizer->build());
   return report;
 }
 
@@ -97,8 +80,7 @@ PictureReport picture_of(const std::string& name, const Options& options, const 
       }
     }
   }
-  pictures.drawn = options.with_rasterizer;
-  return measure_pictures(name, file, pictures, listener.remark);
+  return measure_pictures(name, file, pictures);
 }
 
 std::vector<std::string> all_scenes() {
@@ -129,7 +111,7 @@ Report measure(const Options& options, const Listener& listener) {
 
   for (const std::string& name : scenes) {
     if (options.with_rays) {
-      report.field.push_back(race_on(name, options, listener));
+      report.field.push_back(race_on(name, options));
       listener.rays(report.field.back());
     }
     if (options.with_pictures && (named || name != large_scene)) {

@@ -27,7 +27,6 @@ struct Options {
   std::vector<std::string> incoherent{""};  // ProfileOptions::incoherent, each for a gpu executor of its own
   // In place of rays and pictures, of path-traced scenes; without a name of path_scene.
   std::optional<PathOptions> paths;
-  bool with_rasterizer = false;  // which draws what the eye rays hit
   bool with_rays = true;
   bool with_pictures = true;
 };

@@ -9,7 +9,6 @@ namespace eyeray::bench {
 
 // Beside the type, where the library looks for it.
 NLOHMANN_JSON_SERIALIZE_ENUM(ContenderKind, {{ContenderKind::ours, "ours"},
-                                             {ContenderKind::rasterizer, "rasterizer"},
                                              {ContenderKind::single, "single"},
                                              {ContenderKind::packet, "packet"}})
 
@@ -24,7 +23,7 @@ Json to_json(const BatchReport& batch, const Timing& timing) {
              {{"median", timing.seconds.median}, {"min", timing.seconds.min}, {"max", timing.seconds.max}}},
             {"rays_per_second", rate(batch, timing)},
             {"differing", timing.differing}};
-  if (!beside_embree(timing.kind)) return json;
+  if (timing.kind != ContenderKind::ours) return json;
   for (const auto& [key, kind] :
        {std::pair{"times_single", ContenderKind::single}, {"times_packet", ContenderKind::packet}}) {
     if (const double ratio = times_as_fast(batch, timing, kind); ratio > 0) json[key] = ratio;

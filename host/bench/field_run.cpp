@@ -16,8 +16,7 @@ Contender contender(const contenders::Embree& embree, contenders::EmbreeCalls ca
 }  // namespace
 
 SceneReport run_field(const std::string& name, const std::string& family, const Scene& scene,
-                      const FieldOptions& options, std::span<const Contender> ours,
-                      const Contender* rasterizer) {
+                      const FieldOptions& options, std::span<const Contender> ours) {
   SceneReport report{name, family, scene.primitive_count(), {}, {}};
   const contenders::Embree embree(scene);
   report.builds.push_back({"Embree", embree.build_seconds(), embree.bytes()});
@@ -28,9 +27,6 @@ SceneReport run_field(const std::string& name, const std::string& family, const 
        {contenders::EmbreeCalls::packets_of_8, contenders::EmbreeCalls::packets_of_16})
     contenders.push_back(contender(embree, calls));
 
-  std::vector<Contender> on_eye_rays = contenders;
-  if (rasterizer) on_eye_rays.push_back(*rasterizer);
-
   // What the eye rays hit is where the other two batches start.
   Batch primary = primary_batch(scene, options.width, options.height);
   std::vector<QueryHit> hits(primary.rays.size());
@@ -39,9 +35,7 @@ SceneReport run_field(const std::string& name, const std::string& family, const 
   for (const Batch& batch :
        {std::move(primary), shadow_batch(scene, from), bounce_batch(from, options.seed)}) {
     if (!batch.rays.empty())
-      report.batches.push_back(
-          {batch.name, batch.rays.size(),
-           race(batch, batch.name == "primary" ? on_eye_rays : contenders, options.runs)});
+      report.batches.push_back({batch.name, batch.rays.size(), race(batch, contenders, options.runs)});
   }
   return report;
 }

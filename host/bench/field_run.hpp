@@ -12,10 +12,8 @@ struct FieldOptions {
 };
 
 // Builds Embree's BVH, makes the three batches, and races `ours` on them beside Embree by single rays and
-// packets, and `rasterizer`, unless it is null, on eye rays. Embree's single rays are the first contender:
-// the hits of all others are compared with theirs.
+// packets. Embree's single rays are the first contender: the hits of all others are compared with theirs.
 SceneReport run_field(const std::string& name, const std::string& family, const Scene& scene,
-                      const FieldOptions& options, std::span<const Contender> ours,
-                      const Contender* rasterizer = nullptr);
+                      const FieldOptions& options, std::span<const Contender> ours);
 
 }  // namespace eyeray::bench

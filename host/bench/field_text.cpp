@@ -18,7 +18,7 @@ std::string ratio(double value) {
 }
 
 std::string row(const BatchReport& batch, const Timing& timing) {
-  const bool compared = beside_embree(timing.kind);
+  const bool compared = timing.kind == ContenderKind::ours;
   return fmt::format("  {:<9} {:<24} {:>8}  {:>6} … {:<6} {:>8} {:>9} {:>9}\n", batch.name, timing.contender,
                      millions(rate(batch, timing)), millions(double(batch.rays) / timing.seconds.max),
                      millions(double(batch.rays) / timing.seconds.min),

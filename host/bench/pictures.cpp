@@ -12,12 +12,8 @@ namespace fs = std::filesystem;
 namespace eyeray::bench {
 namespace {
 
-using Remark = std::function<void(const std::string&)>;
-
 // What takes longer is run once: POV-Ray parses a million triangles anew each time.
 constexpr double longest_repeated_seconds = 6;
-
-constexpr const char* drawn_gpu = "gpu drawn";
 
 bool worth_repeating(const Series& series) {
   return series.runs.empty() || series.runs.front().seconds.front().second < longest_repeated_seconds;
@@ -37,16 +33,14 @@ std::optional<fs::path> scene_for_povray(const fs::path& scene, const PictureOpt
 
 std::vector<std::string> arguments(const fs::path& scene, const std::string& backend,
                                    const PictureOptions& options) {
-  std::vector<std::string> words{
-      scene.string(), "--backend", backend == drawn_gpu ? "gpu" : backend, "--device",
-      options.device, "--spp",     std::to_string(options.samples)};
-  if (backend == drawn_gpu) words.insert(words.end(), {"--primary", "raster"});
+  std::vector<std::string> words{scene.string(), "--backend", backend, "--device", options.device};
+  words.insert(words.end(), {"--spp", std::to_string(options.samples)});
   for (const std::string& define : options.defines) words.insert(words.end(), {"-D", define});
   return words;
 }
 
 // All contenders take turns, so that a change of the machine's mood hits them all.
-std::vector<Series> measure(const fs::path& scene, const PictureOptions& options, const Remark& remark) {
+std::vector<Series> measure(const fs::path& scene, const PictureOptions& options) {
   const ScratchFolder scratch;
   const std::optional<fs::path> pov = scene_for_povray(scene, options);
   std::vector<Series> all;
@@ -62,15 +56,6 @@ std::vector<Series> measure(const fs::path& scene, const PictureOptions& options
     return run_eyeray(words, scratch.path() / "eyeray.png");
   };
   if (options.backends.front() == "gpu") run_once("gpu");  // fills the caches
-  if (options.drawn) {
-    try {
-      run_once(drawn_gpu);
-      all.push_back({drawn_gpu, {}});
-    } catch (const Error& error) {
-      if (error.code() != ExitCode::bad_input) throw;
-      remark(fmt::format("{}: without what starts from the rasteriser: {}", scene.string(), error.what()));
-    }
-  }
   for (int i = 0; i < options.runs; ++i) {
     for (Series& series : all)
       if (worth_repeating(series)) series.runs.push_back(run_once(series.name));
@@ -113,8 +98,8 @@ std::optional<PictureReport::PovrayRatio> povray_ratio(const std::vector<Series>
 
 }  // namespace
 
-PictureReport measure_pictures(const std::string& name, const fs::path& scene, const PictureOptions& options,
-                               const Remark& remark) {
+PictureReport measure_pictures(const std::string& name, const fs::path& scene,
+                               const PictureOptions& options) {
   PictureReport report{.scene = name,
                        .width = options.width,
                        .height = options.height,
@@ -123,7 +108,7 @@ PictureReport measure_pictures(const std::string& name, const fs::path& scene, c
                        .primitives = options.primitives,
                        .series = {},
                        .povray = {}};
-  const std::vector<Series> all = measure(scene, options, remark);
+  const std::vector<Series> all = measure(scene, options);
   for (const Series& series : all) report.series.push_back(report_on(series));
   if (options.start)
     for (const Series& series : measure_start(scene, options)) report.series.push_back(report_on(series));

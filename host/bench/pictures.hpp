@@ -24,13 +24,12 @@ struct PictureOptions {
   bool povray = true;                  // where it is installed, and the scene is there as .pov too
   std::filesystem::path povray_scene;  // where none is beside the scene; may be empty
   bool start = true;                   // also cold and warm starts
-  bool drawn = false;                  // also gpu with --primary raster, where that draws the scene
   uint64_t primitives = 0;             // of the scene, to say what memory each takes; 0: not said
 };
 
 // What the runs of one contender took.
 struct SeriesReport {
-  std::string name;                                    // "gpu", "gpu drawn", "povray", "cold start"
+  std::string name;                                    // "gpu", "povray", "cold start"
   std::string device;                                  // "gpu: llvmpipe …"
   std::vector<std::pair<std::string, Spread>> stages;  // seconds, "whole process" first
   Spread tracing;                                      // seconds of tracing alone
@@ -53,11 +52,9 @@ struct PictureReport {
   std::optional<PovrayRatio> povray;  // where both ran
 };
 
-// Measures the scene file, called `name` in the report. Error when a run fails; `remark` hears why a
-// contender is left out.
+// Measures the scene file, called `name` in the report. Error when a run fails.
 PictureReport measure_pictures(const std::string& name, const std::filesystem::path& scene,
-                               const PictureOptions& options,
-                               const std::function<void(const std::string&)>& remark);
+                               const PictureOptions& options);
 
 // As a table, for people.
 std::string to_text(const PictureReport& report);

@@ -13,14 +13,9 @@ namespace eyeray::bench {
 
 enum class ContenderKind {
   ours,
-  rasterizer,
   single,  // Embree by single rays
   packet   // Embree by packets
 };
-// Whose speed is told as a ratio to Embree's.
-constexpr bool beside_embree(ContenderKind kind) {
-  return kind == ContenderKind::ours || kind == ContenderKind::rasterizer;
-}
 
 struct Contender {
   std::string name;

@@ -167,10 +167,6 @@ void add_bench(CLI::App& app, Run& run) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->group("");  // until 0.2
-  command->add_flag(
-      "--raster", what.with_rasterizer,
-      "The device's rasteriser races, too: on eye rays it draws what they hit, and of pictures it is what "
-      "--primary raster starts from.");
   command->add_flag_callback(
       "--no-rays", [options] { options->options.with_rays = false; }, "Whole pictures only.");
   command->add_flag_callback(

@@ -100,9 +100,6 @@ std::vector<executors::Backend> parse_backends(const std::string& list);
 // --backend gpu|twin|reference.
 void add_backend_option(CLI::App& command, executors::Backend& backend);
 
-// --primary trace|raster.
-void add_primary_option(CLI::App& command, executors::PrimaryRays& primary);
-
 // --crop X,Y,W,H; an empty rect when not given. Error (bad_input) at load time when it leaves the picture.
 void add_crop_option(CLI::App& command, Rect& crop);
 void check_crop(const Rect& crop, const ImageSettings& image);

@@ -266,22 +266,6 @@ void add_backend_option(CLI::App& command, executors::Backend& backend) {
       ->group("Device");
 }
 
-void add_primary_option(CLI::App& command, executors::PrimaryRays& primary) {
-  using executors::PrimaryRays;
-  const auto parse = [&primary](const std::string& name) {
-    if (name != "trace" && name != "raster")
-      throw Error(ExitCode::bad_input, "--primary is trace or raster, not '{}'", name);
-    primary = name == "raster" ? PrimaryRays::raster : PrimaryRays::trace;
-  };
-  command
-      .add_option_function<std::string>(
-          "--primary", parse,
-          "Trace eye rays, or start paths from what the device's rasteriser draws, which at edges is the "
-          "driver's choice.")
-      ->option_text("trace|raster")
-      ->group("Device");
-}
-
 void add_crop_option(CLI::App& command, Rect& crop) {
   const auto parse = [&crop](const std::string& text) {
     int numbers[4];

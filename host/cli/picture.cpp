@@ -53,17 +53,10 @@ void PictureRequest::add_to(CLI::App& command) {
   add_crop_option(command, crop);
   add_backend_option(command, backend);
   add_executor_options(command, executor);
-  add_primary_option(command, executor.primary);
 }
 
 void PictureRequest::check_outputs() {
   if (classic) check_classic();
-  if (executor.primary == executors::PrimaryRays::raster && backend != executors::Backend::gpu)
-    throw Error(ExitCode::bad_input, "--primary raster draws on a device: leave out --backend {}",
-                executors::backend_name(backend));
-  if (executor.primary == executors::PrimaryRays::raster && classic)
-    throw Error(ExitCode::bad_input,
-                "--primary raster draws the middles of pixels, and --classic has rays at their corners");
   if (shard) check_shard();
   if (fs::is_directory(scene.file()))
     throw Error(ExitCode::file_io, "cannot read the scene {}: it is a folder; name a scene or a mesh in it",

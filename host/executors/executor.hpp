@@ -24,8 +24,6 @@ class OpenDevice;
 class Tunables;
 
 enum class Backend { gpu, twin, reference };
-// How it is found what eye rays hit: they are traced, or the device's rasteriser draws it.
-enum class PrimaryRays { trace, raster };
 // "gpu", "twin", "reference", both ways; Error (bad_input) for another name.
 Backend parse_backend(std::string_view name);
 std::string_view backend_name(Backend backend);
@@ -103,15 +101,13 @@ struct ExecutorOptions {
   double least_compile_seconds = 0;     // gpu: if that is more, the longest that a kernel may compile
   pack::PackOptions pack;               // all: `acceleration`; gpu and twin: the rest
   ProfileOptions profile;               // gpu
-  // gpu: of pictures (primary_raster.hpp).
-  PrimaryRays primary = PrimaryRays::trace;
-  bool ray_kinds = false;        // gpu: count reflected and refracted rays; the others always do
-  bool search_cost = false;      // gpu: FirstHit::cost; the twin always counts, the reference never
-  bool constants = true;         // gpu: compile the primitives of a small scene into the kernel
-  bool formula_numbers = false;  // gpu: kernels load the numbers of formulas, and suit others too
-  bool optimise = true;          // gpu: give the driver an optimised kernel
-  bool wide_vectors = true;      // gpu: where the picture wants them (trace_plan.hpp)
-  bool sets_environment = true;  // gpu: DeviceOptions::sets_environment
+  bool ray_kinds = false;               // gpu: count reflected and refracted rays; the others always do
+  bool search_cost = false;             // gpu: FirstHit::cost; the twin always counts, the reference never
+  bool constants = true;                // gpu: compile the primitives of a small scene into the kernel
+  bool formula_numbers = false;         // gpu: kernels load the numbers of formulas, and suit others too
+  bool optimise = true;                 // gpu: give the driver an optimised kernel
+  bool wide_vectors = true;             // gpu: where the picture wants them (trace_plan.hpp)
+  bool sets_environment = true;         // gpu: DeviceOptions::sets_environment
   std::shared_ptr<OpenDevice> open_device;  // gpu: taken as it is, and left open; null: one of its own
   std::shared_ptr<Tunables> tunables;       // gpu: constants of shaders that move; null: none do
   bool compile_twin = false;                // twin: compile shader_folder's files as C++ (twin_module.hpp)

@@ -13,7 +13,6 @@
 #include "host/executors/loop_budget.hpp"
 #include "host/executors/open_device.hpp"
 #include "host/executors/photon_kernel.hpp"
-#include "host/executors/primary_raster.hpp"
 #include "host/executors/profile.hpp"
 #include "host/executors/samples.hpp"
 #include "host/executors/scene_facts.hpp"
@@ -56,7 +55,6 @@ class GpuExecutor final : public Executor {
     queries_.emplace(device_, *kernels_, plan, workgroups_, eye_);
     if (sends_photons(scene.render.integrator))
       photons_.emplace(device_, *kernels_, times_, workgroups_, photon_settings(scene), eye_);
-    start_drawing(scene, packed, plan);
     if (plan.wavefront)
       make_wavefront(packed, plan);
     else
@@ -67,7 +65,6 @@ class GpuExecutor final : public Executor {
   bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out,
               std::span<AuxiliarySample> auxiliaries) override {
     if (!send_out_photons(index)) return false;
-    if (drawn_) times_.measure("draw", [&] { drawn_->draw(index); });
     const auto trace = [&](const shader::Dispatch& push, gpu::Buffer& output) {
       return wavefront_ ? wavefront_->run(push, output) : dispatch(*sample_kernel_, push, output);
     };
@@ -140,8 +137,7 @@ class GpuExecutor final : public Executor {
 
   std::string description() const override {
     const gpu::DeviceInfo& info = device_.info();
-    return fmt::format("gpu: {}, {}; {}{}", info.name, info.driver_version, describe(profile_),
-                       drawn_ ? ", eye rays drawn" : "");
+    return fmt::format("gpu: {}, {}; {}", info.name, info.driver_version, describe(profile_));
   }
 
   std::string arithmetic() const override {
@@ -150,10 +146,8 @@ class GpuExecutor final : public Executor {
     std::string text =
         fmt::format("denormals {}, infinities {}", kept(facts.denormals_kept), kept(facts.infinities_kept));
     if (facts.loop_cap) text += fmt::format(", loops end after {} iterations", facts.loop_iterations);
-    const bool exact = facts.exact_arithmetic && !options_.fast_math;
-    if (exact && !drawn_) return "exact, " + text;
-    return fmt::format("{}, {}, on {}, {}", exact ? "exact, eye rays drawn" : "not exact", text,
-                       device_.info().name, device_.info().driver_version);
+    if (facts.exact_arithmetic && !options_.fast_math) return "exact, " + text;
+    return fmt::format("not exact, {}, on {}, {}", text, device_.info().name, device_.info().driver_version);
   }
 
   std::shared_ptr<OpenDevice> device() const override { return open_device_; }
@@ -231,24 +225,12 @@ class GpuExecutor final : public Executor {
     if (!nodes.empty()) kernels_->make_bvh4_of(std::move(nodes), packed.bvhs[0]);
   }
 
-  // Where that is to tell what eye rays hit.
-  void start_drawing(const Scene& scene, const records::PackedScene& packed, const TracePlan& plan) {
-    if (options_.primary == PrimaryRays::trace) return;
-    if (!plan.wavefront)
-      throw Error(ExitCode::bad_input,
-                  "--primary raster draws for a wavefront with packets, which does not suit this scene: {}; "
-                  "leave out --primary",
-                  why_no_wavefront(profile_, packed));
-    times_.measure("project", [&] { drawn_.emplace(device_, scene, packed); });
-  }
-
   void make_wavefront(const records::PackedScene& packed, const TracePlan& plan) {
     WavefrontOptions options;
     options.shadow_rays = shadow_rays(packed);
     options.bounces = most_bounces(packed);
     options.splits = splits(packed);
     options.bounced = plan.bounced;
-    options.drawn = drawn_ ? &drawn_->drawn() : nullptr;
     options.workgroups = workgroups_;
     wavefront_.emplace(
         device_,
@@ -328,7 +310,6 @@ class GpuExecutor final : public Executor {
   std::optional<GpuQueries> queries_;
   std::optional<PhotonKernel> photons_;                         // where the integrator gathers any
   std::vector<std::vector<uint32_t>> left_out_ = {};            // of these, by sample
-  std::optional<PrimaryRaster> drawn_;                          // where eye rays start from it
   std::optional<Wavefront> wavefront_;                          // makes samples,
   std::shared_ptr<gpu::Kernel> sample_kernel_;                  // or else this
   std::shared_ptr<gpu::Kernel> auxiliary_kernel_, hit_kernel_;  // null until they are asked for
@@ -337,13 +318,7 @@ class GpuExecutor final : public Executor {
 
 }  // namespace
 
-std::unique_ptr<Executor> make_gpu_executor(const Scene& scene, const ExecutorOptions& asked) {
-  ExecutorOptions options = asked;
-  if (options.primary == PrimaryRays::raster) {
-    // What is drawn is tested, and what was not is traced, by packets in a BVH.
-    if (options.profile.rays.empty()) options.profile.rays = "packets";
-    if (options.pack.acceleration == Acceleration::automatic) options.pack.acceleration = Acceleration::bvh;
-  }
+std::unique_ptr<Executor> make_gpu_executor(const Scene& scene, const ExecutorOptions& options) {
   StageTimes times;
   records::PackedScene packed = times.measure("pack", [&] { return pack::pack(scene, options.pack); });
   std::shared_ptr<OpenDevice> device = options.open_device;

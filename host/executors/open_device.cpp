@@ -18,7 +18,6 @@ gpu::DeviceOptions device_options(const ExecutorOptions& options, bool wide_vect
   device.compile_seconds = std::max(options.timeout_seconds, options.least_compile_seconds);
   device.wide_vectors = wide_vectors;
   device.sets_environment = options.sets_environment;
-  device.draws = options.primary != PrimaryRays::trace;
   return device;
 }
 

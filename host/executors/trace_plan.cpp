@@ -63,16 +63,6 @@ TracePlan plan_tracing(const Profile& profile, const ProfileOptions& asked, cons
   return plan;
 }
 
-std::string_view why_no_wavefront(const Profile& profile, const records::PackedScene& scene) {
-  if (!profile.packets) return "each ray is to be traced alone";
-  if (!scene.has_bvh) return "there is no BVH";
-  if (!scene.instances.empty()) return "it has instances";
-  if (!scene.leaf_uses.empty()) return "it has CSG objects";
-  if (scene.panes) return "paths pass its panes straight";
-  if (sends_photons(IntegratorType(scene.frame.integrator))) return "its integrator gathers photons";
-  return "the device or the BVH does not suit packets";
-}
-
 bool wants_wide_vectors(const ProfileOptions& asked, const ImageSettings& image,
                         const records::PackedScene& scene) {
   // Pixels gather from few photons to thousands: the wider the vectors, the more of their lanes wait.

@@ -1,8 +1,6 @@
 // By which kernels a scene's rays are traced on a device: coherent and incoherent ones, and a picture's.
 #pragma once
 
-#include <string_view>
-
 #include "host/executors/profile.hpp"
 #include "host/records/packer.hpp"
 #include "host/scene/scene.hpp"
@@ -19,9 +17,6 @@ struct TracePlan {
 // `asked`: what people chose themselves, which is done wherever the scene allows it. `subgroup_size`: lanes.
 TracePlan plan_tracing(const Profile& profile, const ProfileOptions& asked, const ImageSettings& image,
                        const records::PackedScene& scene, uint32_t subgroup_size);
-
-// Why there is no wavefront, though packets were asked for: "it has instances".
-std::string_view why_no_wavefront(const Profile& profile, const records::PackedScene& scene);
 
 // Whether a CPU makes the picture sooner with vectors of 512 bits, each ray alone on its lane: it has so many
 // samples that compiling for them pays, and is none that packets in vectors of 256 bits serve better. That is

@@ -10,13 +10,7 @@ Wavefront::Wavefront(gpu::Device& device, const MakeKernel& make_kernel, const W
     : device_(device), options_(options) {
   const std::string packets = "kernels/cooperative/packet.comp.glsl", shade = "kernels/wavefront.comp.glsl";
   const std::string stored = "#define STORED_HITS 1\n", listed = "#define LISTED\n";
-  if (options.drawn) {
-    drawn_ = make_kernel("kernels/drawn.comp.glsl", "");
-    drawn_->set_buffer(BINDING_DRAWN, *options.drawn);
-    missed_ = make_kernel("kernels/drawn.comp.glsl", listed);
-  } else {
-    eye_.trace = make_kernel(packets, "#define PACKET_PRIMARY\n");
-  }
+  eye_.trace = make_kernel(packets, "#define PACKET_PRIMARY\n");
   if (options.shadow_rays > 0) eye_.shadow = make_kernel(packets, "#define PACKET_SHADOW\n");
   eye_.shade = make_kernel(shade, options.splits ? stored + "#define ENDS_ONLY\n" : stored);
   if (options.bounces == 0) return;
@@ -47,11 +41,10 @@ std::optional<double> Wavefront::run(shader::Dispatch push, gpu::Buffer& results
       kernel->set_buffer(BINDING_NEXT_LIST, next);
     }
   };
-  double seconds = drawn_ ? hit_drawn(push, pixels) : 0;
   list_for(eye_, *lists_[1], *lists_[0]);
   gpu::CommandList eye_commands(device_);
   run(eye_, push, options_.workgroups.of_packets(pixels), options_.workgroups.of_items(pixels), eye_commands);
-  seconds += eye_commands.run().seconds;
+  double seconds = eye_commands.run().seconds;
 
   // Then the paths that go on, bounce by bounce; or all the way, where rays split.
   const uint32_t bounces = options_.splits ? std::min(options_.bounces, 1u) : options_.bounces;
@@ -68,21 +61,6 @@ std::optional<double> Wavefront::run(shader::Dispatch push, gpu::Buffer& results
     seconds += commands.run().seconds;
   }
   return seconds;
-}
-
-double Wavefront::hit_drawn(const shader::Dispatch& push, uint32_t pixels) {
-  gpu::Buffer& missed = *lists_[1];
-  missed.clear(sizeof(uint32_t));
-  drawn_->set_buffer(BINDING_NEXT_LIST, missed);
-  missed_->set_buffer(BINDING_LIST, missed);
-  const auto take = [&](const gpu::Kernel& kernel, uint32_t items) {
-    return gpu::dispatch(device_, kernel, std::as_bytes(std::span(&push, 1)),
-                         {options_.workgroups.of_items(items), 1, 1})
-        .seconds;
-  };
-  const double seconds = take(*drawn_, pixels);
-  const uint32_t count = missed.read_records<uint32_t>(1)[0];
-  return count == 0 ? seconds : seconds + take(*missed_, count);
 }
 
 void Wavefront::run(Bounce& bounce, const shader::Dispatch& push, uint32_t trace_groups,
@@ -103,8 +81,6 @@ void Wavefront::make_room(uint32_t pixels) {
   occlusions_.emplace(device_, pixels * sizeof(uint32_t) * std::max(options_.shadow_rays, 1u), "occlusions");
   paths_.emplace(device_, options_.splits ? 0 : pixels * sizeof(shader::PathState), "paths");
   for (auto& list : lists_) list.emplace(device_, (pixels + 1) * sizeof(uint32_t), "paths that go on");
-  for (gpu::Kernel* kernel : {drawn_.get(), missed_.get()})
-    if (kernel) kernel->set_buffer(BINDING_PACKET_HITS, *hits_);
   for (Bounce* bounce : {&eye_, &later_}) {
     for (gpu::Kernel* kernel : {bounce->trace.get(), bounce->shadow.get(), bounce->shade.get()}) {
       if (!kernel) continue;

@@ -23,8 +23,6 @@ struct WavefrontOptions {
   // How the rays of later bounces are traced, and their shadow rays: `lanes` while they are shaded, or
   // `cooperative` by kernels of their own.
   Rays bounced = Rays::lanes;
-  // What is drawn at each pixel for the next sample (primary_raster.hpp); null: all eye rays are traced.
-  const gpu::Buffer* drawn = nullptr;
   Workgroups workgroups;
 };
 
@@ -48,15 +46,12 @@ class Wavefront {
 
   void run(Bounce& bounce, const shader::Dispatch& push, uint32_t trace_groups, uint32_t shade_groups,
            gpu::CommandList& commands);
-  // The eye rays that start from what is drawn, and of the others the hits; the seconds it took.
-  double hit_drawn(const shader::Dispatch& push, uint32_t pixels);
   void make_room(uint32_t pixels);
 
   gpu::Device& device_;
   WavefrontOptions options_;
   Bounce eye_, later_;
-  std::shared_ptr<gpu::Kernel> drawn_, missed_;  // of eye rays that hit what is drawn, and of the others
-  uint32_t pixels_ = 0;                          // that the buffers have room for
+  uint32_t pixels_ = 0;  // that the buffers have room for
   std::optional<gpu::Buffer> hits_, occlusions_, paths_, lists_[2];
 };
 

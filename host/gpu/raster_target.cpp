@@ -53,15 +53,15 @@ void check_size(const DeviceInfo& device, uint32_t width, uint32_t height) {
   if (std::max(width, height) > device.limits.drawn_size)
     throw Error(
         ExitCode::no_device,
-        "{} draws pictures of {} pixels a side at most, and this one has {}×{}: leave out --raster or "
-        "--primary, or draw fewer",
+        "{} draws pictures of {} pixels a side at most, and this one has {}×{}: leave out --raster, or "
+        "draw fewer",
         device.name, device.limits.drawn_size, width, height);
   const uint64_t bytes = uint64_t{width} * height * pixel_bytes;
   if (bytes > std::min(device.limits.allocation, device.limits.heap / 2))
     throw Error(
         ExitCode::no_device,
         "to draw {}×{} pixels takes two images of {} bytes, and {} has memory for {} (heap of {}): leave "
-        "out --raster or --primary, or draw fewer",
+        "out --raster, or draw fewer",
         width, height, bytes, device.name, device.limits.allocation, device.limits.heap);
 }
 
@@ -118,7 +118,7 @@ void RasterTarget::create_attachment(size_t index) {
   VkFormatProperties format;
   vkGetPhysicalDeviceFormatProperties(context_->physical, type.format, &format);
   if (!(format.optimalTilingFeatures & type.feature))
-    throw Error(ExitCode::no_device, "{} cannot draw {} as 32 bits a pixel: leave out --raster or --primary",
+    throw Error(ExitCode::no_device, "{} cannot draw {} as 32 bits a pixel: leave out --raster",
                 context_->info.name, type.name);
 
   auto image = make<VkImageCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO);
@@ -182,6 +182,7 @@ void RasterTarget::create_pass() {
   check(vkCreateRenderPass(context_->device, &info, nullptr, &pass_), "create a render pass");
 }
 
+// To ids and depths of 0.
 void RasterTarget::clear() {
   context_->begin();
   const VkCommandBuffer commands = context_->commands;
@@ -206,7 +207,7 @@ void RasterTarget::clear() {
 }
 
 // And back to where it is drawn on.
-void RasterTarget::record_copy(size_t index, VkBuffer to, VkDeviceSize offset) const {
+void RasterTarget::record_copy(size_t index) const {
   const AttachmentType& type = types[index];
   const VkImage image = attachments_[index].image;
   const auto before = transition(image, type.aspect, type.layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
@@ -214,27 +215,21 @@ void RasterTarget::record_copy(size_t index, VkBuffer to, VkDeviceSize offset) c
   const auto after =
       transition(image, type.aspect, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, type.layout, 0, drawing_accesses);
   VkBufferImageCopy region = {};
-  region.bufferOffset = offset;
   region.imageSubresource = {type.aspect, 0, 0, 1};
   region.imageExtent = {width_, height_, 1};
   const VkCommandBuffer commands = context_->commands;
   vkCmdPipelineBarrier(commands, drawing_stages, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, nullptr, 0, nullptr, 1,
                        &before);
-  vkCmdCopyImageToBuffer(commands, image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to, 1, &region);
+  vkCmdCopyImageToBuffer(commands, image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, copies_[index]->handle(), 1,
+                         &region);
   vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, drawing_stages, 0, 0, nullptr, 0, nullptr, 1,
                        &after);
 }
 
 void RasterTarget::record_copies() const {
-  for (size_t i = 0; i < attachments_.size(); ++i) record_copy(i, copies_[i]->handle(), 0);
+  for (size_t i = 0; i < attachments_.size(); ++i) record_copy(i);
   record_barrier(context_->commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
                  VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
-}
-
-void RasterTarget::record_copy_of_ids(VkBuffer to, VkDeviceSize offset) const {
-  record_copy(0, to, offset);
-  record_barrier(context_->commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
-                 VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
 }
 
 }  // namespace eyeray::gpu

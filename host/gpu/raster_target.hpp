@@ -19,17 +19,12 @@ class RasterTarget {
   RasterTarget(const RasterTarget&) = delete;
   RasterTarget& operator=(const RasterTarget&) = delete;
 
-  // Back to ids and depths of 0.
-  void clear();
-
   VkExtent2D extent() const { return {width_, height_}; }
   VkRenderPass pass() const { return pass_; }
   VkFramebuffer framebuffer() const { return framebuffer_; }
   // Records into the context's command buffer that ids and depths are copied to memory that the processor
   // sees, once it was submitted and waited for.
   void record_copies() const;
-  // The same of ids, to a buffer from `offset` on, for shaders.
-  void record_copy_of_ids(VkBuffer to, VkDeviceSize offset) const;
   const uint32_t* ids() const { return reinterpret_cast<const uint32_t*>(copies_[0]->mapped()); }
   const float* depths() const { return reinterpret_cast<const float*>(copies_[1]->mapped()); }
 
@@ -43,7 +38,8 @@ class RasterTarget {
   void create();
   void create_attachment(size_t index);
   void create_pass();
-  void record_copy(size_t index, VkBuffer to, VkDeviceSize offset) const;
+  void clear();
+  void record_copy(size_t index) const;
   void destroy();
 
   std::shared_ptr<Context> context_;

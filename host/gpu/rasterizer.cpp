@@ -129,15 +129,13 @@ Rasterizer::Rasterizer(Device& device, const RasterShaders& shaders, int width, 
     : context_(device.context()) {
   CHECK(context_->options.draws);
   if (!context_->draws)
-    throw Error(ExitCode::no_device,
-                "{} has no graphics queue, so it cannot draw triangles: leave out --raster or --primary, or "
-                "choose another --device",
-                context_->info.name);
+    throw Error(
+        ExitCode::no_device,
+        "{} has no graphics queue, so it cannot draw triangles: leave out --raster, or choose another "
+        "--device",
+        context_->info.name);
   objects_ = std::make_unique<Objects>(device, width, height);
-  const VkPushConstantRange offset{VK_SHADER_STAGE_VERTEX_BIT, 0, 2 * sizeof(float)};
-  auto layout = make<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
-  layout.pushConstantRangeCount = 1;
-  layout.pPushConstantRanges = &offset;
+  const auto layout = make<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
   check(vkCreatePipelineLayout(context_->device, &layout, nullptr, &objects_->layout),
         "create a pipeline layout");
   objects_->pipeline = create_pipeline(*context_, objects_->target, objects_->layout, shaders);
@@ -145,7 +143,7 @@ Rasterizer::Rasterizer(Device& device, const RasterShaders& shaders, int width, 
 
 Rasterizer::~Rasterizer() = default;
 
-void Rasterizer::draw(std::span<const RasterVertex> vertices, const std::array<float, 2>& offset) {
+void Rasterizer::draw(std::span<const RasterVertex> vertices) {
   CHECK_EQ(vertices.size() % 3, 0u);
   for (size_t first = 0; first < vertices.size(); first += 3 * batch) {
     const auto some = vertices.subspan(first, std::min(3 * batch, vertices.size() - first));
@@ -167,23 +165,10 @@ void Rasterizer::draw(std::span<const RasterVertex> vertices, const std::array<f
     const VkBuffer buffer = objects_->vertices.raw().handle();
     const VkDeviceSize first_byte = objects_->vertices.payload_offset();
     vkCmdBindVertexBuffers(commands, 0, 1, &buffer, &first_byte);
-    vkCmdPushConstants(commands, objects_->layout, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof offset, &offset);
     vkCmdDraw(commands, uint32_t(some.size()), 1, 0, 0);
     vkCmdEndRenderPass(commands);
     context_->submit_and_wait("draw triangles");
   }
-}
-
-void Rasterizer::clear() {
-  objects_->target.clear();
-}
-
-void Rasterizer::copy_ids(Buffer& to) {
-  const VkExtent2D extent = objects_->target.extent();
-  CHECK(to.size() >= size_t{extent.width} * extent.height * sizeof(uint32_t));
-  context_->begin();
-  objects_->target.record_copy_of_ids(to.raw().handle(), to.payload_offset());
-  context_->submit_and_wait("copy ids on the device");
 }
 
 RasterPicture Rasterizer::read() {

@@ -1,7 +1,6 @@
 // Triangles on a picture by the device's own rasteriser and z-buffer: the one graphics pipeline here.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -43,14 +42,9 @@ class Rasterizer {
   // How many triangles are best drawn at once.
   static constexpr size_t batch = size_t{1} << 16;
 
-  // Draws triangles, three vertices each, beside and behind what was drawn before. Both sides are seen. All
-  // are moved by so much, in clip space.
-  void draw(std::span<const RasterVertex> vertices, const std::array<float, 2>& offset = {});
-  // Forgets what was drawn.
-  void clear();
+  // Draws triangles, three vertices each, beside and behind what was drawn before. Both sides are seen.
+  void draw(std::span<const RasterVertex> vertices);
   RasterPicture read();
-  // Leaves the ids in a buffer of 4 bytes a pixel, for kernels.
-  void copy_ids(Buffer& to);
 
  private:
   struct Objects;  // Vulkan's

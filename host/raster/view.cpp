@@ -43,7 +43,7 @@ View::View(const Camera& camera, const Vec2& size, const Rect& area)
   if (lens || (!pinhole && !parallel))
     throw Error(ExitCode::bad_input,
                 "--raster draws what a projection matrix describes, which is a perspective camera without an "
-                "aperture, or an orthographic one; this {}: leave out --raster or --primary",
+                "aperture, or an orthographic one; this {}: leave out --raster",
                 lens ? "camera has a lens" : "camera is another");
   perspective_ = pinhole != nullptr;
   focal_ = pinhole ? perspective_focal(*pinhole, size) : size.x / (2 * parallel->size);

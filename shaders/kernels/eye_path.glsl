@@ -14,6 +14,5 @@ Path eye_path(uint place) {
   eye_ray(frame, x, y, dispatch.sample_index, ray);
   return begin(frame, ray, y * frame.width + x, dispatch.sample_index);
 }
-Ray eye_ray_of(uint place) { return path_ray(load_frame(), eye_path(place)); }
 
 #endif

@@ -1,4 +1,4 @@
-// Leaves the primitive's id where it is the nearest: what `eyeray verify --raster` and `render --primary raster` draw.
+// Leaves the primitive's id where it is the nearest: what `eyeray verify --raster` draws.
 #version 450
 
 layout(location = 0) flat in uint drawn;

@@ -1,12 +1,11 @@
-// Places a vertex where the host has projected it, in float64: what `eyeray verify --raster` and `render --primary raster` draw.
+// Places a vertex where the host has projected it, in float64: what `eyeray verify --raster` draws.
 #version 450
 
 layout(location = 0) in vec3 place;
 layout(location = 1) in uint id;
 layout(location = 0) flat out uint drawn;
-layout(push_constant) uniform PushConstants { vec2 offset; };
 
 void main() {
-  gl_Position = vec4(place.xy + offset, place.z, 1.0);
+  gl_Position = vec4(place, 1.0);
   drawn = id;
 }

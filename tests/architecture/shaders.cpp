@@ -51,11 +51,11 @@ TEST_CASE("nothing is left to the driver's built-in functions but abs, floor, sq
       R"(transpose|determinant|outerProduct|matrixCompMult|bitCount|bitfieldExtract|findLSB|findMSB|umulExtended|dFdx|dFdy|)"
       R"(texture|packHalf\w+|packUnorm\w+|packSnorm\w+|unpack\w+)\s*\()");
   CHECK(find_code(loose, [](const SourceFile& file) { return !self_test(file); }) == "");
-  // Lanes talk to each other, and paths, rays and photons enter themselves in lists, in the entries that are
+  // Lanes talk to each other, and paths and photons enter themselves in lists, in the entries that are
   // about it.
   const auto no_list = [](const SourceFile& file) {
     return file.path != "shaders/kernels/wavefront.comp.glsl" &&
-           file.path != "shaders/kernels/drawn.comp.glsl" && file.path != "shaders/kernels/photons.comp.glsl";
+           file.path != "shaders/kernels/photons.comp.glsl";
   };
   CHECK(find_code(std::regex(R"(\batomic\w+\s*\()"), no_list) == "");
   const auto alone = [](const SourceFile& file) {

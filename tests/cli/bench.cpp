@@ -35,43 +35,6 @@ TEST_CASE("bench measures every backend, and cold and warm starts") {
   CHECK(compile(3) > compile(4));
 }
 
-TEST_CASE("the rasteriser races on eye rays alone, where it draws the scene") {
-  const SceneFolder folder;
-  const ProcessResult result =
-      run_eyeray({"bench", "terrain-51k", folder.scene(), "-D", "camera.type=fisheye", "-n", "1", "-s",
-                  "60x44", "--raster", "--no-pictures", "--json"});
-  CAPTURE(result.err);
-  REQUIRE(result.code == 0);
-  const auto field = nlohmann::json::parse(result.out).at("field");
-  const auto rasterizers = [&](int scene) {
-    std::map<std::string, double> differing;  // of its batches
-    for (const auto& batch : field.at(scene).at("batches"))
-      for (const auto& timing : batch.at("timings"))
-        if (timing.at("kind") == "rasterizer") differing[batch.at("name")] = timing.at("differing");
-    return differing;
-  };
-  REQUIRE(rasterizers(0).size() == 1);
-  CHECK(rasterizers(0).at("primary") <= 0.002 * 60 * 44);
-  CHECK(field.at(0).at("builds").back().at("bytes") == 51200 * 48);
-  CHECK(rasterizers(1).empty());
-  CHECK(
-      result.err.find(folder.scene() + ": without the rasteriser: --raster draws what a projection matrix") !=
-      std::string::npos);
-}
-
-TEST_CASE("with --raster a picture starts from what is drawn, too, where the scene can be drawn") {
-  const std::string sobol = "scenes/path/cornell_box.toml";
-  const ProcessResult result = run_eyeray({"bench", "terrain-51k", sobol, "-n", "1", "-s", "60x44",
-                                           "--raster", "--no-rays", "--no-start", "--no-povray", "--json"});
-  CAPTURE(result.err);
-  REQUIRE(result.code == 0);
-  const auto pictures = nlohmann::json::parse(result.out).at("bench");
-  REQUIRE(pictures.at(0).at("series").size() == 2);
-  CHECK(pictures.at(0).at("series").at(1).at("name") == "gpu drawn");
-  CHECK(pictures.at(1).at("series").size() == 1);
-  CHECK(result.err.find(sobol + ": without what starts from the rasteriser") != std::string::npos);
-}
-
 TEST_CASE("rays are raced beside Embree, plotted, and compared with an older run") {
   const SceneFolder folder;
   const std::vector<std::string> command{"bench", folder.scene(), "terrain-51k", "-n",

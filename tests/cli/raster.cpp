@@ -1,4 +1,4 @@
-// `verify --raster` and `render --primary raster`: what they say, and of what cannot be drawn.
+// `verify --raster`: what it says, and of what cannot be drawn.
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -77,38 +77,4 @@ TEST_CASE("a device that does not draw, or has no memory for it, is one sentence
   const ProcessResult too_wide = verify({"scenes/whitted.toml", "-s", "60000x1"});
   CHECK(too_wide.code == 3);
   CHECK(has(too_wide.err, " pixels a side at most, and this one has 60000×1: leave out --raster"));
-}
-
-TEST_CASE("--primary raster says what it cannot draw, and why") {
-  const TemporaryFolder folder;
-  const auto error_of = [&](std::vector<std::string> arguments, const Environment& environment = {}) {
-    arguments.insert(arguments.begin(), "render");
-    arguments.insert(arguments.end(), {"-s", "8x6", "--primary", "raster", "-o", folder / "picture.png"});
-    const ProcessResult result = run_eyeray(arguments, environment);
-    CHECK(result.code == (environment.empty() ? 2 : 3));
-    CHECK(!std::filesystem::exists(folder / "picture.png"));
-    return result.err;
-  };
-  CHECK(has(error_of({"scenes/path/cornell_box.toml"}), "or set image.pattern=\"regular\""));
-  CHECK(has(error_of({"scenes/cornell.toml", "-D", "image.filter=\"gaussian\""}), "a filter has its own"));
-  CHECK(has(error_of({"scenes/cameras/fisheye.toml"}), "leave out --raster or --primary"));
-  CHECK(has(error_of({"scenes/veil.toml"}), "primitives (with cutouts): leave out --primary"));
-  std::string veils =
-      "[image]\npattern = 'regular'\n[camera]\neye = [0, 0, 3]\n[[material]]\nname = 'veil'\ntype = 'phong'\n"
-      "alpha = 0.5\nalpha_mode = 'blend'\n";
-  for (int i = 0; i < 100; ++i)
-    veils +=
-        fmt::format("[[disk]]\ncenter = [{}, 0, 0]\nnormal = [0, 0, 1]\nradius = 1\nmaterial = 'veil'\n", i);
-  write_text(folder / "veil.toml", veils);
-  CHECK(has(error_of({folder / "veil.toml"}),
-            "100 of this scene's primitives (that blend): leave out --primary"));
-  CHECK(has(error_of({"scenes/forest.toml"}), "it has instances; leave out --primary"));
-  CHECK(has(error_of({"scenes/cornell.toml", "--rays", "lanes"}), "each ray is to be traced alone"));
-  CHECK(has(error_of({"scenes/cornell.toml", "--acceleration", "brute-force"}), "there is no BVH"));
-  CHECK(has(error_of({"scenes/cornell.toml", "--integrator", "sppm"}), "its integrator gathers photons"));
-  CHECK(has(error_of({"scenes/cornell.toml", "--backend", "twin"}), "leave out --backend twin"));
-  CHECK(has(error_of({"scenes/cornell.toml", "--classic"}), "--classic has rays at their corners"));
-  CHECK(has(error_of({"scenes/cornell.toml"},
-                     {{"EYERAY_VULKAN_LOADER", FAILING_VULKAN}, {"EYERAY_NO_GRAPHICS", "1"}}),
-            " has no graphics queue, so it cannot draw triangles"));
 }

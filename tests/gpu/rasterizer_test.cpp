@@ -76,18 +76,6 @@ TEST_CASE("depth runs straight over a triangle, and ends at 0 and 1") {
   }
 }
 
-TEST_CASE("a cleared picture is as new") {
-  gpu::Rasterizer rasterizer(drawing_device(), raster_shaders(), 8, 8);
-  rasterizer.draw(corner(2, 0.75, 1));
-  rasterizer.clear();
-  rasterizer.draw(corner(1, 0.5, 2));
-  const gpu::RasterPicture picture = rasterizer.read();
-  CHECK(picture.ids.front() == 2);
-  CHECK(picture.depths.front() == 0.5f);
-  CHECK(picture.ids.back() == 0);
-  CHECK(picture.depths.back() == 0);
-}
-
 TEST_CASE("more triangles than a batch are all drawn") {
   std::vector<gpu::RasterVertex> many;
   for (size_t i = 0; i < gpu::Rasterizer::batch; ++i) {

@@ -5,6 +5,11 @@
 
 #include "host/executors/executor.hpp"
 #include "host/loader/scene_file.hpp"
+#include "host/materials/make.hpp"
+#include "host/shapes/make.hpp"
+#include "tests/support/empty_scene.hpp"
+#include "tests/support/meshes.hpp"
+//
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
@@ -34,6 +39,7 @@ struct Compared {
   Witness witness{scene, all, {.validation = "core"}};
   compare::Frame frame = traced(scene);
 
+  explicit Compared(Scene made) : scene(std::move(made)) {}
   // What gate R says once each hit is damaged.
   compare::RasterResult with(const std::function<void(FirstHit&)>& damage) const {
     compare::Frame damaged = frame;
@@ -41,6 +47,29 @@ struct Compared {
     return witness.compare(damaged, "damaged");
   }
 };
+
+// One-sided squares before a wall, each over a quarter of the picture: the upper two face the viewer, and the
+// left upper one and the right lower one are mirrored.
+Scene one_sided_squares() {
+  Scene scene = test::empty_scene();
+  scene.camera.eye = Vec3(0, 0, 8);
+  scene.image.width = all.width;
+  scene.image.height = all.height;
+  const int front = test::add(scene, materials::make_phong({})),
+            behind = test::add(scene, materials::make_phong({}));
+  scene.materials[size_t(front)]->front_only = true;
+  shapes::TriangleValues wall;
+  wall.vertices = {Vec3(-90, -90, -2), Vec3(90, -90, -2), Vec3(0, 90, -2)};
+  test::add(scene, shapes::make_triangle(wall), behind);
+  for (const auto& [x, y] : {std::pair(1, 1), {-1, 1}, {-1, -1}, {1, -1}}) {
+    std::vector<std::array<uint32_t, 3>> corners{{0, 1, 2}, {0, 2, 3}};
+    if (y < 0) corners = {{2, 1, 0}, {3, 2, 0}};
+    const int mesh = test::add(
+        scene, test::make_mesh({Vec3(0, 0, 0), Vec3(20, 0, 0), Vec3(20, 20, 0), Vec3(0, 20, 0)}, corners));
+    test::add_instance(scene, mesh, front, glm::scale(Mat4(1.0), Vec3(x, y, 1)));
+  }
+  return scene;
+}
 
 }  // namespace
 
@@ -58,6 +87,16 @@ TEST_CASE("the reference's rays of a mesh, of a crop, of parallel rays, hit what
   const Rect crop{30, 20, 17, 11};
   const Witness witness(scene, crop, {.validation = "sync"});
   CHECK(witness.compare(traced(scene, crop), "part").passes());
+}
+
+TEST_CASE("one-sided meshes are drawn from their front alone, mirrored ones too") {
+  const Compared compared{one_sided_squares()};
+  CHECK(compared.with([](FirstHit&) {}).passes());
+  const auto hits_of = [&](uint32_t row) {
+    return compared.frame.first_hits[row * all.width + 20].primitive;
+  };
+  CHECK(hits_of(10) > 0);
+  CHECK(hits_of(60) == 0);
 }
 
 TEST_CASE("neighbours' ids, another t, another place, a miss and a ghost are each found") {
