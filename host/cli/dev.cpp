@@ -14,9 +14,6 @@
 #include "host/core/standard_streams.hpp"
 #include "host/dev/render_server.hpp"
 #include "host/dev/supervisor.hpp"
-#include "host/dev/terminal.hpp"
-#include "host/dev/tev.hpp"
-#include "host/image/false_color.hpp"
 #include "host/image/image_file.hpp"
 
 namespace eyeray::cli {
@@ -33,8 +30,6 @@ struct DevCommand {
   bool json = false;
   bool once = false;
   bool no_page = false;
-  std::optional<dev::TerminalGraphics> terminal;
-  std::optional<dev::Tev> tev;
   int port = usual_port;
   int worker_socket = -1;  // in the worker
 
@@ -59,17 +54,9 @@ std::string github_annotation(const Json& diagnostic) {
 }
 
 void DevCommand::report_picture(const Json& done, const dev::Board& board) {
-  const std::string view = done.value("view", "gpu");
-  if (const auto picture = board.picture(view)) {
-    const image::Image& image = picture->image;
-    const image::Image shown = picture->shown_as ? image::false_color(image, *picture->shown_as) : image;
-    if (terminal) fmt::print("{}", dev::in_terminal(shown, *terminal, dev::terminal_size()));
-    if (tev)
-      if (const std::string failure = tev->show(fmt::format("{} {}", scene.file(), view), shown);
-          !failure.empty())
-        print_lines(stderr, "eyeray: warning: {}\n", failure);
+  if (const auto picture = board.picture(done.value("view", "gpu"))) {
     try {
-      for (const std::string& output : outputs) image::write_image(output, image);
+      for (const std::string& output : outputs) image::write_image(output, picture->image);
     } catch (const Error& error) {  // the next one may find room
       if (once) throw;
       print_lines(stderr, "eyeray: error: {}\n", error.what());
@@ -191,20 +178,6 @@ void add_dev(CLI::App& app, Run& run) {
   command->add_option("--port", options->port, "Of the page, on 127.0.0.1; another where it is taken.")
       ->option_text(fmt::format("N={}", usual_port))
       ->check(CLI::Range(1, 65535));
-  command
-      ->add_option_function<std::string>(
-          "--term",
-          [options](const std::string& name) { options->terminal = dev::parse_terminal_graphics(name); },
-          "Show each picture that is done in the terminal too: auto, kitty, sixel or blocks.")
-      ->option_text("[HOW]=auto")
-      ->expected(0, 1)
-      ->default_str("auto");
-  command
-      ->add_option_function<std::string>(
-          "--tev", [options](const std::string& address) { options->tev.emplace(address); },
-          "Show it in the viewer tev too, which listens there.")
-      ->option_text("HOST:PORT")
-      ->type_size(1);
   command->add_flag("--no-page", options->no_page, "Show nothing in a browser.");
   command->add_flag("--once", options->once, "Render once, and end: exit code 0, or that of what is wrong.");
   command
