@@ -75,33 +75,6 @@ ExitCode TerrainCommand::run() {
   return ExitCode::ok;
 }
 
-struct ClassicCommand {
-  const generate::Classic& classic;
-  int size_factor = classic.size_factor;
-  bool patches = false;
-  GenerateOutput output = {};
-
-  ExitCode run() const;
-};
-
-ExitCode ClassicCommand::run() const {
-  if (size_factor > classic.largest)
-    throw Error(ExitCode::bad_input, "the largest size factor of {} is {}: {}", classic.name, classic.largest,
-                classic.limit);
-  const bool mesh = classic.mesh && !patches;
-  write_generated(output, mesh, [&] {
-    Generated made{.recipe = fmt::format("{} --size-factor {}{}", classic.name, size_factor,
-                                         patches ? " --patches" : ""),
-                   .counts = classic.counts(size_factor),
-                   .scene = classic.scene(size_factor),
-                   .mesh_keys = std::string(classic.mesh_keys)};
-    if (patches) made.scene += classic.patches();
-    if (mesh) made.mesh = [&](generate::MeshSink& sink) { classic.mesh(size_factor, sink); };
-    return made;
-  });
-  return ExitCode::ok;
-}
-
 void add_output(CLI::App& command, GenerateOutput& output) {
   command.add_option("-o,--output", output.scene, "The scene file; a mesh lies beside it as .ply.")
       ->option_text("FILE.toml")
@@ -154,21 +127,6 @@ void add_terrain(CLI::App& generate, Run& run) {
   command->callback([options, &run] { run = [options] { return options->run(); }; });
 }
 
-void add_classic(CLI::App& generate, const generate::Classic& classic, Run& run) {
-  CLI::App* const command = generate.add_subcommand(std::string(classic.name),
-                                                    fmt::format("{} One of Haines' databases.", classic.doc));
-  const auto options = std::make_shared<ClassicCommand>(ClassicCommand{classic});
-  add_output(*command, options->output);
-  command->add_option("--size-factor", options->size_factor, std::string(classic.sizes))
-      ->option_text(fmt::format("N={}", classic.size_factor))
-      ->check(CLI::Range(1, std::numeric_limits<int>::max()));
-  if (classic.patches)
-    command->add_flag("--patches", options->patches, "Its Bezier patches themselves instead of a mesh.");
-  command->footer(fmt::format("Example: eyeray generate {0} -o {0}.toml --size-factor {1}", classic.name,
-                              classic.size_factor + 1));
-  command->callback([options, &run] { run = [options] { return options->run(); }; });
-}
-
 void add_studio(CLI::App& generate, Run& run) {
   struct Options {
     std::filesystem::path picture;
@@ -196,7 +154,6 @@ void add_studio(CLI::App& generate, Run& run) {
 void add_generate(CLI::App& app, Run& run) {
   CLI::App* const command = app.add_subcommand("generate", "Write a procedural scene, of any size.");
   add_sphereflake(*command, run);
-  for (const generate::Classic& classic : generate::classics()) add_classic(*command, classic, run);
   add_terrain(*command, run);
   add_studio(*command, run);
   command->footer(

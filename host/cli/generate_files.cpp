@@ -49,7 +49,7 @@ Mesh write_mesh(const fs::path& path, const Generated& made) {
 
 void report(const GenerateOutput& output, const Generated& made, const Mesh& mesh, uint64_t bytes,
             double seconds) {
-  std::vector<generate::Count> counts = made.counts;
+  std::vector<Count> counts = made.counts;
   if (made.mesh) counts.push_back({"triangles", mesh.triangles});
   std::vector<std::string> parts;
   for (const auto& [what, number] : counts)

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host/generate/classic.hpp"
+#include "host/generate/mesh_sink.hpp"
 
 namespace eyeray::cli {
 
@@ -19,9 +19,14 @@ struct GenerateOutput {
   std::filesystem::path mesh() const { return std::filesystem::path(scene).replace_extension(".ply"); }
 };
 
+struct Count {
+  std::string_view what;
+  uint64_t number;
+};
+
 struct Generated {
-  std::string recipe = {};                   // the words after `eyeray generate` that make the same again
-  std::vector<generate::Count> counts = {};  // of what the scene file has
+  std::string recipe = {};         // the words after `eyeray generate` that make the same again
+  std::vector<Count> counts = {};  // of what the scene file has
   std::string scene = {};
   std::function<void(generate::MeshSink&)> mesh = {};  // empty: none
   std::string mesh_keys = {};                          // of its [[mesh]], beside `file`

@@ -1,14 +1,13 @@
 // What the scenes of Haines' Standard Procedural Databases have in common (A Proposal for Standard Graphics
-// Environments, IEEE CG&A 7(11), 1987; package 3.14, CC0), and the list of them.
+// Environments, IEEE CG&A 7(11), 1987; package 3.14, CC0).
 #pragma once
 
 #include <array>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "host/generate/mesh_sink.hpp"
+#include "host/core/vec.hpp"
 
 namespace eyeray::generate {
 
@@ -40,31 +39,5 @@ std::string classic_stage(const ClassicView& view);
 std::string classic_material(const ClassicSurface& surface);
 // A flat surface of four corners, as two triangles.
 std::string classic_square(std::string_view material, const std::array<Vec3, 4>& corners);
-
-struct Count {
-  std::string_view what;
-  uint64_t number;
-};
-
-inline constexpr std::string_view most_text = "a scene file may have 256 MiB";
-inline constexpr std::string_view most_triangles = "a mesh may have 2^29 triangles";
-
-// A scene that is its name and its size factor.
-struct Classic {
-  std::string_view name;
-  std::string_view doc;    // what it shows
-  std::string_view sizes;  // what the size factor means
-  int size_factor;         // that of the published statistics
-  int largest;
-  std::string_view limit;             // why it is, such as most_text
-  std::vector<Count> (*counts)(int);  // of what it consists, but for a mesh
-  std::string (*scene)(int);          // TOML of all but the mesh
-  void (*mesh)(int, MeshSink&) = nullptr;
-  std::string_view mesh_keys = "";  // of its [[mesh]], beside `file`
-  // TOML of what stands in the mesh's place where it is a smooth surface that the mesh only comes near to.
-  std::string (*patches)() = nullptr;
-};
-
-std::span<const Classic> classics();
 
 }  // namespace eyeray::generate

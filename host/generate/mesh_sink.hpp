@@ -7,14 +7,12 @@
 
 namespace eyeray::generate {
 
-enum class Shading { smooth, flat };  // with a normal at each vertex, or with none
-
 // Takes a mesh: begin, then every vertex, then every triangle.
 class MeshSink {
  public:
   virtual ~MeshSink() = default;
-  virtual void begin(uint64_t vertices, uint64_t triangles, Shading shading) = 0;
-  // `normal` is unit; of a flat mesh it counts for nothing.
+  virtual void begin(uint64_t vertices, uint64_t triangles) = 0;
+  // `normal` is unit.
   virtual void vertex(const Vec3& position, const Vec3& normal) = 0;
   // Corners counter-clockwise seen from outside.
   virtual void triangle(uint32_t a, uint32_t b, uint32_t c) = 0;
@@ -26,22 +24,18 @@ inline constexpr uint64_t max_generated_triangles = uint64_t{1} << 29;
 // Keeps the mesh.
 class MeshInMemory final : public MeshSink {
  public:
-  void begin(uint64_t vertices, uint64_t triangles, Shading shading) override {
-    shading_ = shading;
+  void begin(uint64_t vertices, uint64_t triangles) override {
     mesh.positions.reserve(vertices);
-    if (shading == Shading::smooth) mesh.normals.reserve(vertices);
+    mesh.normals.reserve(vertices);
     mesh.triangles.reserve(triangles);
   }
   void vertex(const Vec3& position, const Vec3& normal) override {
     mesh.positions.push_back(position);
-    if (shading_ == Shading::smooth) mesh.normals.push_back(normal);
+    mesh.normals.push_back(normal);
   }
   void triangle(uint32_t a, uint32_t b, uint32_t c) override { mesh.triangles.push_back({a, b, c}); }
 
   Mesh mesh;
-
- private:
-  Shading shading_ = Shading::smooth;
 };
 
 }  // namespace eyeray::generate

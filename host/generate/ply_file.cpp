@@ -36,21 +36,19 @@ void PlyFile::flush() {
   buffer_.clear();
 }
 
-void PlyFile::begin(uint64_t vertices, uint64_t triangles, Shading shading) {
+void PlyFile::begin(uint64_t vertices, uint64_t triangles) {
   CHECK_EQ(bytes(), 0u);
   CHECK_LE(triangles, max_generated_triangles);
-  shading_ = shading;
   vertices_ = vertices_left_ = vertices;
   triangles_ = triangles_left_ = triangles;
   const std::string header = fmt::format(
       "ply\nformat binary_little_endian 1.0\ncomment {}\n"
       "element vertex {}\n"
-      "property float x\nproperty float y\nproperty float z\n{}"
+      "property float x\nproperty float y\nproperty float z\n"
+      "property float nx\nproperty float ny\nproperty float nz\n"
       "element face {}\n"
       "property list uchar uint vertex_indices\nend_header\n",
-      comment_, vertices,
-      shading == Shading::smooth ? "property float nx\nproperty float ny\nproperty float nz\n" : "",
-      triangles);
+      comment_, vertices, triangles);
   for (const char c : header) append(c);
 }
 
@@ -58,7 +56,6 @@ void PlyFile::vertex(const Vec3& position, const Vec3& normal) {
   CHECK_LT(0u, vertices_left_);
   --vertices_left_;
   for (int i = 0; i < 3; ++i) append(float(position[i]));
-  if (shading_ == Shading::flat) return;
   for (int i = 0; i < 3; ++i) append(float(normal[i]));
 }
 

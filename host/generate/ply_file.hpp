@@ -9,14 +9,14 @@
 
 namespace eyeray::generate {
 
-// Float32 positions and normals, 24 bytes a vertex or 12 without normals, and 13 bytes a triangle. The file
+// Float32 positions and normals, 24 bytes a vertex, and 13 bytes a triangle. The file
 // appears with commit(). Error: file_io where the disk does not take it, interrupted after Ctrl-C.
 class PlyFile final : public MeshSink {
  public:
   // `comment` stands in the header, on one line.
   PlyFile(const std::filesystem::path& path, std::string comment);
 
-  void begin(uint64_t vertices, uint64_t triangles, Shading shading) override;
+  void begin(uint64_t vertices, uint64_t triangles) override;
   void vertex(const Vec3& position, const Vec3& normal) override;
   void triangle(uint32_t a, uint32_t b, uint32_t c) override;
   // Everything that begin() promised must have come.
@@ -35,7 +35,6 @@ class PlyFile final : public MeshSink {
   std::string comment_;
   std::vector<std::byte> buffer_;
   uint64_t bytes_ = 0;  // written before what is in the buffer
-  Shading shading_ = Shading::smooth;
   uint64_t vertices_ = 0;
   uint64_t triangles_ = 0;
   uint64_t vertices_left_ = 0;

@@ -85,7 +85,7 @@ std::string sphereflake_spheres(int size_factor) {
 void sphereflake_mesh(int size_factor, int divisions, MeshSink& sink) {
   const Mesh unit = octasphere(divisions);
   const uint64_t balls = sphereflake_count(size_factor);
-  sink.begin(balls * unit.positions.size(), sphereflake_triangles(size_factor, divisions), Shading::smooth);
+  sink.begin(balls * unit.positions.size(), sphereflake_triangles(size_factor, divisions));
   for_each_ball(size_factor, [&](const Ball& ball) {
     for (const Vec3& n : unit.positions) sink.vertex(ball.center + ball.radius * n, n);
   });

@@ -89,7 +89,7 @@ void terrain_mesh(const TerrainOptions& options, MeshSink& sink) {
   const int grid = options.grid;
   CHECK_LE(1, grid);
   CHECK_LE(grid, max_terrain_grid);
-  sink.begin(uint64_t(grid + 1) * uint64_t(grid + 1), 2 * uint64_t(grid) * uint64_t(grid), Shading::smooth);
+  sink.begin(uint64_t(grid + 1) * uint64_t(grid + 1), 2 * uint64_t(grid) * uint64_t(grid));
 
   for (int first = 0; first <= grid; first += rows_at_once) {
     const int end = std::min(first + rows_at_once, grid + 1);

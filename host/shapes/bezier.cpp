@@ -28,7 +28,7 @@ points = [
 material = "wall"
 ```
 
-Several patches of one table stand in a `batch = { points = [[…], […]] }`; `eyeray generate teapot --patches` writes Newell's 32 so. Edges may be points, as on top of
+Several patches of one table stand in a `batch = { points = [[…], […]] }`, as Newell's 32 in `scenes/shapes/include/gallery.toml`. Edges may be points, as on top of
 the teapot's lid. A patch all of whose points lie on one line is refused. `transform` may be any affine map that can be undone. Each crossing takes √`shadow` from a
 shadow ray, as of a mesh, since closed surfaces are made of many patches.
 

@@ -1,6 +1,4 @@
 // eyeray generate writes scenes that eyeray reads, whole or not at all.
-#include <map>
-
 #include <nlohmann/json.hpp>
 
 #include "scene.hpp"
@@ -58,42 +56,6 @@ TEST_CASE("meshes lie beside their scene, as large as they say") {
   CHECK(folder.names() == std::set<std::string>{"alps.ply", "alps.toml", "flake.ply", "flake.toml"});
 }
 
-TEST_CASE("every classic is a scene that passes verify, its mesh beside it" * doctest::test_suite("long")) {
-  struct ClassicCase {
-    std::string name, size_factor;
-    std::map<std::string, int> counts;
-  };
-  const ClassicCase cases[] = {
-      {"tetra", "3", {{"triangles", 64}, {"vertices", 64}}},
-      {"tree", "3", {{"cones", 15}, {"spheres", 15}, {"squares", 1}}},
-      {"rings", "1", {{"cylinders", 30}, {"spheres", 30}, {"squares", 1}}},
-      {"gears", "1", {{"polygons", 146}, {"squares", 1}}},
-      {"mount", "3", {{"spheres", 4}, {"triangles", 128}, {"vertices", 81}}},
-      {"teapot", "6", {{"squares", 36}, {"triangles", 2256}, {"vertices", 32 * 49}}},
-  };
-  for (const auto& [name, size_factor, counts] : cases) {
-    const std::string classic = name;
-    CAPTURE(classic);
-    const TemporaryFolder folder;
-    const std::string scene = folder / (name + ".toml");
-    const ProcessResult made =
-        run_eyeray({"generate", name, "-o", scene, "--size-factor", size_factor, "--json"});
-    CAPTURE(made.err);
-    REQUIRE(made.code == 0);
-    const auto summary = nlohmann::json::parse(made.out);
-    for (const auto& [what, number] : counts) CHECK(summary.at(what) == number);
-    CHECK(read_text(scene).starts_with("# Made by eyeray generate: " + name + " --size-factor " +
-                                       size_factor + "\n"));
-    const bool mesh = counts.contains("vertices");
-    CHECK(folder.names().size() == (mesh ? 2 : 1));
-    CHECK(summary.contains("mesh") == mesh);
-
-    const ProcessResult verified = run_eyeray({"verify", scene, "-s", "64x64", "--quiet"});
-    CHECK(verified.err == "");  // no warnings either
-    CHECK(verified.code == 0);
-  }
-}
-
 TEST_CASE("what cannot be generated is refused in one line, and leaves no file") {
   const SceneFolder folder;
   struct Refusal {
@@ -114,12 +76,6 @@ TEST_CASE("what cannot be generated is refused in one line, and leaves no file")
       {{"sphereflake", "-o", fresh, "--size-factor", "8", "--tessellate", "2"},
        2,
        "that would be 1549681952 triangles; the most is 536870912"},
-      {{"tetra", "-o", fresh, "--size-factor", "15"},
-       2,
-       "the largest size factor of tetra is 14: a mesh may have 2^29 triangles"},
-      {{"rings", "-o", fresh, "--size-factor", "2000000000"},
-       2,
-       "the largest size factor of rings is 55: a scene file may have 256 MiB"},
       {{"terrain", "-o", fresh, "--triangles", "600000000"},
        2,
        "that would be 600000000 triangles; the most is 536870912"},

@@ -1,9 +1,7 @@
 #include "host/generate/ply_file.hpp"
 
 #include <cstring>
-#include <map>
 
-#include "host/generate/classic.hpp"
 #include "host/generate/sphereflake.hpp"
 #include "host/generate/terrain.hpp"
 #include "tests/support/process.hpp"
@@ -29,7 +27,7 @@ uint64_t hash(const std::string& bytes) {
 TEST_CASE("a PLY file has its header, then vertices, then faces, little-endian") {
   const TemporaryFolder folder;
   PlyFile file(folder / "a.ply", "a comment");
-  file.begin(3, 1, Shading::smooth);
+  file.begin(3, 1);
   file.vertex({1, 2, 3}, {0, 0, 1});
   file.vertex({4, 5, 6}, {0, 1, 0});
   file.vertex({0.1, 0, 0}, {1, 0, 0});
@@ -55,27 +53,11 @@ TEST_CASE("a PLY file has its header, then vertices, then faces, little-endian")
   CHECK(text.substr(header.size() + 72) == std::string("\3\0\0\0\0\1\0\0\0\2\0\0\0", 13));
 }
 
-TEST_CASE("a flat mesh's file has no normals") {
-  const TemporaryFolder folder;
-  PlyFile file(folder / "a.ply", "flat");
-  file.begin(3, 1, Shading::flat);
-  for (const Vec3& p : {Vec3(1, 2, 3), Vec3(4, 5, 6), Vec3(7, 8, 9)}) file.vertex(p, {});
-  file.triangle(0, 1, 2);
-  file.commit();
-  const std::string text = read_text(folder / "a.ply");
-  CHECK(text.find("property float z\nelement face 1\n") != std::string::npos);
-  const size_t header = text.find("end_header\n") + 11;
-  REQUIRE(text.size() == header + 3 * 12 + 13);
-  float values[9];
-  std::memcpy(values, text.data() + header, sizeof values);
-  for (int i = 0; i < 9; ++i) CHECK(values[i] == float(i + 1));
-}
-
 TEST_CASE("a mesh that is not finished leaves nothing") {
   const TemporaryFolder folder;
   {
     PlyFile file(folder / "a.ply", "");
-    file.begin(300'000, 1, Shading::smooth);
+    file.begin(300'000, 1);
     for (int i = 0; i < 300'000; ++i) file.vertex(Vec3(0.0), {0, 0, 1});
   }
   CHECK(folder.names().empty());
@@ -93,24 +75,4 @@ TEST_CASE("generated files are the same on every machine") {
   flake.commit();
   CHECK(hash(read_text(folder / "flake.ply")) == 9839308808140660727u);
   CHECK(hash(sphereflake_spheres(4)) == 16982202584418866316u);
-
-  // Of scene and mesh.
-  const std::map<std::string_view, std::array<uint64_t, 2>> classic_hashes = {
-      {"tetra", {2566782015615603335u, 12581762776866036133u}},
-      {"tree", {9949802643731760650u, 0}},
-      {"rings", {9619113005617830364u, 0}},
-      {"gears", {3490816559108116638u, 0}},
-      {"mount", {2584440457318920980u, 15005146007178542113u}},
-      {"teapot", {14855613625002397402u, 17723557487756056566u}},
-  };
-  for (const Classic& classic : classics()) {
-    CAPTURE(classic.name);
-    const auto& [scene, mesh] = classic_hashes.at(classic.name);
-    CHECK(hash(classic.scene(4)) == scene);
-    if (!classic.mesh) continue;
-    PlyFile file(folder / "classic.ply", "");
-    classic.mesh(4, file);
-    file.commit();
-    CHECK(hash(read_text(folder / "classic.ply")) == mesh);
-  }
 }

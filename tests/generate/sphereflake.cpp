@@ -5,8 +5,8 @@
 
 #include "host/generate/octasphere.hpp"
 #include "host/loader/scene_file.hpp"
+#include "tests/support/pixel.hpp"
 //
-#include "pixel.hpp"
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;

@@ -1,9 +1,6 @@
-#include "host/generate/tree.hpp"
+#include "classics.hpp"
 
-#include "host/generate/batch_text.hpp"
-#include "host/generate/portable_math.hpp"
-
-namespace eyeray::generate {
+namespace eyeray::classics {
 namespace {
 
 // A map of space, first `linear`, then moved.
@@ -67,16 +64,9 @@ void for_each_branch(int size_factor, const std::function<void(const Branch&)>& 
 
 const Classic tree_classic = {
     .name = "tree",
-    .doc = "Cones and spheres: each branch bears two.",
-    .sizes = "Forks in a row: 11 has 4095 cones and as many spheres.",
     .size_factor = 11,
-    .largest = 19,
-    .limit = most_text,
-    .counts =
-        [](int n) {
-          return std::vector<Count>{{"cones", branches(n)}, {"spheres", branches(n)}, {"squares", 1}};
-        },
+    .shapes = [](int n) { return 2 * branches(n) + 2; },
     .scene = scene,
 };
 
-}  // namespace eyeray::generate
+}  // namespace eyeray::classics

@@ -1,7 +1,7 @@
 // Newell's numbers.
-#include "host/generate/teapot.hpp"
+#include "classics.hpp"
 
-namespace eyeray::generate {
+namespace eyeray::classics {
 namespace {
 
 struct Ring {
@@ -72,4 +72,4 @@ std::vector<BezierPatch> teapot_patches() {
   return all;
 }
 
-}  // namespace eyeray::generate
+}  // namespace eyeray::classics

@@ -1,12 +1,9 @@
-#include "host/generate/mount.hpp"
-
 #include <cmath>
 
+#include "classics.hpp"
 #include "host/core/parallel_for.hpp"
-#include "host/generate/batch_text.hpp"
-#include "host/generate/portable_math.hpp"
 
-namespace eyeray::generate {
+namespace eyeray::classics {
 namespace {
 
 // √(2^(1/3) − 1): displacements for the fractal dimension 2.2.
@@ -15,19 +12,19 @@ constexpr double roughness = 0.5098245285339583;
 constexpr double root_of_two = 1.4142136;
 
 // The square of `cells` a side whose first grid point is (i, j).
-void add_triangles(MeshSink& sink, int grid, int cells, int i, int j) {
+void add_triangles(Mesh& mesh, int grid, int cells, int i, int j) {
   if (cells > 1) {
     const int half = cells / 2;
-    add_triangles(sink, grid, half, i, j);
-    add_triangles(sink, grid, half, i + half, j);
-    add_triangles(sink, grid, half, i + half, j + half);
-    add_triangles(sink, grid, half, i, j + half);
+    add_triangles(mesh, grid, half, i, j);
+    add_triangles(mesh, grid, half, i + half, j);
+    add_triangles(mesh, grid, half, i + half, j + half);
+    add_triangles(mesh, grid, half, i, j + half);
     return;
   }
   const uint32_t a = uint32_t(j) * uint32_t(grid + 1) + uint32_t(i), b = a + 1;
   const uint32_t d = a + uint32_t(grid + 1), c = d + 1;
-  sink.triangle(a, b, c);
-  sink.triangle(c, d, a);
+  mesh.triangles.push_back({a, b, c});
+  mesh.triangles.push_back({c, d, a});
 }
 
 std::string scene(int) {
@@ -67,7 +64,7 @@ double mount_gauss(uint32_t seed) {
     state = uint32_t(next(first));
     const double x = 2.0 * first / 134456 - 1, y = 2.0 * state / 134456 - 1;
     const double r = x * x + y * y;
-    if (r < 1) return x * std::sqrt(-2 * natural_log(r) / r);
+    if (r < 1) return x * std::sqrt(-2 * std::log(r) / r);
   }
 }
 
@@ -99,28 +96,27 @@ std::vector<double> mount_heights(int size_factor) {
   return heights;
 }
 
-void mount_mesh(int size_factor, MeshSink& sink) {
+// 2 · 4ⁿ triangles, a quarter of the square after the other.
+static Mesh mesh(int size_factor) {
+  Mesh mesh;
   const int grid = 1 << size_factor;
   const std::vector<double> heights = mount_heights(size_factor);
-  sink.begin(heights.size(), uint64_t{2} << (2 * size_factor), Shading::flat);
   const double* height = heights.data();
   for (int j = 0; j <= grid; ++j) {
-    for (int i = 0; i <= grid; ++i) sink.vertex({-1 + 2.0 * i / grid, -1 + 2.0 * j / grid, *height++}, {});
+    for (int i = 0; i <= grid; ++i)
+      mesh.positions.emplace_back(-1 + 2.0 * i / grid, -1 + 2.0 * j / grid, *height++);
   }
-  add_triangles(sink, grid, grid, 0, 0);
+  add_triangles(mesh, grid, grid, 0, 0);
+  return mesh;
 }
 
 const Classic mount_classic = {
     .name = "mount",
-    .doc = "A fractal mountain below four balls of glass.",
-    .sizes = "2 * 4^N triangles: 6 has 8192.",
     .size_factor = 6,
-    .largest = 14,
-    .limit = most_triangles,
-    .counts = [](int) { return std::vector<Count>{{"spheres", 4}}; },
+    .shapes = [](int) { return uint64_t{4}; },
     .scene = scene,
-    .mesh = mount_mesh,
-    .mesh_keys = "material = \"rock\"\nsmooth = 0\n",
+    .mesh = mesh,
+    .mesh_material = "rock",
 };
 
-}  // namespace eyeray::generate
+}  // namespace eyeray::classics

@@ -1,14 +1,10 @@
-#include "host/generate/gears.hpp"
-
 #include <fmt/ranges.h>
-
 #include <algorithm>
 #include <set>
 
-#include "host/generate/batch_text.hpp"
-#include "host/generate/portable_math.hpp"
+#include "classics.hpp"
 
-namespace eyeray::generate {
+namespace eyeray::classics {
 namespace {
 
 constexpr int teeth = 36;
@@ -53,7 +49,7 @@ Gear gear_at(int n, int x, int y, int z) {
 std::string glass(const Gear& gear) {
   Vec3 absorption;
   for (int i = 0; i < 3; ++i)
-    absorption[i] = std::max(0.0, -2 * natural_log(0.8 + 0.2 * gear.color[i]) / gear.thickness);
+    absorption[i] = std::max(0.0, -2 * std::log(0.8 + 0.2 * gear.color[i]) / gear.thickness);
   return fmt::format(
       "\n[[material]]\nname = \"{}\"\ntype = \"dielectric\"\nior = 1.1\nshadow = 0.8\n"
       "absorption = [{:.10g}, {:.10g}, {:.10g}]\n",
@@ -97,17 +93,9 @@ void for_each_gear(int size_factor, const std::function<void(const Gear&)>& visi
 
 const Classic gears_classic = {
     .name = "gears",
-    .doc = "A block of gears that mesh, some of glass.",
-    .sizes = "Gears along each edge of the block: 4 has 64, of 9344 polygons.",
     .size_factor = 4,
-    .largest = 11,
-    .limit = "a scene may have 255 kinds of glass",
-    .counts =
-        [](int n) {
-          return std::vector<Count>{{"polygons", 146 * uint64_t(n) * uint64_t(n) * uint64_t(n)},
-                                    {"squares", 1}};
-        },
+    .shapes = [](int n) { return 146 * uint64_t(n) * uint64_t(n) * uint64_t(n) + 2; },
     .scene = scene,
 };
 
-}  // namespace eyeray::generate
+}  // namespace eyeray::classics

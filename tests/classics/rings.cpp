@@ -1,12 +1,9 @@
-#include "host/generate/rings.hpp"
-
 #include <array>
 #include <cmath>
 
-#include "host/generate/batch_text.hpp"
-#include "host/generate/portable_math.hpp"
+#include "classics.hpp"
 
-namespace eyeray::generate {
+namespace eyeray::classics {
 namespace {
 
 // 1 / sin 22.5°: from one layer of rings to the next.
@@ -80,16 +77,9 @@ void for_each_rod(int size_factor, const std::function<void(const Rod&)>& visit)
 
 const Classic rings_classic = {
     .name = "rings",
-    .doc = "Rings of cylinders and spheres that interlock.",
-    .sizes = "Layers: 7 has 4200 cylinders and as many spheres.",
     .size_factor = 7,
-    .largest = 55,
-    .limit = most_text,
-    .counts =
-        [](int n) {
-          return std::vector<Count>{{"cylinders", rods(n)}, {"spheres", rods(n)}, {"squares", 1}};
-        },
+    .shapes = [](int n) { return 2 * rods(n) + 2; },
     .scene = scene,
 };
 
-}  // namespace eyeray::generate
+}  // namespace eyeray::classics

@@ -1,0 +1,96 @@
+// The other scenes of Haines' Standard Procedural Databases (host/generate/classic.hpp), whose numbers of
+// rays are published: eyeray is held to them.
+#pragma once
+
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <numbers>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/generate/batch_text.hpp"
+#include "host/generate/classic.hpp"
+#include "host/scene/mesh.hpp"
+
+namespace eyeray::classics {
+
+using namespace generate;
+
+// A scene that is its name and its size factor.
+struct Classic {
+  std::string_view name;
+  int size_factor;              // that of the published statistics
+  uint64_t (*shapes)(int);      // how many it has, but for a mesh
+  std::string (*scene)(int);    // TOML of all but the mesh
+  Mesh (*mesh)(int) = nullptr;  // without normals where it is flat
+  std::string_view mesh_material = "";
+};
+
+extern const Classic tetra_classic, tree_classic, rings_classic, gears_classic, mount_classic, teapot_classic;
+std::span<const Classic> classics();
+// Writes scene.toml, and its mesh as mesh.obj.
+void write(const Classic& classic, int size_factor, const std::filesystem::path& folder);
+
+// (cos, sin).
+inline Vec2 unit_circle(double degrees) {
+  const double angle = degrees * std::numbers::pi / 180;
+  return {std::cos(angle), std::sin(angle)};
+}
+
+// ---- tree: a branch bears two shorter ones, each turned its own way ----
+// A cone from `foot` to `tip`, and a sphere of `tip_radius` at its tip.
+struct Branch {
+  Vec3 foot;
+  Vec3 tip;
+  double radius;
+  double tip_radius;
+};
+// All 2ⁿ⁺¹ − 1, parents before children, depth first.
+void for_each_branch(int size_factor, const std::function<void(const Branch&)>& visit);
+
+// ---- rings: pyramids of six rings that interlock, of cylinders and spheres ----
+// A cylinder from one point to another, and a sphere of its radius at the first.
+struct Rod {
+  Vec3 from;
+  Vec3 to;
+  int ring;  // 0 … 5
+};
+inline constexpr double rod_radius = 0.07412;
+// All 5 n (n + 1) (2 n + 1), from the front layer backwards.
+void for_each_rod(int size_factor, const std::function<void(const Rod&)>& visit);
+
+// ---- gears: a block of gears that mesh, some of glass ----
+struct Gear {
+  Vec3 center;  // of its top
+  double radius;
+  double thickness;
+  Vec3 color;
+  bool glass;
+  std::string material;  // its name; gears of one surface share it
+  // Counter-clockwise from above at the top, clockwise at the bottom, which has the same corners below.
+  std::array<Vec3, 144> top, bottom;
+};
+// All n³, layer below layer.
+void for_each_gear(int size_factor, const std::function<void(const Gear&)>& visit);
+
+// ---- mount: a fractal mountain below four balls of glass ----
+// What decides a grid point's height, for i, j from 0 to 2ⁿ. It repeats itself: that belongs to the scene.
+uint32_t mount_seed(int size_factor, int i, int j);
+// A normally distributed number by the polar method, from the package's generator started with `seed`.
+double mount_gauss(uint32_t seed);
+// Heights of the (2ⁿ + 1)² grid points, row j after row j; the corners, at ±1, lie at 0. By midpoint
+// displacement.
+std::vector<double> mount_heights(int size_factor);
+
+// ---- teapot: Newell's, of 32 Bézier patches cut into triangles, on a chessboard ----
+// 16 control points: rows along s, and in a row along t.
+using BezierPatch = std::array<std::array<Vec3, 4>, 4>;
+// All 32: rim, body, handle, spout, lid, bottom.
+std::vector<BezierPatch> teapot_patches();
+// The surface itself: 32 [[bezier]] in one table.
+std::string teapot_bezier();
+
+}  // namespace eyeray::classics
