@@ -1,4 +1,4 @@
-// scenes/whitted.toml for POV-Ray 3.7: same geometry, camera, light and depth, so that `eyeray bench` can time both.
+// scenes/whitted.toml for POV-Ray 3.7: same geometry, camera, light and depth, so that `eyeray-bench` can time both.
 #version 3.7;
 global_settings { assumed_gamma 1.0 max_trace_level 9 adc_bailout 0.001 ambient_light rgb 0.4 }
 

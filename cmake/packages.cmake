@@ -26,7 +26,7 @@ endfunction()
 # which has one for the processor.
 set(vulkan "libvulkan1, mesa-vulkan-drivers | vulkan-icd")
 set(CPACK_COMPONENTS_ALL program)
-package(program eyeray graphics "${vulkan}" "The program: render, verify, probe, compare, bench.")
+package(program eyeray graphics "${vulkan}" "The program: render, verify, probe, compare.")
 if(TARGET libeyeray)
   set(runtime libeyeray${soversion})
   list(APPEND CPACK_COMPONENTS_ALL library development)

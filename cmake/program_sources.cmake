@@ -1,4 +1,4 @@
-# program_sources(VARIABLE SOURCE): all files below SOURCE that make the program, relative to it and sorted.
+# program_sources(VARIABLE SOURCE): all files below SOURCE that make eyeray, relative to it and sorted.
 function(program_sources variable source)
   set(patterns CMakeLists.txt)
   foreach(folder IN ITEMS cmake host include shaders)
@@ -6,6 +6,7 @@ function(program_sources variable source)
   endforeach()
   list(TRANSFORM patterns PREPEND ${source}/)
   file(GLOB_RECURSE files RELATIVE ${source} ${patterns})
+  list(FILTER files EXCLUDE REGEX "^host/(bench|bench_cli|contenders)/")
   list(SORT files)
   set(${variable} ${files} PARENT_SCOPE)
 endfunction()

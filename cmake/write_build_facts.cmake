@@ -1,5 +1,5 @@
 # cmake -D GIT=… -D SOURCE=… -D COMPILER=… -D INSTALLED=… -D TREE=… -D OUTPUT=… -P write_build_facts.cmake: OUTPUT defines
-# host/cli/build_facts.hpp. A clone that only surrounds SOURCE, as where a source package was unpacked in one, is another project's.
+# host/program/build_facts.hpp. A clone that only surrounds SOURCE, as where a source package was unpacked in one, is another project's.
 set(commit "")
 if(GIT)
   execute_process(COMMAND ${GIT} rev-parse --show-toplevel WORKING_DIRECTORY ${SOURCE}
@@ -19,9 +19,9 @@ foreach(source IN LISTS sources)
 endforeach()
 string(SHA256 sum "${sums}")
 file(CONFIGURE OUTPUT ${OUTPUT} @ONLY CONTENT [[
-#include "host/cli/build_facts.hpp"
+#include "host/program/build_facts.hpp"
 
-namespace eyeray::cli {
+namespace eyeray::program {
 
 std::string_view commit() {
   return "@commit@";
@@ -36,5 +36,5 @@ std::string_view documents_from_built() {
   return "@TREE@";
 }
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::program
 ]])

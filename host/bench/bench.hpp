@@ -1,4 +1,4 @@
-// What `eyeray bench` measures: rays a second beside Embree on the same rays, and how long whole pictures and
+// What `eyeray-bench` measures: rays a second beside Embree on the same rays, and how long whole pictures and
 // their stages take beside POV-Ray.
 #pragma once
 

@@ -7,6 +7,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "host/bench/programs.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/core/embedded_shaders.hpp"
 #include "host/core/error.hpp"
@@ -148,7 +149,7 @@ class Loop {
   Loop(const std::string& scene, const std::string& shader_text) {
     write(scene_file(), scene);
     dev::SupervisorOptions options;
-    options.worker = {"/proc/self/exe", "dev", scene_file(), "--no-page", "--worker-socket"};
+    options.worker = {eyeray_program(), "dev", scene_file(), "--no-page", "--worker-socket"};
     options.scene = scene_file();
     if (!shader_text.empty()) {
       write(shader_file(), shader_text);

@@ -1,4 +1,4 @@
-// What a race on one or more scenes found: the figures that the table, the JSON, the plot and --compare show.
+// What a race on one or more scenes found: the figures that the table, the JSON and --compare show.
 #pragma once
 
 #include <filesystem>
@@ -41,7 +41,7 @@ const Timing* fastest(const BatchReport& batch, ContenderKind kind);
 double times_as_fast(const BatchReport& batch, const Timing& timing, ContenderKind kind);
 
 nlohmann::ordered_json to_json(const FieldReport& report);
-// A report out of the answer of `eyeray bench --json`; Error (file_io) where it cannot be read, Error
+// A report out of the answer of `eyeray-bench --json`; Error (file_io) where it cannot be read, Error
 // (bad_input) where it is something else.
 FieldReport read_field_report(const std::filesystem::path& file);
 
@@ -50,7 +50,5 @@ std::string to_text(const FieldReport& report);
 // What changed from `old` to `report`: a line for each contender that both have built or on
 // a batch.
 std::string changes(const FieldReport& old, const FieldReport& report);
-// As an SVG picture: rays a second over primitives, and how the others compare with Embree.
-std::string to_svg(const FieldReport& report);
 
 }  // namespace eyeray::bench

@@ -78,7 +78,7 @@ FieldReport read_field_report(const std::filesystem::path& file) {
     }
     return report;
   } catch (const Json::exception&) {
-    throw Error(ExitCode::bad_input, "{} is not what eyeray bench --json answers", file.string());
+    throw Error(ExitCode::bad_input, "{} is not what eyeray-bench --json answers", file.string());
   }
 }
 

@@ -90,7 +90,7 @@ std::vector<PathReport> read_path_reports(const std::filesystem::path& file) {
     }
     return reports;
   } catch (const Json::exception&) {
-    throw Error(ExitCode::bad_input, "{} is not what eyeray bench --json answers", file.string());
+    throw Error(ExitCode::bad_input, "{} is not what eyeray-bench --json answers", file.string());
   }
 }
 

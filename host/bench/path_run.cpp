@@ -170,7 +170,7 @@ PathReport measure_paths(const std::string& scene_file, const PathOptions& optio
       for (const std::string& define : options.defines) words.insert(words.end(), {"-D", define});
       if (options.clamp > 0) words.insert(words.end(), {"--clamp", fmt::format("{}", options.clamp)});
       words.insert(words.end(), more.begin(), more.end());
-      return run_eyeray(words, output);
+      return run_render(words, output);
     };
   };
   std::vector<Renderer> renderers;

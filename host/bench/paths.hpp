@@ -93,12 +93,10 @@ PathReport measure_paths(const std::string& scene, const PathOptions& options);
 // As a table, for people.
 std::string to_text(const PathReport& report);
 nlohmann::ordered_json to_json(const PathReport& report);
-// The path reports of an answer of `eyeray bench --json`, as far as path_changes compares them. Error as
+// The path reports of an answer of `eyeray-bench --json`, as far as path_changes compares them. Error as
 // read_picture_reports.
 std::vector<PathReport> read_path_reports(const std::filesystem::path& file);
 // A line for rays and error of each series that both have with as many samples.
 std::string path_changes(const std::vector<PathReport>& old, const std::vector<PathReport>& now);
-// As an SVG picture: error over samples.
-std::string to_svg(const std::vector<PathReport>& reports);
 
 }  // namespace eyeray::bench

@@ -53,7 +53,7 @@ std::vector<Series> measure(const fs::path& scene, const PictureOptions& options
       return run_povray(*pov, options.width, options.height, scratch.path() / "povray.png");
     std::vector<std::string> words = arguments(scene, name, options);
     words.insert(words.end(), {"-s", size});
-    return run_eyeray(words, scratch.path() / "eyeray.png");
+    return run_render(words, scratch.path() / "eyeray.png");
   };
   if (options.backends.front() == "gpu") run_once("gpu");  // fills the caches
   for (int i = 0; i < options.runs; ++i) {
@@ -72,8 +72,8 @@ std::vector<Series> measure_start(const fs::path& scene, const PictureOptions& o
     const ScratchFolder caches;
     const Environment environment{{"EYERAY_CACHE_DIR", caches.path() / "eyeray"},
                                   {"MESA_SHADER_CACHE_DIR", caches.path() / "mesa"}};
-    cold.runs.push_back(run_eyeray(words, caches.path() / "picture.png", environment));
-    warm.runs.push_back(run_eyeray(words, caches.path() / "picture.png", environment));
+    cold.runs.push_back(run_render(words, caches.path() / "picture.png", environment));
+    warm.runs.push_back(run_render(words, caches.path() / "picture.png", environment));
   }
   return {cold, warm};
 }

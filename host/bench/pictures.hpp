@@ -59,7 +59,7 @@ PictureReport measure_pictures(const std::string& name, const std::filesystem::p
 // As a table, for people.
 std::string to_text(const PictureReport& report);
 nlohmann::ordered_json to_json(const PictureReport& report);
-// The pictures of an older answer of `eyeray bench --json`, as far as picture_changes compares them. Error
+// The pictures of an older answer of `eyeray-bench --json`, as far as picture_changes compares them. Error
 // (file_io) where it cannot be read, Error (bad_input) where it is something else.
 std::vector<PictureReport> read_picture_reports(const std::filesystem::path& file);
 // A line for the whole process, the tracing and the memory of each series that both have of a scene; pictures

@@ -64,7 +64,7 @@ std::vector<PictureReport> read_picture_reports(const std::filesystem::path& fil
     }
     return pictures;
   } catch (const Json::exception&) {
-    throw Error(ExitCode::bad_input, "{} is not what eyeray bench --json answers", file.string());
+    throw Error(ExitCode::bad_input, "{} is not what eyeray-bench --json answers", file.string());
   }
 }
 

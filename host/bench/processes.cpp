@@ -25,11 +25,11 @@ class Renders {
   void run(const Words& more, ProcessCost& cost) const {
     Words words = words_;
     words.insert(words.end(), more.begin(), more.end());
-    run_self(words, cost);
+    run_words(words, cost);
   }
-  static void run_self(const Words& words, ProcessCost& cost) {
+  static void run_words(const Words& words, ProcessCost& cost) {
     stop_if_interrupted();
-    const ProcessResult result = run_this_program(words);
+    const ProcessResult result = run_eyeray(words);
     cost.wall += result.seconds;
     cost.processor += result.processor_seconds;
   }
@@ -81,7 +81,7 @@ ProcessReport measure_shards(const std::filesystem::path& scene, int shards, int
     merging.push_back(folder.path() / fmt::format("{}.eyeray", i));
     renders.run({"--shard", fmt::format("{}/{}", i + 1, shards), "-o", merging.back()}, parts);
   }
-  Renders::run_self(merging, merge);
+  Renders::run_words(merging, merge);
   const ProcessCost sharded{parts.wall + merge.wall, parts.processor + merge.processor};
   return {
       scene.string(),

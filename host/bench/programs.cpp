@@ -75,16 +75,24 @@ Spread memory_spread(const Series& series) {
   return spread(values);
 }
 
-ProcessResult run_this_program(std::vector<std::string> arguments, const Environment& environment) {
-  arguments.insert(arguments.begin(), fs::read_symlink("/proc/self/exe").string());
+std::string eyeray_program() {
+  const fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();
+  if (!fs::exists(folder / "eyeray"))
+    throw Error(ExitCode::file_io, "there is no eyeray in {}, beside eyeray-bench, to be measured",
+                folder.string());
+  return folder / "eyeray";
+}
+
+ProcessResult run_eyeray(std::vector<std::string> arguments, const Environment& environment) {
+  arguments.insert(arguments.begin(), eyeray_program());
   return run_or_throw(arguments, environment);
 }
 
-TimedRun run_eyeray(const std::vector<std::string>& arguments, const fs::path& output,
+TimedRun run_render(const std::vector<std::string>& arguments, const fs::path& output,
                     const Environment& environment) {
   std::vector<std::string> words{"render", "-o", output.string(), "--json", "--quiet"};
   words.insert(words.begin() + 1, arguments.begin(), arguments.end());
-  const ProcessResult result = run_this_program(words, environment);
+  const ProcessResult result = run_eyeray(words, environment);
 
   TimedRun run;
   run.seconds.emplace_back("whole process", result.seconds);

@@ -34,10 +34,12 @@ Spread stage_spread(const Series& series, const std::string& stage);
 Spread tracing_spread(const Series& series);
 Spread memory_spread(const Series& series);
 
-// This program: eyeray ARGUMENTS… Error when it fails.
-ProcessResult run_this_program(std::vector<std::string> arguments, const Environment& environment = {});
+// The eyeray that is measured, which lies beside this program. Error (file_io) where there is none.
+std::string eyeray_program();
+// eyeray ARGUMENTS… Error when it fails.
+ProcessResult run_eyeray(std::vector<std::string> arguments, const Environment& environment = {});
 // The same: eyeray render ARGUMENTS… -o OUTPUT.
-TimedRun run_eyeray(const std::vector<std::string>& arguments, const std::filesystem::path& output,
+TimedRun run_render(const std::vector<std::string>& arguments, const std::filesystem::path& output,
                     const Environment& environment = {});
 
 // Whether POV-Ray is installed.

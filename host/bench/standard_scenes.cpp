@@ -29,7 +29,7 @@ Scene with_mesh(const std::string& stage, const char* name, generate::MeshInMemo
 template <typename Make>
 void write_with_mesh(const fs::path& file, const std::string& stage, const char* material, const Make& make) {
   const fs::path mesh = fs::path(file).replace_extension(".ply");
-  generate::PlyFile sink(mesh, "eyeray bench");
+  generate::PlyFile sink(mesh, "eyeray-bench");
   make(sink);
   sink.commit();
   write_file_atomically(file, stage + fmt::format("\n[[mesh]]\nfile = \"{}\"\nmaterial = \"{}\"\n",

@@ -7,13 +7,13 @@
 
 #include "host/cameras/registry.hpp"
 #include "host/cli/command.hpp"
-#include "host/cli/json.hpp"
 #include "host/core/standard_streams.hpp"
 #include "host/lights/registry.hpp"
 #include "host/loader/scene_file.hpp"
 #include "host/materials/registry.hpp"
 #include "host/pack/environment_records.hpp"
 #include "host/pack/pack.hpp"
+#include "host/program/json.hpp"
 #include "host/scene/extent.hpp"
 #include "host/scene/integrator.hpp"
 #include "host/scene/objects.hpp"
@@ -265,7 +265,7 @@ Json as_json(const Scene& scene, const Inventory& inventory) {
       {"files", Json::array()},
       {"warnings", Json::array()}};
   for (const auto& file : scene.files) json["files"].push_back(file.string());
-  for (const Diagnostic& warning : scene.warnings) json["warnings"].push_back(to_json(warning));
+  for (const Diagnostic& warning : scene.warnings) json["warnings"].push_back(program::to_json(warning));
   return json;
 }
 

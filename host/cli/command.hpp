@@ -13,6 +13,8 @@
 #include "host/core/error.hpp"
 #include "host/core/rect.hpp"
 #include "host/loader/scene_file.hpp"
+#include "host/program/bar.hpp"
+#include "host/program/integers.hpp"
 #include "host/render/render.hpp"
 #include "host/scene/scene.hpp"
 
@@ -21,6 +23,8 @@ class App;  // a second or more to compile: <CLI/CLI.hpp> is for the .cpp files 
 }
 
 namespace eyeray::cli {
+
+using namespace program;
 
 // Set by the command that was named.
 using Run = std::function<ExitCode()>;
@@ -31,7 +35,6 @@ void add_compare(CLI::App& app, Run& run);
 void add_probe(CLI::App& app, Run& run);
 void add_check(CLI::App& app, Run& run);
 void add_devices(CLI::App& app, Run& run);
-void add_bench(CLI::App& app, Run& run);
 void add_dev(CLI::App& app, Run& run);
 void add_generate(CLI::App& app, Run& run);
 void add_shaders(CLI::App& app, Run& run);
@@ -81,10 +84,7 @@ class SceneOptions {
   std::string max_depth_;
 };
 
-// "640x480" as {640, 480}; Error (bad_input) for anything else.
-std::pair<int, int> parse_size(const std::string& text);
-
-// "3,4" as {3, 4}; the same.
+// "3,4" as {3, 4}; Error (bad_input) for anything else.
 std::pair<int, int> parse_pixel(const std::string& text);
 
 // "auto", "bvh", "brute-force"; Error (bad_input) for another name.
@@ -108,10 +108,5 @@ void check_crop(const Rect& crop, const ImageSettings& image);
 // otherwise, nothing under --quiet. NO_COLOR is honoured. Call it with Progress() before making the executor:
 // a terminal then shows that kernels compile.
 std::function<void(const render::Progress&)> progress_reporter(bool quiet);
-
-// Shows on a terminal that kernels compile, by the same line, for commands that report no progress;
-// `and_then` is added to it. The line is wiped away when what is returned goes: before anything else is
-// printed.
-std::shared_ptr<void> show_compiling(std::string_view and_then = "");
 
 }  // namespace eyeray::cli

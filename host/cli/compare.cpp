@@ -5,13 +5,13 @@
 #include <nlohmann/json.hpp>
 
 #include "host/cli/command.hpp"
-#include "host/cli/json.hpp"
-#include "host/cli/within.hpp"
 #include "host/compare/report.hpp"
 #include "host/core/free_memory.hpp"
 #include "host/core/standard_streams.hpp"
 #include "host/image/false_color.hpp"
 #include "host/image/image_file.hpp"
+#include "host/program/json.hpp"
+#include "host/program/within.hpp"
 
 namespace eyeray::cli {
 namespace {

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "host/cli/command.hpp"
-#include "host/cli/json.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/core/escaped_text.hpp"
 #include "host/core/github_text.hpp"
@@ -15,6 +14,7 @@
 #include "host/dev/render_server.hpp"
 #include "host/dev/supervisor.hpp"
 #include "host/image/image_file.hpp"
+#include "host/program/json.hpp"
 
 namespace eyeray::cli {
 namespace {

@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "host/cli/command.hpp"
-#include "host/cli/json.hpp"
 #include "host/core/standard_streams.hpp"
 #include "host/gpu/device.hpp"
+#include "host/program/json.hpp"
 
 namespace eyeray::cli {
 namespace {

@@ -1,11 +1,11 @@
 // eyeray generate: procedural scenes as files.
 #include "host/cli/command.hpp"
 #include "host/cli/generate_files.hpp"
-#include "host/cli/within.hpp"
 #include "host/generate/sphereflake.hpp"
 #include "host/generate/studio.hpp"
 #include "host/generate/terrain.hpp"
 #include "host/image/image_file.hpp"
+#include "host/program/within.hpp"
 
 namespace eyeray::cli {
 namespace {

@@ -6,13 +6,13 @@
 #include <nlohmann/json.hpp>
 
 #include "host/cli/command.hpp"
-#include "host/cli/json.hpp"
 #include "host/core/diagnostic.hpp"
 #include "host/core/escaped_text.hpp"
 #include "host/core/readable.hpp"
 #include "host/core/standard_streams.hpp"
 #include "host/core/stopwatch.hpp"
 #include "host/generate/ply_file.hpp"
+#include "host/program/json.hpp"
 
 namespace fs = std::filesystem;
 

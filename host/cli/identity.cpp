@@ -1,8 +1,8 @@
 #include "host/cli/identity.hpp"
 
-#include "host/cli/build_facts.hpp"
 #include "host/core/content_hash.hpp"
 #include "host/core/host_arithmetic.hpp"
+#include "host/program/build_facts.hpp"
 #include "host/shards/part.hpp"
 
 namespace eyeray::cli {

@@ -2,7 +2,6 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "host/cli/build_facts.hpp"
 #include "host/cli/merged_report.hpp"
 #include "host/cli/picture.hpp"
 #include "host/cli/picture_files.hpp"
@@ -11,6 +10,7 @@
 #include "host/core/standard_streams.hpp"
 #include "host/core/termination.hpp"
 #include "host/image/image_file.hpp"
+#include "host/program/build_facts.hpp"
 #include "host/render/warnings.hpp"
 #include "host/scene/luminance.hpp"
 #include "host/shards/part_set.hpp"

@@ -4,10 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "host/cli/json.hpp"
+#include "host/program/json.hpp"
 #include "host/render/tiling.hpp"
 
 namespace eyeray::cli {
+
+using program::Json;
 
 // What a report says of its share: of how many scenes, and what names the suite and its options.
 Json shard_of_report(const render::Shard& shard, size_t scenes, const std::string& suite);

@@ -5,12 +5,12 @@
 #include <span>
 
 #include "host/cli/command.hpp"
-#include "host/cli/json.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/core/embedded_file.hpp"
 #include "host/core/escaped_text.hpp"
 #include "host/core/make_folder.hpp"
 #include "host/core/standard_streams.hpp"
+#include "host/program/json.hpp"
 
 namespace fs = std::filesystem;
 

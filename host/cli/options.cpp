@@ -16,19 +16,6 @@
 namespace eyeray::cli {
 namespace {
 
-// Whole numbers with a separator between them, as many as `numbers` holds; whether that is what `text` is.
-bool parse_integers(std::string_view text, char separator, std::span<int> numbers) {
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  for (size_t i = 0; i < numbers.size(); ++i) {
-    if (i > 0 && (at == end || *at++ != separator)) return false;
-    const auto [next, error] = std::from_chars(at, end, numbers[i]);
-    if (error != std::errc()) return false;
-    at = next;
-  }
-  return at == end;
-}
-
 // A file that has an embedded shader's name, but lies elsewhere, takes nothing's place.
 void warn_of_misplaced_shaders(const std::filesystem::path& folder) {
   std::error_code error;
@@ -62,13 +49,6 @@ void sanitize(executors::ExecutorOptions& options, const std::string& list) {
 }
 
 }  // namespace
-
-std::pair<int, int> parse_size(const std::string& text) {
-  int size[2];
-  if (!parse_integers(text, 'x', size))
-    throw Error(ExitCode::bad_input, "--size wants WIDTHxHEIGHT, as 640x480, not '{}'", text);
-  return {size[0], size[1]};
-}
 
 std::pair<int, int> parse_pixel(const std::string& text) {
   int pixel[2];

@@ -1,11 +1,11 @@
 // eyeray render --shard: a scene becomes a part of a picture.
 #include <optional>
 
-#include "host/cli/build_facts.hpp"
 #include "host/cli/identity.hpp"
 #include "host/cli/prepared_picture.hpp"
 #include "host/core/termination.hpp"
 #include "host/film/values.hpp"
+#include "host/program/build_facts.hpp"
 #include "host/scene/integrator.hpp"
 #include "host/shards/part_writer.hpp"
 

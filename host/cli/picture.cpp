@@ -224,7 +224,7 @@ Json to_json(const Picture& picture) {
             {"sampling_seconds", picture.sampling_seconds},
             {"sampling_processor_seconds", picture.sampling_processor_seconds},
             {"rays_per_second", rays_per_second(picture)},
-            {"stages", to_json(picture.times)},
+            {"stages", program::to_json(picture.times)},
             {"peak_memory", peak_memory()},
             {"flagged_pixels", picture.flagged_pixels},
             {"flagged_hits", picture.flagged_hits},

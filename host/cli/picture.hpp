@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "host/cli/command.hpp"
-#include "host/cli/json.hpp"
 #include "host/core/ray_counts.hpp"
 #include "host/film/channel.hpp"
+#include "host/program/json.hpp"
 
 namespace eyeray::cli {
 

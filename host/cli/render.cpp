@@ -7,10 +7,10 @@
 #include "host/cli/frames.hpp"
 #include "host/cli/picture.hpp"
 #include "host/cli/picture_files.hpp"
-#include "host/cli/within.hpp"
 #include "host/core/escaped_text.hpp"
 #include "host/core/readable.hpp"
 #include "host/core/standard_streams.hpp"
+#include "host/program/within.hpp"
 #include "host/shards/part.hpp"
 
 namespace eyeray::cli {

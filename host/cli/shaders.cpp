@@ -6,13 +6,13 @@
 #include <nlohmann/json.hpp>
 
 #include "host/cli/command.hpp"
-#include "host/cli/json.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/core/diagnostic.hpp"
 #include "host/core/embedded_shaders.hpp"
 #include "host/core/escaped_text.hpp"
 #include "host/core/make_folder.hpp"
 #include "host/core/standard_streams.hpp"
+#include "host/program/json.hpp"
 
 namespace fs = std::filesystem;
 

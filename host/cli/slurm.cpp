@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "host/cli/build_facts.hpp"
 #include "host/cli/frames.hpp"
 #include "host/cli/picture.hpp"
 #include "host/cli/picture_files.hpp"
 #include "host/core/content_hash.hpp"
 #include "host/core/standard_streams.hpp"
+#include "host/program/build_facts.hpp"
 #include "host/slurm/array.hpp"
 
 namespace fs = std::filesystem;

@@ -7,10 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "host/cli/build_facts.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/merged_report.hpp"
-#include "host/cli/within.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/core/content_hash.hpp"
 #include "host/core/escaped_text.hpp"
@@ -18,6 +16,8 @@
 #include "host/core/standard_streams.hpp"
 #include "host/loader/scene_edit.hpp"
 #include "host/loader/suite.hpp"
+#include "host/program/build_facts.hpp"
+#include "host/program/within.hpp"
 #include "host/shards/part.hpp"
 #include "host/verify/page.hpp"
 

@@ -14,15 +14,20 @@ namespace eyeray::test {
 // What a layer links, layers and libraries.
 using Links = std::set<std::string>;
 
-// Of every layer, and of the command line, "cli".
+// A program's folder under host/, which is no library.
+inline const std::map<std::string, std::string> command_lines = {{"eyeray", "cli"},
+                                                                 {"eyeray-bench", "bench_cli"}};
+
+// Of every layer, and of the programs' command lines.
 inline std::map<std::string, Links> read_layers() {
   std::ifstream stream("CMakeLists.txt");
   const std::string text(std::istreambuf_iterator<char>(stream), {});
   std::map<std::string, Links> layers;
-  static const std::regex call(R"((?:eyeray_layer\((\w+)|target_link_libraries\(eyeray PRIVATE)([^)]*)\))");
+  static const std::regex call(
+      R"((?:eyeray_layer\((\w+)|target_link_libraries\((eyeray|eyeray-bench) PRIVATE)([^)]*)\))");
   for (auto it = std::sregex_iterator(text.begin(), text.end(), call); it != std::sregex_iterator(); ++it) {
-    std::istringstream words((*it)[2].str());
-    Links& links = layers[(*it)[1].matched ? (*it)[1].str() : "cli"];
+    std::istringstream words((*it)[3].str());
+    Links& links = layers[(*it)[1].matched ? (*it)[1].str() : command_lines.at((*it)[2].str())];
     for (std::string word; words >> word;)
       if (!std::set<std::string>{"COMPUTES", "LINK", "PUBLIC", "PRIVATE"}.contains(word)) links.insert(word);
   }

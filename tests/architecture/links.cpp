@@ -50,7 +50,7 @@ TEST_CASE("a layer calls only what it links") {
   const std::map<std::string, Links> layers = read_layers();
   std::map<std::string, Symbols> symbols;
   for (const auto& [layer, links] : layers)
-    if (layer != "cli") symbols[layer] = symbols_of(layer);
+    if (!layer.ends_with("cli")) symbols[layer] = symbols_of(layer);
 
   size_t seen = 0;
   for (const auto& [caller, own] : symbols) {

@@ -2,7 +2,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "host/bench/svg.hpp"
 #include "tests/support/process.hpp"
 //
 #include "tests/support/doctest.hpp"
@@ -97,22 +96,8 @@ TEST_CASE("what is no report is refused in one line") {
       FAIL("it was read");
     } catch (const Error& error) {
       CHECK(error.code() == ExitCode::bad_input);
-      CHECK(error.what() == file + " is not what eyeray bench --json answers");
+      CHECK(error.what() == file + " is not what eyeray-bench --json answers");
     }
   }
   CHECK_THROWS_AS(read_field_report(folder / "nothing"), Error);
-}
-
-TEST_CASE("the plot is an SVG with a line for each contender and a bar for each of ours") {
-  const std::string svg = to_svg(sample(0.08));
-  CHECK(svg.starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\""));
-  CHECK(svg.ends_with("</svg>\n"));
-  CHECK(count(svg, "<polyline") == 3);
-  CHECK(count(svg, "<circle") == 6);
-  CHECK(count(svg, "1.25</text>") == 2);
-  CHECK(count(svg, "terrain &lt;1000&gt;, primary") == 1);
-  CHECK(svg.find("nan") == std::string::npos);
-  CHECK(svg.find("inf") == std::string::npos);
-  // Nothing to draw is no fault.
-  CHECK(to_svg({}).ends_with("</svg>\n"));
 }

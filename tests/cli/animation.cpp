@@ -158,25 +158,6 @@ echo video > "$last"
   CHECK(none.err.find("Debian: ffmpeg") != std::string::npos);
 }
 
-TEST_CASE("bench --frames and --shards measure processes") {
-  const MovingFolder folder;
-  const auto measure = [&](const char* what, std::initializer_list<const char*> ways) {
-    const ProcessResult result =
-        run_eyeray({"bench", folder.scene(), what, "3", "-s", "64x48", "--spp", "4", "--json"});
-    CAPTURE(result.err);
-    REQUIRE(result.code == 0);
-    const auto said = nlohmann::json::parse(result.out);
-    CHECK(said.at(what + 2) == 3);
-    for (const char* way : ways) CHECK(said.at(way).at("processor") > 0);
-    CHECK(said.at("ratio").at("wall") > 0);
-  };
-  measure("--frames", {"together", "apart"});
-  measure("--shards", {"whole", "parts", "merge"});
-  CHECK(run_eyeray({"bench", folder / "none.toml", "--frames", "3"}).code == 4);
-  CHECK(run_eyeray({"bench", folder / "none.toml", "--shards", "3"}).code == 4);
-  CHECK(run_eyeray({"bench", folder.scene(), folder.scene(), "--shards", "3"}).code == 2);
-}
-
 TEST_CASE("an open shutter blurs the picture, in shards as in one piece") {
   const MovingFolder folder;
   const auto render = [&](const std::string& output, std::vector<std::string> more) {

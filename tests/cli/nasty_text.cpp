@@ -140,7 +140,6 @@ const Place places[] = {
         {"verify", file_named(folder, text, ".toml", small_scene), "-s", "8x6", "--backends", "twin",
          "--against", file_named(folder, text, ".pfm", std::string("PF\n8 6\n-1\n") + std::string(576, '\0')),
          "--junit", folder / "junit.xml", "--keep", folder / "kept"}),
-    PLACE("bench: a scene that is wrong", {"bench", broken_scene_named(folder, text)}),
     PLACE("new: its folder", {"new", name_of(folder, text, "")}),
     PLACE("new: a folder with other files",
           [&] {

@@ -1,73 +1,16 @@
-// Progress on a terminal: a pseudoterminal whose width the test sets.
-#include <fcntl.h>
-#include <poll.h>
-#include <sys/ioctl.h>
-
+// Progress on a terminal.
 #include <algorithm>
 #include <csignal>
 #include <regex>
 
 #include "scene.hpp"
+#include "terminal.hpp"
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;
 
 namespace {
-
-class Terminal {
- public:
-  explicit Terminal(int columns) {
-    REQUIRE(master_ >= 0);
-    REQUIRE(grantpt(master_) == 0);
-    REQUIRE(unlockpt(master_) == 0);
-    name_ = ptsname(master_);
-    slave_ = open(name_.c_str(), O_RDWR | O_NOCTTY);
-    REQUIRE(slave_ >= 0);
-    set_columns(columns);
-  }
-  ~Terminal() {
-    close(slave_);
-    close(master_);
-  }
-  Terminal(const Terminal&) = delete;
-  Terminal& operator=(const Terminal&) = delete;
-
-  // What runs eyeray with standard error here.
-  std::vector<std::string> command(const std::string& arguments) const {
-    return {"sh", "-c", "exec " + eyeray_binary() + " " + arguments + " 2>" + name_};
-  }
-  void set_columns(int columns) {
-    const winsize size{24, static_cast<unsigned short>(columns), 0, 0};
-    REQUIRE(ioctl(master_, TIOCSWINSZ, &size) == 0);
-  }
-  // Reads until `text` was written after position `from`, or nothing more is for ten minutes.
-  bool wait_for(const std::string& text, size_t from = 0) {
-    while (shown_.find(text, from) == std::string::npos)
-      if (!read_some(600'000)) return false;
-    return true;
-  }
-  // All that was written until now.
-  const std::string& shown() {
-    while (read_some(0)) continue;
-    return shown_;
-  }
-
- private:
-  bool read_some(int milliseconds) {
-    pollfd wanted{master_, POLLIN, 0};
-    if (poll(&wanted, 1, milliseconds) != 1) return false;
-    char bytes[4096];
-    const ssize_t count = read(master_, bytes, sizeof bytes);
-    if (count > 0) shown_.append(bytes, size_t(count));
-    return count > 0;
-  }
-
-  int master_ = posix_openpt(O_RDWR | O_NOCTTY);
-  int slave_ = -1;
-  std::string name_;
-  std::string shown_;
-};
 
 // What is drawn over itself, drawing by drawing, without colours.
 std::vector<std::string> drawings(const std::string& shown) {
@@ -83,8 +26,6 @@ std::vector<std::string> drawings(const std::string& shown) {
 int columns(const std::string& text) {
   return int(std::ranges::count_if(text, [](char c) { return (c & 0xc0) != 0x80; }));
 }
-
-const Environment xterm{{"TERM", "xterm"}, {"NO_COLOR", "1"}};
 
 }  // namespace
 
@@ -148,11 +89,10 @@ TEST_CASE("a terminal shows that kernels compile, and compiling is no part of th
   verify.wait(600);
 }
 
-TEST_CASE("probe, bench and dev show that kernels compile, and wipe the line away") {
+TEST_CASE("probe and dev show that kernels compile, and wipe the line away") {
   const SceneFolder folder;
   for (const std::string& command :
-       {"probe " + folder.scene() + " 3,3 >/dev/null",
-        "bench " + folder.scene() + " -n 1 --no-pictures >/dev/null", "dev " + folder.scene() + " --once"}) {
+       {"probe " + folder.scene() + " 3,3 >/dev/null", "dev " + folder.scene() + " --once"}) {
     CAPTURE(command);
     Terminal terminal(100);
     Process eyeray(terminal.command(command), xterm);

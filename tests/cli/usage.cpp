@@ -113,6 +113,17 @@ TEST_CASE("a wrong command line is one line that says what was meant, and code 2
   CHECK(folder.names() == std::set<std::string>{"scene.toml"});
 }
 
+TEST_CASE("who still types eyeray bench learns its new name") {
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"bench"}, {"bench", "scenes/whitted.toml", "-n", "3", "--plot", "a.svg"}, {"bench", "--help"}}) {
+    const ProcessResult result = run_eyeray(words);
+    CHECK(result.code == 2);
+    CHECK(result.err ==
+          "eyeray: error: what was eyeray bench is a program of its own, eyeray-bench, which is not "
+          "installed: build it from the source by scripts/build release eyeray-bench\n");
+  }
+}
+
 TEST_CASE("without a command the help is shown, as words") {
   const ProcessResult result = run_eyeray({});
   CHECK(result.code == 2);
@@ -122,7 +133,7 @@ TEST_CASE("without a command the help is shown, as words") {
 
 TEST_CASE("every command explains itself with an example, in lines that fit") {
   for (const std::string command :
-       {"render", "verify", "compare", "probe", "check", "dev", "devices", "bench", "generate", "shaders"}) {
+       {"render", "verify", "compare", "probe", "check", "dev", "devices", "generate", "shaders"}) {
     CAPTURE(command);
     const ProcessResult result = run_eyeray({command, "--help"});
     CHECK(result.code == 0);

@@ -40,20 +40,22 @@ NOT_RUN = {
 
 
 def commands(text):
-    """The words after `eyeray` of each such line in blocks of shell; a line that ends with a backslash goes on."""
+    """The words after `eyeray` of each such line in blocks of shell, of eyeray-bench with the word bench before them; a line that ends with a
+    backslash goes on."""
     for language, block in re.findall(r"^```(\w*)\n(.*?)^```", text, re.MULTILINE | re.DOTALL):
         if language not in ("", "sh"):
             continue
         for line in block.replace("\\\n", " ").splitlines():
             line = re.sub(r"\s#.*", "", line.removeprefix("$ "))
             for part in re.split(r"&&|\|\||;|\|(?= )", line):
-                found = re.match(r"(?:[A-Z_]+=\S* )*(?:scripts/|build/release/)?eyeray (.*)", part.strip())
+                found = re.match(r"(?:[A-Z_]+=\S* )*(?:scripts/|build/release/)?eyeray[ -](.*)", part.strip())
                 if found:
                     yield shlex.split(re.split(r" \d?>", found[1])[0])
 
 
 def run(words, **options):
-    return subprocess.run([EYERAY, *words], capture_output=True, text=True, **options)
+    program = [f"{EYERAY}-bench", *words[1:]] if words[0] == "bench" else [EYERAY, *words]
+    return subprocess.run(program, capture_output=True, text=True, **options)
 
 
 def options_of(command, known={}):
@@ -72,7 +74,7 @@ def options_of(command, known={}):
 def fault(words):
     """What no eyeray would understand of a command line, or None."""
     command = ()
-    while words and words[0] in options_of(command)[1]:
+    while words and words[0] in options_of(command)[1] | ({"bench"} if not command else set()):
         command, words = (*command, words[0]), words[1:]
     if not command and words and re.fullmatch("[a-z]+", words[0]):
         return f"no command {words[0]}"

@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-namespace eyeray::cli {
+namespace eyeray::program {
 
 // As CLI::Range, which lets NaN through.
 inline CLI::Validator within(double low, double high) {
@@ -20,4 +20,4 @@ inline CLI::Validator within(double low, double high) {
       range);
 }
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::program

@@ -1,11 +1,11 @@
-#include "host/cli/help.hpp"
+#include "host/program/help.hpp"
 
 #include <filesystem>
 #include <sstream>
 
-#include "host/cli/build_facts.hpp"
+#include "host/program/build_facts.hpp"
 
-namespace eyeray::cli {
+namespace eyeray::program {
 namespace {
 
 constexpr size_t name_columns = 30;
@@ -75,4 +75,4 @@ std::shared_ptr<CLI::Formatter> help_formatter() {
   return std::make_shared<HelpFormatter>();
 }
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::program

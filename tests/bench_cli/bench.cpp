@@ -1,18 +1,37 @@
-// eyeray bench measures what it says; how fast anything is, no test asks.
+// eyeray-bench measures what it says; how fast anything is, no test asks.
+#include <fmt/format.h>
+
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "scene.hpp"
+#include "tests/cli/scene.hpp"
+#include "tests/cli/terminal.hpp"
 //
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray;
 using namespace eyeray::test;
 
+namespace {
+
+// eyeray-bench lies beside eyeray.
+const std::string bench_binary = eyeray_binary() + "-bench";
+
+ProcessResult run_bench(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), bench_binary);
+  return run_process(arguments, {}, 3600);
+}
+
+ProcessResult plotted(const std::string& json, const std::string& picture) {
+  return run_process({"/usr/bin/python3", "scripts/plot-bench", json, picture});
+}
+
+}  // namespace
+
 TEST_CASE("bench measures every backend, and cold and warm starts") {
   const SceneFolder folder;
-  const ProcessResult result = run_eyeray({"bench", folder.scene(), "-n", "2", "-s", "64x64", "--no-povray",
-                                           "--backends", "gpu,twin,reference", "--json"});
+  const ProcessResult result = run_bench({folder.scene(), "-n", "2", "-s", "64x64", "--no-povray",
+                                          "--backends", "gpu,twin,reference", "--json"});
   CAPTURE(result.err);
   REQUIRE(result.code == 0);
   const auto entry = nlohmann::json::parse(result.out).at("bench").at(0);
@@ -35,15 +54,15 @@ TEST_CASE("bench measures every backend, and cold and warm starts") {
   CHECK(compile(3) > compile(4));
 }
 
-TEST_CASE("rays are raced beside Embree, plotted, and compared with an older run") {
+TEST_CASE("rays are raced beside Embree, plotted by a script, and compared with an older run") {
   const SceneFolder folder;
-  const std::vector<std::string> command{"bench", folder.scene(), "terrain-51k", "-n",
-                                         "2",     "-s",           "64x48",       "--no-pictures"};
+  const std::vector<std::string> command{folder.scene(), "terrain-51k", "-n",           "2",
+                                         "-s",           "64x48",       "--no-pictures"};
   const auto run = [&](std::vector<std::string> more) {
     more.insert(more.begin(), command.begin(), command.end());
-    return run_eyeray(more);
+    return run_bench(more);
   };
-  const ProcessResult json = run({"--json", "--plot", folder / "rays.svg"});
+  const ProcessResult json = run({"--json"});
   CAPTURE(json.err);
   REQUIRE(json.code == 0);
   const auto answer = nlohmann::json::parse(json.out);
@@ -65,9 +84,17 @@ TEST_CASE("rays are raced beside Embree, plotted, and compared with an older run
       }
     }
   }
-  CHECK(read_text(folder / "rays.svg").starts_with("<svg"));
 
   write_text(folder / "old.json", json.out);
+  const ProcessResult plot = plotted(folder / "old.json", folder / "rays.svg");
+  CAPTURE(plot.err);
+  CHECK(plot.code == 0);
+  const std::string svg = read_text(folder / "rays.svg");
+  for (const char* text : {"primary", "shadow", "bounce", "Embree single", "gpu", "terrain-51k, primary"}) {
+    CAPTURE(text);
+    CHECK(svg.find(fmt::format(">{}<", text)) != std::string::npos);
+  }
+
   const ProcessResult text = run({"--compare", folder / "old.json"});
   CHECK(text.code == 0);
   CHECK(text.out.find("Embree single") != std::string::npos);
@@ -76,17 +103,16 @@ TEST_CASE("rays are raced beside Embree, plotted, and compared with an older run
 
   // What is wrong is found before anything is measured.
   CHECK(run({"--compare", folder.scene()}).err ==
-        "eyeray: error: " + folder.scene() + " is not what eyeray bench --json answers\n");
-  CHECK(run({"--plot", folder / "no/rays.svg"}).code == 4);
-  const ProcessResult unknown = run_eyeray({"bench", "terrain-51l", "-s", "8x8"});
+        "eyeray-bench: error: " + folder.scene() + " is not what eyeray-bench --json answers\n");
+  const ProcessResult unknown = run_bench({"terrain-51l", "-s", "8x8"});
   CHECK(unknown.code == 4);
-  CHECK(run_eyeray({"bench", "-s", "70000x1"}).code == 2);
+  CHECK(run_bench({"-s", "70000x1"}).code == 2);
 }
 
 TEST_CASE("any scene is written out for POV-Ray, or it is said why not") {
   const auto names_of = [](const char* scene, std::string& err) {
-    const ProcessResult run = run_eyeray({"bench", scene, "-n", "1", "-s", "32x24", "--no-rays", "--no-start",
-                                          "--backends", "twin", "--json"});
+    const ProcessResult run = run_bench(
+        {scene, "-n", "1", "-s", "32x24", "--no-rays", "--no-start", "--backends", "twin", "--json"});
     err = run.err;
     REQUIRE(run.code == 0);
     const auto answer = nlohmann::json::parse(run.out);
@@ -106,10 +132,10 @@ TEST_CASE("a mesh from its file to a picture, beside POV-Ray and an older run" *
           doctest::test_suite("long")) {
   const SceneFolder folder;
   const auto run = [&](std::vector<std::string> more) {
-    const std::vector<std::string> command{"bench", "terrain-51k", "scenes/meshes/gem.obj", "-n", "1", "-s",
-                                           "64x48", "--no-rays"};
+    const std::vector<std::string> command{"terrain-51k", "scenes/meshes/gem.obj", "-n", "1", "-s", "64x48",
+                                           "--no-rays"};
     more.insert(more.begin(), command.begin(), command.end());
-    return run_eyeray(more);
+    return run_bench(more);
   };
   const ProcessResult json = run({"--json"});
   CAPTURE(json.err);
@@ -147,28 +173,90 @@ TEST_CASE("a mesh from its file to a picture, beside POV-Ray and an older run" *
 }
 
 TEST_CASE("bench --paths cuts samples as render does") {
-  const ProcessResult result = run_eyeray({"bench", "scenes/path/cornell_box.toml", "--paths", "-n", "2",
-                                           "-s", "8x8", "--spp", "4", "--clamp", "1e-6", "--json"});
+  const ProcessResult result = run_bench({"scenes/path/cornell_box.toml", "--paths", "-n", "2", "-s", "8x8",
+                                          "--spp", "4", "--clamp", "1e-6", "--json"});
   CAPTURE(result.err);
   REQUIRE(result.code == 0);
   const auto series = nlohmann::json::parse(result.out).at("paths").at(0).at("series");
   for (const auto& each : series) CHECK(each.at("levels").at(0).at("mse") <= 1e-12);
+
+  const TemporaryFolder folder;
+  write_text(folder / "paths.json", result.out);
+  CHECK(plotted(folder / "paths.json", folder / "paths.svg").code == 0);
+  CHECK(read_text(folder / "paths.svg").find("cornell_box") != std::string::npos);
+}
+
+TEST_CASE("what is no answer of eyeray-bench is not plotted, in one line") {
+  const TemporaryFolder folder;
+  for (const char* const text : {"{", "[]", R"({"field": [], "paths": []})", R"({"field": [{}]})"}) {
+    CAPTURE(text);
+    write_text(folder / "a.json", text);
+    const ProcessResult refused = plotted(folder / "a.json", folder / "a.svg");
+    CHECK(refused.code == 2);
+    CHECK(refused.err.ends_with("scripts/plot-bench: " + folder / "a.json" +
+                                ": there are neither rays nor paths of eyeray-bench --json in it\n"));
+  }
+  const ProcessResult missing = plotted(folder / "none.json", folder / "a.svg");
+  CHECK(missing.code == 4);
+  CHECK(missing.err.find("No such file") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(folder / "a.svg"));
 }
 
 TEST_CASE("bench as text, and a scene that is not there") {
   const SceneFolder folder;
-  const ProcessResult text = run_eyeray({"bench", folder.scene(), "-n", "1", "-s", "16x16", "--no-start"});
+  const ProcessResult text = run_bench({folder.scene(), "-n", "1", "-s", "16x16", "--no-start"});
   CHECK(text.code == 0);
   CHECK(text.out.find("whole process") != std::string::npos);
   CHECK(text.out.find("rays/s") != std::string::npos);
   CHECK(text.out.find(": single") != std::string::npos);
-  CHECK(run_eyeray({"bench", folder / "nope.toml"}).code == 4);
+  CHECK(run_bench({folder / "nope.toml"}).code == 4);
+}
+
+TEST_CASE("frames and shards are measured as processes") {
+  const std::string scene = "scenes/animation.toml";
+  const auto measure = [&](const char* what, std::initializer_list<const char*> ways) {
+    const ProcessResult result = run_bench({scene, what, "3", "-s", "64x48", "--spp", "4", "-D",
+                                            "image.width=64", "-D", "image.height=48", "--json"});
+    CAPTURE(result.err);
+    REQUIRE(result.code == 0);
+    const auto said = nlohmann::json::parse(result.out);
+    CHECK(said.at(what + 2) == 3);
+    for (const char* way : ways) CHECK(said.at(way).at("processor") > 0);
+    CHECK(said.at("ratio").at("wall") > 0);
+  };
+  measure("--frames", {"together", "apart"});
+  measure("--shards", {"whole", "parts", "merge"});
+  CHECK(run_bench({"none.toml", "--frames", "3"}).code == 4);
+  CHECK(run_bench({"none.toml", "--shards", "3"}).code == 4);
+  CHECK(run_bench({scene, scene, "--shards", "3"}).code == 2);
+}
+
+TEST_CASE("mistakes are said as eyeray says them, under its own name") {
+  CHECK(run_bench({"--run", "3"}).err ==
+        "eyeray-bench: error: unknown option '--run'; did you mean '--runs'? (see eyeray-bench --help)\n");
+  const ProcessResult help = run_bench({"--help"});
+  CHECK(help.code == 0);
+  CHECK(help.out.find("Usage: eyeray-bench") != std::string::npos);
+  const ProcessResult json = run_bench({"none.toml", "--json"});
+  CHECK(json.code == 4);
+  CHECK(nlohmann::json::parse(json.out).at("error").at("code") == 4);
+}
+
+TEST_CASE("a terminal shows that kernels compile, until there is something to print") {
+  const SceneFolder folder;
+  Terminal terminal(100);
+  Process bench(terminal.command(folder.scene() + " -n 1 --no-pictures >/dev/null", bench_binary), xterm);
+  CHECK(terminal.wait_for("building BVHs and compiling kernels, then measuring"));
+  bench.wait(600);
+  CHECK(bench.code() == 0);
+  const std::string& shown = terminal.shown();
+  CHECK(shown.rfind("compiling kernels") < shown.rfind("\r\033[K"));
 }
 
 TEST_CASE("each way to trace incoherent rays races by itself; an unknown one is refused") {
   const auto race = [](const std::string& ways) {
-    return run_eyeray({"bench", "terrain-51k", "-n", "1", "-s", "64x48", "--no-pictures", "--no-start",
-                       "--incoherent", ways, "--json"});
+    return run_bench({"terrain-51k", "-n", "1", "-s", "64x48", "--no-pictures", "--no-start", "--incoherent",
+                      ways, "--json"});
   };
   const ProcessResult result = race("cooperative,lanes");
   CAPTURE(result.err);
@@ -182,12 +270,13 @@ TEST_CASE("each way to trace incoherent rays races by itself; an unknown one is 
 
   const ProcessResult refused = race("wider");
   CHECK(refused.code == 2);
-  CHECK(refused.err.find("--incoherent is cooperative, lanes or packets, not 'wider'") != std::string::npos);
+  CHECK(refused.err.find("--incoherent is one of cooperative, lanes, packets, not 'wider'") !=
+        std::string::npos);
 }
 
 TEST_CASE("an edit of a formula shows the twin's pixels long before its kernel is there" *
           doctest::test_suite("long")) {
-  const ProcessResult result = run_eyeray({"bench", "--dev", "-n", "2", "--json"});
+  const ProcessResult result = run_bench({"--dev", "-n", "2", "--json"});
   CAPTURE(result.err);
   REQUIRE(result.code == 0);
   const auto report = nlohmann::json::parse(result.out);

@@ -1,4 +1,4 @@
-#include "host/cli/huge_pages.hpp"
+#include "host/program/huge_pages.hpp"
 
 #include <unistd.h>
 
@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace eyeray::cli {
+namespace eyeray::program {
 namespace {
 
 constexpr const char* variable = "GLIBC_TUNABLES";
@@ -45,4 +45,4 @@ void use_huge_pages(char** argv) {
   unsetenv(variable);
 }
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::program

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-namespace eyeray::cli {
+namespace eyeray::program {
 
 // The abbreviated hash of the commit that the program was built from; "" where the sources were no git clone.
 std::string_view commit();
@@ -15,4 +15,4 @@ std::string_view sum_of_sources();
 std::string_view documents_from_installed();
 std::string_view documents_from_built();
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::program

@@ -1,11 +1,11 @@
-#include "host/cli/json.hpp"
+#include "host/program/json.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include "host/core/escaped_text.hpp"
 #include "host/core/termination.hpp"
 
-namespace eyeray::cli {
+namespace eyeray::program {
 
 Json to_json(const Diagnostic& diagnostic) {
   Json json{{"severity", diagnostic.severity == Severity::error ? "error" : "warning"},
@@ -36,4 +36,4 @@ void print_json(const Json& json) {
   fmt::print("{}\n", json_text(json));
 }
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::program

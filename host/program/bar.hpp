@@ -1,0 +1,33 @@
+// The line on a terminal that says how far a command has come.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace eyeray::program {
+
+// A line that is drawn over itself, and wiped away at the end. It never fills the terminal's last column,
+// after which a terminal begins another line.
+class Bar {
+ public:
+  // Null where standard error is no terminal that can draw over a line.
+  static std::shared_ptr<Bar> on_terminal();
+  ~Bar();
+  // The first of `texts` that fits, behind a bar where there is room for one.
+  void draw(std::span<const std::string> texts, double share);
+
+ private:
+  bool drawn_ = false;
+};
+
+// What a line says while kernels compile, from the longest text to the shortest.
+std::span<const std::string> compiling_texts();
+
+// Shows on a terminal that kernels compile, by the same line, for commands that report no progress;
+// `and_then` is added to it. The line is wiped away when what is returned goes: before anything else is
+// printed.
+std::shared_ptr<void> show_compiling(std::string_view and_then = "");
+
+}  // namespace eyeray::program

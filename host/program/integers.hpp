@@ -1,0 +1,17 @@
+// Values of options that are made of whole numbers.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace eyeray::program {
+
+// Whole numbers with a separator between them, as many as `numbers` holds; whether that is what `text` is.
+bool parse_integers(std::string_view text, char separator, std::span<int> numbers);
+
+// "640x480" as {640, 480}; Error (bad_input) for anything else.
+std::pair<int, int> parse_size(const std::string& text);
+
+}  // namespace eyeray::program

@@ -1,0 +1,20 @@
+// A command line as CLI11 reads it, with mistakes in plain words.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+namespace eyeray::program {
+
+// What --help and --version print.
+void describe(CLI::App& app, const std::string& name, const std::string& text, const std::string& footer);
+
+// The exit code where the command line has its answer already: --help, --version. Error (bad_input) for a
+// mistake, with the name that was probably meant.
+std::optional<int> parse(CLI::App& app, int argc, char** argv);
+
+// The command that was named, down to its own subcommand; the app itself when there was none.
+const CLI::App& named_command(const CLI::App& app);
+
+}  // namespace eyeray::program
