@@ -87,11 +87,7 @@ class SceneOptions {
 // "3,4" as {3, 4}; Error (bad_input) for anything else.
 std::pair<int, int> parse_pixel(const std::string& text);
 
-// "auto", "bvh", "brute-force"; Error (bad_input) for another name.
-Acceleration parse_acceleration(const std::string& name);
-
-// --device, --shaders, --fast-math, --validate, --timeout, --no-constants, --no-optimiser, --acceleration,
-// --splits, --profile, --loads, --stack.
+// --device, --shaders, --fast-math, --validate, --timeout, --tune.
 void add_executor_options(CLI::App& command, executors::ExecutorOptions& options);
 
 // "gpu,twin", none of them twice; Error (bad_input) for anything else.

@@ -119,7 +119,12 @@ std::string bash_completion(const CommandRow& table) {
   }
   return "# Made by eyeray completion bash.\n_eyeray() {\n"
          "  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} command='' words='' "
-         "value='' i\n"
+         "value='' key='' i\n"
+         "  # KEY=VALUE is three words to bash.\n"
+         "  if [ \"$word\" = = ] || [ \"$before\" = = ]; then\n"
+         "    [ \"$word\" = = ] && i=1 word='' || i=2\n"
+         "    key=${COMP_WORDS[COMP_CWORD-i]}= before=${COMP_WORDS[COMP_CWORD-i-1]}\n"
+         "  fi\n"
          "  for ((i = 1; i < COMP_CWORD; i++)); do\n"
          "    case \"${command:+$command }${COMP_WORDS[i]}\" in\n"
          "      " +
@@ -134,7 +139,8 @@ std::string bash_completion(const CommandRow& table) {
          "    local all=$words each; words=''\n"
          "    for each in $all; do [ \"${each#-}\" = \"$each\" ] && words=\"$words $each\"; done\n"
          "  fi\n"
-         "  mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$word\")\n"
+         "  mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$key$word\")\n"
+         "  COMPREPLY=(\"${COMPREPLY[@]#\"$key\"}\")\n"
          "}\ncomplete -o default -F _eyeray eyeray\n";
 }
 

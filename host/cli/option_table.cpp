@@ -1,21 +1,22 @@
 #include "host/cli/option_table.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
+
+#include "host/executors/tuning.hpp"
 
 namespace eyeray::cli {
 namespace {
 
-// "auto|bvh|brute-force" as three; nothing of "FILE" or "NAME=gpu".
-std::vector<std::string> choices_in(const std::string& value) {
-  std::vector<std::string> choices;
-  if (value.find('|') == std::string::npos) return choices;
-  for (size_t begin = 0; begin <= value.size();) {
-    const size_t end = std::min(value.find('|', begin), value.size());
-    choices.push_back(value.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return choices;
+// "rays=packets", "rays=lanes", …
+std::vector<std::string> tuning_settings() {
+  std::vector<std::string> settings;
+  for (const executors::Tuning& each : executors::tunings())
+    for (const std::string_view value : each.values)
+      settings.push_back(fmt::format("{}={}", each.key, value));
+  return settings;
 }
 
 OptionRow row_of(const CLI::Option& option) {
@@ -32,7 +33,7 @@ OptionRow row_of(const CLI::Option& option) {
   if (option.get_items_expected_min() == 0) return row;  // a flag
   row.value = option.get_option_text();
   if (row.value.empty()) row.value = option.get_type_name();
-  row.choices = choices_in(row.value);
+  if (option.check_lname("tune")) row.choices = tuning_settings();
   return row;
 }
 

@@ -1,5 +1,7 @@
 // Options that several commands share. What a scene may hold is the loader's to judge: an option becomes an
 // override.
+#include <fmt/ranges.h>
+
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cstdlib>
@@ -11,6 +13,7 @@
 #include "host/core/standard_streams.hpp"
 #include "host/executors/cpp_compiler.hpp"
 #include "host/executors/formula_check.hpp"
+#include "host/executors/tuning.hpp"
 #include "host/loader/scene_file.hpp"
 
 namespace eyeray::cli {
@@ -144,13 +147,6 @@ Scene SceneOptions::load() const {
   return scene;
 }
 
-Acceleration parse_acceleration(const std::string& name) {
-  if (name == "auto") return Acceleration::automatic;
-  if (name == "bvh" || name == "tree") return Acceleration::bvh;  // `tree` until 0.2
-  if (name == "brute-force") return Acceleration::brute_force;
-  throw Error(ExitCode::bad_input, "--acceleration is auto, bvh or brute-force, not '{}'", name);
-}
-
 void add_executor_options(CLI::App& command, executors::ExecutorOptions& options) {
   const std::string group = "Device";
   command
@@ -194,41 +190,22 @@ void add_executor_options(CLI::App& command, executors::ExecutorOptions& options
       .add_flag("--fast-math", options.fast_math,
                 "Let the driver contract and re-associate arithmetic: no bit-exact results.")
       ->group(group);
+  std::string keys;
+  for (const executors::Tuning& each : executors::tunings())
+    keys += fmt::format("{}{}={}", keys.empty() ? "" : ", ", each.key, fmt::join(each.values, "|"));
   command
-      .add_flag_callback(
-          "--no-constants", [&options] { options.constants = false; },
-          "Keep materials, lights and a small scene's shapes in buffers instead of in the kernel.")
+      .add_option_function<std::vector<std::string>>(
+          "--tune",
+          [&options](const std::vector<std::string>& settings) {
+            for (const std::string& setting : settings) executors::tune(options, setting);
+          },
+          fmt::format("How kernels are made and find hits, for who measures; no pixel changes "
+                      "(docs/tuning.md). May be repeated. Out of {}.",
+                      keys))
+      ->option_text("KEY=VALUE")
+      ->allow_extra_args(false)
+      ->take_all()
       ->group(group);
-  command
-      .add_flag_callback(
-          "--no-optimiser", [&options] { options.optimise = false; },
-          "Give the driver kernels as glslang writes them, all functions and copies: it takes longer at each "
-          "start.")
-      ->group(group);
-  const auto choose = [&](const char* name, std::string& value, const char* text, const char* description) {
-    command.add_option(name, value, description)->option_text(text)->group("How hits are found (not which)");
-  };
-  command
-      .add_option_function<std::string>(
-          "--acceleration",
-          [&options](const std::string& name) { options.pack.acceleration = parse_acceleration(name); },
-          "A BVH over the scene, brute force, or what suits the scene.")
-      ->option_text("auto|bvh|brute-force")
-      ->group("How hits are found (not which)");
-  command
-      .add_flag("--splits", options.pack.split,
-                "Cut long, thin primitives for a better BVH: slower to build, faster to trace.")
-      ->group("How hits are found (not which)");
-  choose("--profile", options.profile.profile, "auto|cpu|gpu|small",
-         "What kernels are made for; by default what the device is.");
-  choose("--loads", options.profile.loads, "texels|storage",
-         "Load the scene as texels or from storage buffers.");
-  choose("--rays", options.profile.rays, "packets|lanes", "Trace coherent rays together, or each alone.");
-  choose(
-      "--incoherent", options.profile.incoherent, "cooperative|lanes",
-      "Trace the rays of later bounces by four lanes each, where packets trace the eye rays, or each alone.");
-  choose("--stack", options.profile.stack, "shift|array",
-         "Keep the stack in registers or in an indexed array.");
   command
       .add_option("--validate", options.validation, "Run under the Vulkan validation layer: core or sync.")
       ->option_text("SET")

@@ -2,27 +2,13 @@
 
 #include <fmt/format.h>
 
-#include "host/core/error.hpp"
-
 namespace eyeray::executors {
 namespace {
-
-// Whether `choice` is `yes`; `automatic` where it is empty.
-bool chosen(const std::string& option, const std::string& choice, const std::string& yes,
-            const std::string& no, bool automatic) {
-  if (choice.empty()) return automatic;
-  if (choice != yes && choice != no)
-    throw Error(ExitCode::bad_input, "{} is {} or {}, not '{}'", option, yes, no, choice);
-  return choice == yes;
-}
 
 // Empty: by the scene where `cpu`, else lanes.
 std::optional<Rays> chosen_for_incoherent(const std::string& choice, bool cpu) {
   if (choice.empty()) return cpu ? std::nullopt : std::optional(Rays::lanes);
-  if (choice == "lanes") return Rays::lanes;
-  if (choice == "packets") return Rays::packets;
-  if (choice == "cooperative" || choice == "wide") return Rays::cooperative;
-  throw Error(ExitCode::bad_input, "--incoherent is cooperative, lanes or packets, not '{}'", choice);
+  return choice == "lanes" ? Rays::lanes : choice == "packets" ? Rays::packets : Rays::cooperative;
 }
 
 std::string_view describe(const std::optional<Rays>& incoherent) {
@@ -42,16 +28,17 @@ std::string_view describe(const std::optional<Rays>& incoherent) {
 
 Profile choose_profile(const ProfileOptions& options, const gpu::DeviceInfo& device) {
   const std::string& profile = options.profile;
-  const bool automatic = profile.empty() || profile == "auto";
-  if (!automatic && profile != "cpu" && profile != "gpu" && profile != "small")
-    throw Error(ExitCode::bad_input, "--profile is cpu, gpu or small, not '{}'", profile);
+  const bool automatic = profile == "auto";
   // A stack in registers, a scene as constants and many branches are too much for a slow compiler
   // (docs/lavapipe.md).
   const bool small = automatic ? device.slow_compiler : profile == "small";
   const bool cpu = automatic ? device.type == gpu::DeviceType::cpu && !small : profile == "cpu";
-  return {chosen("--loads", options.loads, "texels", "storage", cpu),
-          chosen("--rays", options.rays, "packets", "lanes", cpu),
-          chosen("--stack", options.stack, "shift", "array", cpu),
+  const auto chosen = [&](const std::string& choice, const char* on_cpu) {
+    return choice.empty() ? cpu : choice == on_cpu;
+  };
+  return {chosen(options.loads, "texels"),
+          chosen(options.rays, "packets"),
+          chosen(options.stack, "shift"),
           !small,
           chosen_for_incoherent(options.incoherent, cpu),
           small};

@@ -25,7 +25,6 @@ struct Profile {
   bool flatten = false;  // compute both sides of a branch that only chooses a value
 };
 
-// Error (bad_input) for an unknown choice.
 Profile choose_profile(const ProfileOptions& options, const gpu::DeviceInfo& device);
 
 // For people: "texel loads, packets, shifted stack, incoherent rays by the scene", and "no constants" and

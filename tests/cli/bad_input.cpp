@@ -229,16 +229,6 @@ TEST_CASE("a shader that does not compile is shown at its line") {
   CHECK(nowhere.err.find("no such folder") != std::string::npos);
 }
 
-TEST_CASE("--acceleration tree is bvh until 0.2, and not told of") {
-  const SceneFolder folder;
-  CHECK(run_eyeray({"render", folder.scene(), "-q", "-o", folder / "a.png", "--acceleration", "tree"}).code ==
-        0);
-  const ProcessResult other =
-      run_eyeray({"render", folder.scene(), "-q", "-o", folder / "a.png", "--acceleration", "trees"});
-  CHECK(other.code == 2);
-  CHECK(other.err.find("--acceleration is auto, bvh or brute-force, not 'trees'") != std::string::npos);
-}
-
 TEST_CASE("a shader of --shaders that lies where none is read is told, with its place") {
   const SceneFolder folder;
   const std::string shaders = folder / "shaders";

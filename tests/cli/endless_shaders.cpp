@@ -40,7 +40,8 @@ TEST_CASE(
     CAPTURE(loop);
     shaders.insert("  " + loop + "\n");
     for (const std::string rays : {"lanes", "packets"}) {
-      const ProcessResult result = shaders.run({"render"}, {"--rays", rays, "-o", shaders / "a.png"});
+      const ProcessResult result =
+          shaders.run({"render"}, {"--tune", "rays=" + rays, "-o", shaders / "a.png"});
       CAPTURE(result.err);
       CHECK(result.code == 5);
       CHECK(result.err.starts_with("eyeray: error: a loop of your shaders did not end within "));

@@ -89,8 +89,13 @@ TEST_CASE("bash completes commands, options and the values that they list") {
   CHECK(completed_by_bash(script, {"eyeray", "re"}) == Words{"render"});
   CHECK(completed_by_bash(script, {"eyeray", "de"}) == Words{"dev", "devices"});
   CHECK(completed_by_bash(script, {"eyeray", "render", "--exp"}) == Words{"--exposure"});
-  CHECK(completed_by_bash(script, {"eyeray", "render", "a.toml", "--acceleration", ""}) ==
-        Words{"auto", "bvh", "brute-force"});
+  CHECK(completed_by_bash(script, {"eyeray", "render", "a.toml", "--tune", "ra"}) ==
+        Words{"rays=packets", "rays=lanes"});
+  // What is beside = is a word of its own to bash.
+  CHECK(completed_by_bash(script, {"eyeray", "render", "a.toml", "--tune", "rays", "="}) ==
+        Words{"packets", "lanes"});
+  CHECK(completed_by_bash(script, {"eyeray", "render", "a.toml", "--tune", "rays", "=", "l"}) ==
+        Words{"lanes"});
   CHECK(completed_by_bash(script, {"eyeray", "render", "-o", "b"}).empty());  // bash's own: files
   CHECK(completed_by_bash(script, {"eyeray", "render", "b"}).empty());
   CHECK(completed_by_bash(script, {"eyeray", "generate", "terr"}) == Words{"terrain"});
@@ -115,7 +120,7 @@ TEST_CASE("fish completes the same, and zsh reads its own") {
   };
   CHECK(offered("eyeray re").starts_with("render\t"));
   CHECK(offered("eyeray render --exp").starts_with("--exposure\t"));
-  CHECK(offered("eyeray render --acceleration br").starts_with("brute-force"));
+  CHECK(offered("eyeray render --tune splits=o").starts_with("splits=off"));
   CHECK(offered("eyeray generate terr").starts_with("terrain\t"));
   CHECK(offered("eyeray generate terrain --tri").starts_with("--triangles\t"));
   CHECK(offered("eyeray verify --check").empty());

@@ -136,7 +136,8 @@ TEST_CASE(
   // One ray after the other, and in packets, which trace shadow rays in a kernel of their own.
   for (const std::string rays : {"lanes", "packets"}) {
     CAPTURE(rays);
-    const ProcessResult result = render(rays, {"--shaders", steps, "--acceleration", "bvh", "--rays", rays});
+    const ProcessResult result =
+        render(rays, {"--shaders", steps, "--tune", "acceleration=bvh", "--tune", "rays=" + rays});
     CAPTURE(result.err);
     REQUIRE(result.code == 0);
     const Image picture = read_image(folder / (rays + ".pfm"));

@@ -102,6 +102,12 @@ TEST_CASE("a wrong command line is one line that says what was meant, and code 2
        "unknown option '-seed'; did you mean '--seed'? (see eyeray render --help)"},
       {{"verify", scene, "-samples=4"},
        "unknown option '-samples'; did you mean '--spp'? (see eyeray verify --help)"},
+      {{"render", scene, "--tune", "rays"}, "--tune wants KEY=VALUE, as rays=lanes, not 'rays'"},
+      {{"verify", scene, "--tune", "ray=lanes"},
+       "--tune has no key 'ray'; did you mean 'rays'? There are acceleration, splits, profile, loads, rays, "
+       "incoherent, stack, constants, optimiser"},
+      {{"probe", scene, "1,1", "--tune", "rays=packets", "--tune", "constants=no"},
+       "--tune constants is one of on, off, not 'no'"},
       {{"completion", "bsh"}, "SHELL is one of bash, zsh, fish, not 'bsh' (see eyeray completion --help)"},
   };
   for (const Mistake& mistake : mistakes) {

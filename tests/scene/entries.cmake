@@ -68,13 +68,17 @@ foreach(scene IN LISTS SCENES)
   eyeray_verify(scene.${name} scene ${scene})
 endforeach()
 
+# How hits are found, where small pictures would not be.
+set(by_bvh --tune acceleration=bvh --tune constants=off)
+set(by_packets ${by_bvh} --tune rays=packets)
+
 # Paths, traced in every way and by every sampler.
 set(few_samples -s 96x72 --spp 4)
 eyeray_verify(scenes.paths scene QUICK ${PATHS} ${few_samples})
 eyeray_verify(scenes.paths.large scene NIGHTLY ${PATHS} -s 320x240 --spp 4)
 eyeray_verify(scenes.showcase scene ${SHOWCASE} -s 96x64 --spp 4)
-eyeray_mode(paths.packets PATHS ${few_samples} --acceleration bvh --no-constants --rays packets)
-eyeray_mode(paths.cooperative PATHS ${few_samples} --acceleration bvh --rays packets --incoherent cooperative)
+eyeray_mode(paths.packets PATHS ${few_samples} ${by_packets})
+eyeray_mode(paths.cooperative PATHS ${few_samples} --tune acceleration=bvh --tune rays=packets --tune incoherent=cooperative)
 eyeray_mode(paths.random PATHS ${few_samples} --seed 7 -D image.pattern=random)
 eyeray_mode(paths.jittered PATHS ${few_samples} --seed 7 -D image.pattern=jittered)
 
@@ -89,7 +93,7 @@ list(REMOVE_ITEM GATHERED ${refused} scenes/edges/twisted.toml)
 set(gathered_long ${GATHERED})
 list(FILTER gathered_long INCLUDE REGEX "/(showcase|gallery|forest|group_shapes|mandelbulb|sculpture|intervals|sheet|formulas|implicit|algebraic|csg)")
 list(REMOVE_ITEM GATHERED ${gathered_long})
-set(photons -s 24x18 --spp 1 --integrator sppm -D render.photons=4096 --no-constants --max-explained 0.05)
+set(photons -s 24x18 --spp 1 --integrator sppm -D render.photons=4096 --tune constants=off --max-explained 0.05)
 eyeray_mode(photons GATHERED ${photons})
 eyeray_verify(mode.photons.long mode NIGHTLY ${gathered_long} ${photons})
 
@@ -107,48 +111,48 @@ list(FILTER views EXCLUDE REGEX "^scenes/shapes/")
 # Those whose kernels take seconds to make have fewer modes.
 set(slow scenes/shapes/algebraic.toml scenes/shapes/bezier.toml scenes/shapes/csg.toml -s 96x72)
 eyeray_verify(mode.slow-kernels.packets mode ${slow} scenes/shapes/implicit.toml scenes/shapes/mandelbulb.toml scenes/shapes/sculpture.toml scenes/forest.toml
-  --acceleration bvh --no-constants --rays packets)
+  ${by_packets})
 set(jittered --spp 4 -D image.pattern=jittered --seed 7 --max-explained 0.02)
 eyeray_verify(mode.slow-kernels.jittered mode scenes/shapes/implicit.toml scenes/shapes/sculpture.toml scenes/forest.toml -s 96x72 ${jittered})
 # A march takes up to 4096 steps a ray: 64 rays of glass in a row are more than Mesa 22.3.6 grants, and say so (docs/lavapipe.md).
 set(deep --max-depth 64 -D render.min_throughput=0.01)
 eyeray_verify(mode.slow-kernels.deep-jittered mode ${slow} ${deep} ${jittered})
 # Without constants the kernels are the same for many modes, and made once.
-eyeray_mode(no-constants small -s 96x72 --no-constants)
-eyeray_verify(mode.no-constants.edges mode QUICK ${EDGES} --no-constants)
+eyeray_mode(no-constants small -s 96x72 --tune constants=off)
+eyeray_verify(mode.no-constants.edges mode QUICK ${EDGES} --tune constants=off)
 # However hits are found, they are the same. The GPU's profile runs on any device.
 set(searched scenes/meshes.toml scenes/sphereflake.toml scenes/cornell.toml scenes/inside_glass.toml -s 96x72)
-eyeray_verify(mode.no-optimiser mode ${searched} --no-optimiser)
+eyeray_verify(mode.no-optimiser mode ${searched} --tune optimiser=off)
 set(groups scenes/group_instances.toml scenes/group_shapes.toml)
 eyeray_verify(mode.groups-once mode QUICK scenes/groups.toml scenes/group_instances.toml -s 96x72 -D render.groups=instanced)
 eyeray_verify(mode.groups-copied mode ${groups} scenes/forest.toml -s 96x72 -D render.groups=flat)
-eyeray_mode(bvh small -s 96x72 --acceleration bvh --no-constants)
+eyeray_mode(bvh small -s 96x72 ${by_bvh})
 set(few scenes/cornell.toml scenes/inside_glass.toml scenes/meshes.toml scenes/group_instances.toml -s 48x36)
-eyeray_verify(mode.packets.few mode STAND_IN ${few} --acceleration bvh --no-constants --rays packets)
-eyeray_verify(mode.profile-gpu.few mode STAND_IN ${few} --profile gpu)
-eyeray_mode(bvh.edges EDGES --acceleration bvh --no-constants)
-eyeray_verify(mode.brute-force mode ${searched} --acceleration brute-force)
+eyeray_verify(mode.packets.few mode STAND_IN ${few} ${by_packets})
+eyeray_verify(mode.profile-gpu.few mode STAND_IN ${few} --tune profile=gpu)
+eyeray_mode(bvh.edges EDGES ${by_bvh})
+eyeray_verify(mode.brute-force mode ${searched} --tune acceleration=brute-force)
 # Without a BVH a ray hits each triangle as often as it is shown: more rays in a row, or patches, are more loops than Mesa 22.3.6 grants.
-eyeray_verify(mode.brute-force.groups mode scenes/group_instances.toml -s 48x36 --acceleration brute-force --max-depth 0)
-eyeray_verify(mode.splits mode ${searched} ${groups} --acceleration bvh --splits)
+eyeray_verify(mode.brute-force.groups mode scenes/group_instances.toml -s 48x36 --tune acceleration=brute-force --max-depth 0)
+eyeray_verify(mode.splits mode ${searched} ${groups} --tune acceleration=bvh --tune splits=on)
 set(profiled ${views} scenes/shapes/polygon.toml scenes/shapes/torus.toml scenes/edges/twisted.toml)
-eyeray_mode(profile-gpu profiled -s 96x72 --profile gpu)
-eyeray_mode(packets small -s 96x72 --acceleration bvh --no-constants --rays packets)
+eyeray_mode(profile-gpu profiled -s 96x72 --tune profile=gpu)
+eyeray_mode(packets small -s 96x72 ${by_packets})
 set(bounces scenes/sphereflake.toml scenes/cornell.toml scenes/textures.toml)
-eyeray_verify(mode.cooperative mode QUICK ${bounces} -s 48x36 --acceleration bvh --no-constants --rays packets --incoherent cooperative)
-eyeray_mode(packets.edges EDGES --acceleration bvh --no-constants --rays packets)
+eyeray_verify(mode.cooperative mode QUICK ${bounces} -s 48x36 ${by_packets} --tune incoherent=cooperative)
+eyeray_mode(packets.edges EDGES ${by_packets})
 # Vectors as big pictures have them, wherever there is such a processor.
 eyeray_verify(mode.wide-vectors mode ${few} scenes/shapes/torus.toml scenes/shapes/csg.toml)
 set_tests_properties(mode.wide-vectors PROPERTIES ENVIRONMENT LP_NATIVE_VECTOR_WIDTH=512)
 eyeray_mode(raycast small -s 96x72 --integrator raycast)
 eyeray_mode(raycast.edges EDGES --integrator raycast)
 eyeray_mode(eye-rays views -s 96x72 --max-depth 0)
-eyeray_mode(deep small -s 96x72 --no-constants ${deep})
+eyeray_mode(deep small -s 96x72 --tune constants=off ${deep})
 eyeray_verify(mode.moller-trumbore mode scenes/cornell.toml scenes/whitted.toml scenes/shapes/triangle.toml -s 96x72
   --triangle moller-trumbore)
 # A pixel of n samples is n times as likely to have one at a jump.
 eyeray_mode(supersampled views -s 96x72 --spp 4 --max-explained 0.02)
-eyeray_mode(jittered small -s 96x72 --no-constants --spp 9 -D image.pattern=jittered --seed 7 --max-explained 0.02)
+eyeray_mode(jittered small -s 96x72 --tune constants=off --spp 9 -D image.pattern=jittered --seed 7 --max-explained 0.02)
 
 set(some scenes/cornell.toml scenes/inside_glass.toml scenes/orthographic.toml)
 # Gate R, where there is a projection matrix; in the forest it takes half a minute.
@@ -159,7 +163,7 @@ eyeray_mode(raster drawn -s 96x72 --raster --backends gpu --integrator raycast)
 eyeray_verify(mode.raster.slivers mode QUICK scenes/shapes/cylinder.toml -s 160x79 --raster --backends gpu)
 eyeray_verify(validation.raster validation ${some} -s 96x72 --raster --backends gpu --validate core)
 # Scenes of Whitted's integrator are paths' too.
-eyeray_mode(paths.whitted small -s 48x36 --spp 2 --no-constants --integrator path --max-explained 0.05)
+eyeray_mode(paths.whitted small -s 48x36 --spp 2 --tune constants=off --integrator path --max-explained 0.05)
 
 # Pictures that no workgroup fits, and parts of pictures.
 foreach(size 1x1 7x3 1x300 300x1 17x33)
@@ -214,16 +218,16 @@ foreach(scene IN LISTS driver ITEMS scenes/whitted.toml scenes/cornell.toml scen
   eyeray_driver(${name} verify ${scene} -s 24x18 --quiet --timeout 600)
 endforeach()
 # Its profile, on any device.
-eyeray_verify(mode.profile-small mode QUICK ${few} --profile small)
+eyeray_verify(mode.profile-small mode QUICK ${few} --tune profile=small)
 
 # Every message of a validation layer is a failure; tests/gpu proves that the layers are there and speak. `core` reads the kernels too,
 # `sync` what is around them. A part of a scene at its own size has the kernels that were made for all of it.
 set(set scenes/whitted.toml ${some} -s 96x72)
 eyeray_verify(validation.core validation scenes/whitted.toml ${some} ${SHAPE_SCENES} --crop 100,60,96,72 --validate core)
-eyeray_verify(validation.core.no-constants validation ${set} --validate core --no-constants)
-eyeray_verify(validation.core.no-constants.shapes validation NIGHTLY ${SHAPE_SCENES} -s 96x72 --validate core --no-constants)
+eyeray_verify(validation.core.no-constants validation ${set} --validate core --tune constants=off)
+eyeray_verify(validation.core.no-constants.shapes validation NIGHTLY ${SHAPE_SCENES} -s 96x72 --validate core --tune constants=off)
 eyeray_verify(validation.sync validation QUICK ${set} --validate sync)
-eyeray_verify(validation.sync.no-constants validation ${set} --validate sync --no-constants)
+eyeray_verify(validation.sync.no-constants validation ${set} --validate sync --tune constants=off)
 
 # Mutants of the shaders, three that gates B and C tell (docs/verification.md, mutants).
 add_test(NAME mutate COMMAND python3 scripts/mutate --files math/rng.glsl --count 3 --jobs 1 --least 1 --eyeray $<TARGET_FILE:eyeray>

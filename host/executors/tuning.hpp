@@ -1,0 +1,24 @@
+// What people who measure may choose: how kernels are made and how they find hits. No choice changes a pixel.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace eyeray::executors {
+
+struct ExecutorOptions;
+
+struct Tuning {
+  std::string_view key;
+  std::vector<std::string_view> values;
+  std::string_view text;  // what it does, for people
+  void (*choose)(ExecutorOptions& options, std::string_view value);
+};
+std::span<const Tuning> tunings();
+
+// "rays=lanes"; Error (bad_input) for an unknown key or value.
+void tune(ExecutorOptions& options, std::string_view setting);
+
+}  // namespace eyeray::executors
