@@ -19,7 +19,7 @@ std::string as_obj(const Mesh& mesh) {
 
 }  // namespace
 
-std::span<const Classic> classics() {
+std::span<const Classic> all_classics() {
   static const Classic all[] = {tetra_classic, tree_classic,  rings_classic,
                                 gears_classic, mount_classic, teapot_classic};
   return all;

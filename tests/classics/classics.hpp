@@ -30,7 +30,7 @@ struct Classic {
 };
 
 extern const Classic tetra_classic, tree_classic, rings_classic, gears_classic, mount_classic, teapot_classic;
-std::span<const Classic> classics();
+std::span<const Classic> all_classics();
 // Writes scene.toml, and its mesh as mesh.obj.
 void write(const Classic& classic, int size_factor, const std::filesystem::path& folder);
 

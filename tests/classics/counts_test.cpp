@@ -44,8 +44,8 @@ TEST_CASE("the classics send out the published numbers of rays" * doctest::test_
     CAPTURE(each.classic);
     const TemporaryFolder folder;
     const std::string scene = folder / "scene.toml";
-    const auto classic = std::ranges::find(classics::classics(), each.classic, &classics::Classic::name);
-    if (classic != classics::classics().end())
+    const auto classic = std::ranges::find(classics::all_classics(), each.classic, &classics::Classic::name);
+    if (classic != classics::all_classics().end())
       classics::write(*classic, each.size_factor, folder.path());
     else
       REQUIRE(run_eyeray({"generate", std::string(each.classic), "-o", scene}).code == 0);

@@ -55,7 +55,7 @@ TEST_CASE("the teapot's 32 patches are shapes whose corners and edges' middles a
 }
 
 TEST_CASE("every classic is a scene without warnings, at its smallest and at its published size") {
-  for (const Classic& classic : classics()) {
+  for (const Classic& classic : all_classics()) {
     CAPTURE(classic.name);
     for (const int size_factor : {1, 2, classic.size_factor}) {
       const Scene scene = scene_of(classic, size_factor);
@@ -286,7 +286,7 @@ TEST_CASE("teapot has 64n^2 - 8n triangles, from n = 6 on with all normals on th
 TEST_CASE("every classic passes verify without warnings" * doctest::test_suite("long")) {
   const std::map<std::string_view, int> size_factors = {{"tetra", 3}, {"tree", 3},  {"rings", 1},
                                                         {"gears", 1}, {"mount", 3}, {"teapot", 6}};
-  for (const Classic& classic : classics()) {
+  for (const Classic& classic : all_classics()) {
     CAPTURE(classic.name);
     const test::TemporaryFolder folder;
     write(classic, size_factors.at(classic.name), folder.path());

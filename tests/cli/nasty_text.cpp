@@ -239,7 +239,7 @@ void check_places(const std::vector<std::string>& texts) {
       CAPTURE(result.out);
       CAPTURE(result.err);
       CHECK(result.code >= 0);
-      CHECK(result.code <= 5);
+      CHECK(result.code <= int(ExitCode::cannot_resume));
       check_lines(result.err);
       check_lines(result.out);
       if (std::ranges::find(words, "--json") != words.end()) {

@@ -23,7 +23,6 @@ BROUGHT = {
     "bunny.obj": "scenes/meshes/gem.obj",
     "gem.mtl": "scenes/meshes/gem.mtl",
     "scene.toml": "scenes/whitted.toml",
-    "mesh.toml": "scenes/shapes/triangle.toml",
     "studio.hdr": "scenes/showcase/studio.hdr",
 }
 RENDERED = ("a.pfm", "b.pfm", "new.pfm", "old.pfm")  # brought, too
