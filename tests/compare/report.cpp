@@ -177,6 +177,7 @@ TEST_CASE("JSON says the same, and a NaN in it is null") {
   CHECK(json["scenes"][0]["passed"] == true);
   CHECK(json["scenes"][1]["passed"] == false);
   CHECK(json["scenes"][1]["executors"][0]["nan"] == 1);
+  CHECK(json["scenes"][1]["executors"][0]["passed"] == false);
   const auto& colors = json["scenes"][1]["gates_b_c"][0]["colors"];
   CHECK(colors["unexplained"] == 1);
   CHECK(colors["worst"]["pixel"] == nlohmann::json::array({50, 30}));
