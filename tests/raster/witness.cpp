@@ -2,6 +2,7 @@
 #include "host/raster/witness.hpp"
 
 #include <functional>
+#include <glm/ext/matrix_transform.hpp>
 
 #include "host/executors/executor.hpp"
 #include "host/loader/scene_file.hpp"
@@ -92,11 +93,9 @@ TEST_CASE("the reference's rays of a mesh, of a crop, of parallel rays, hit what
 TEST_CASE("one-sided meshes are drawn from their front alone, mirrored ones too") {
   const Compared compared{one_sided_squares()};
   CHECK(compared.with([](FirstHit&) {}).passes());
-  const auto hits_of = [&](uint32_t row) {
-    return compared.frame.first_hits[row * all.width + 20].primitive;
-  };
-  CHECK(hits_of(10) > 0);
-  CHECK(hits_of(60) == 0);
+  const auto hit_in = [&](size_t row) { return compared.frame.first_hits[96 * row + 20].primitive; };
+  CHECK(hit_in(10) > 0);
+  CHECK(hit_in(60) == 0);
 }
 
 TEST_CASE("neighbours' ids, another t, another place, a miss and a ghost are each found") {
