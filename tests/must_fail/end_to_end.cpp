@@ -1,5 +1,4 @@
 // Faults in the GPU's shaders alone: the program itself must notice, say why, and answer 1.
-#include <algorithm>
 #include <limits>
 #include <set>
 
