@@ -35,7 +35,7 @@ struct RenderOptions {
   size_t band_bytes = size_t{256} << 20;
   // What rows have beside `samples` and, with `noise`, the noise. What channels need, the executor must
   // count.
-  film::Channels channels;
+  film::Channels channels = {};
   bool ray_kinds = false;  // count rays by kind in all: then the executor must too
   // Above 0, pixels whose noise (Film::noise) is no more take no more samples (render/adaptive.hpp), and
   // scene.image.samples is the most that one takes.

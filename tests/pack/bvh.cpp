@@ -199,7 +199,7 @@ TEST_CASE("the validation layers have nothing to say of BVHs, instances and eith
       options.profile.loads = loads;
       // A message is an error.
       const auto gpu = make_executor(Backend::gpu, scene, options);
-      const Rendering ours = render::render(scene, *gpu, {.crop = {}, .first_hits = true, .progress = {}, .channels = {}});
+      const Rendering ours = render::render(scene, *gpu, {.crop = {}, .first_hits = true, .progress = {}});
       const Rendering twins = render::render(scene, *make_executor(Backend::twin, scene, {}), {});
       CHECK(ours.color.samples() == twins.color.samples());
       std::vector<QueryHit> hit(1);
