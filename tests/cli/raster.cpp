@@ -44,8 +44,8 @@ TEST_CASE("a pixel that gate R fails is looked at with --raster, and JUnit's XML
   CHECK(result.code == 1);
   CHECK(has(result.out, "gate R: gpu against the rasteriser: "));
   CHECK(has(result.out, " pixels aside of its pixel, and at t "));
-  CHECK(has(result.out, "look closer: eyeray verify scenes/whitted.toml -s 96x72 --shaders '" + shaders +
-                            "' --raster --crop "));
+  CHECK(has(result.out, "look closer: eyeray verify scenes/whitted.toml -s 96x72 --shaders " + shaders +
+                            " --raster --crop "));
   CHECK(has(read_text(folder / "report.xml"), "gate R FAILED gpu = the rasteriser"));
   CHECK(has(read_text(folder / "page/index.html"), "gate R FAILED gpu = the rasteriser"));
 }

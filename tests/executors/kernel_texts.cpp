@@ -11,7 +11,7 @@ using namespace eyeray;
 
 TEST_CASE("the text that specialisation writes for a scene is the one that was reviewed") {
   for (const std::string name :
-       {"whitted", "textures", "meshes", "forest", "blend", "shapes/csg", "edges/formulas",
+       {"whitted", "textures", "meshes", "forest", "blend", "shapes/csg", "cameras/formula",
         "cameras/thin_lens", "path/cornell_box", "path/materials", "path/fog", "sppm/box"}) {
     CAPTURE(name);
     const records::PackedScene scene = pack::pack(loader::load_scene("scenes/" + name + ".toml"));

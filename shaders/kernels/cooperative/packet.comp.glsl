@@ -103,7 +103,7 @@ void main() {
 #else
   EACH {
 #ifdef PACKET_PRIMARY
-    ray[k] = eye_ray_of(place[k] == NONE ? 0u : place[k]);
+    ray[k] = path_ray(load_frame(), eye_path(place[k] == NONE ? 0u : place[k]));
     state[k] = traversal_state(place[k] == NONE ? -1.0f : T_MISS);
 #else
     QueryRay asked = rays[place[k] == NONE ? 0u : place[k]];
