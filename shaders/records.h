@@ -80,17 +80,21 @@ INLINE Primitive primitive_of(uvec4 head, vec4 a, vec4 b, vec4 c) {
 #define TRIANGLE_WOOP 0u
 #define TRIANGLE_MOLLER_TRUMBORE 1u
 
-// ---- Corners of a triangle with normals, texture coordinates or colours: 16 to 64 bytes in vertices ------------------
+// ---- Corners of a triangle with normals, texture coordinates or colours: 16 to 96 bytes in vertices ------------------
 //   0 vertex 0   4 vertex 1   8 vertex 2    indices of vertices: normal.xyz, u; with CORNERS_COLORS then color.rgb, alpha
 //                                           normals are unit, or of the lengths that a map that stretches has left them
 //  12 CORNERS_ bits
 //  16 v 0  20 v 1  24 v 2  28 -             only with CORNERS_UV
-// With CORNERS_GRADIENTS then the gradients of u and of v, a vec4 each; with CORNERS_TANGENTS behind all that a vertex has Surface::tangent.
+// With CORNERS_GRADIENTS then the gradients of u and of v, a vec4 each, and with CORNERS_SECOND_UV those of the second ones.
+// Behind all that, a vertex has its second u and v, -, -, with CORNERS_SECOND_UV; and with CORNERS_TANGENTS Surface::tangent, which with
+// CORNERS_SECOND_TANGENTS is along the second u.
 #define CORNERS_NORMALS 1u
 #define CORNERS_UV 2u
 #define CORNERS_COLORS 4u
 #define CORNERS_GRADIENTS 8u
 #define CORNERS_TANGENTS 16u
+#define CORNERS_SECOND_UV 32u
+#define CORNERS_SECOND_TANGENTS 64u
 
 // ---- BVH: 64 bytes; a node of it ------------------------------------------------------------------------------------
 // A node is two children. Quantised, a child is 16 bytes, its planes integers: lower | upper << 16 for x, y and z, then what it refers
@@ -209,12 +213,14 @@ struct Texture {
   vec4 b;
   uvec4 c;
 };
-// The flags of an image.
+// The flags of an image, in c.w, which is 0 of any other kind.
 #define IMAGE_NEAREST 1u
 #define IMAGE_LINEAR 2u
+#define IMAGE_SECOND_UV 4u
 #define IMAGE_WRAP_U_SHIFT 4u
 #define IMAGE_WRAP_V_SHIFT 6u
 #define IMAGE_WRAP_MASK 3u
+INLINE bool reads_second_uv(Texture texture) { return (texture.c.w & IMAGE_SECOND_UV) != 0u; }
 #define WRAP_REPEAT 0u
 #define WRAP_MIRROR 1u
 #define WRAP_CLAMP 2u

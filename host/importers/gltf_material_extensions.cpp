@@ -28,19 +28,16 @@ TexturePtr GltfMaterials::scaled(const GltfObject& material, const GltfObject& e
   const TexturePtr constant = textures::make_constant(factor);
   const auto reference = extension.object(map);
   if (!reference || factor == Vec3(0)) return constant;
-  if (!shares_uv(material, *reference)) {
-    left_out_.add("pictures of extensions with uv of their own");
-    return constant;
-  }
+  const auto second = takes_second(material, *reference, "pictures of extensions");
+  if (!second) return constant;
   const auto image = texture(*reference, content);
-  return image ? textures::make_image(image, factor) : constant;
+  return image ? textures::make_image(image, factor, Vec2(1), *second) : constant;
 }
 
-std::optional<GltfObject> GltfMaterials::first_extension_texture(const GltfObject& material) {
+void GltfMaterials::add_extension_textures(const GltfObject& material, std::vector<GltfObject>& textures) {
   for (const auto& [name, map] : extension_maps)
     if (const auto extension = material.extension(name))
-      if (auto reference = extension->object(map)) return reference;
-  return std::nullopt;
+      if (const auto reference = extension->object(map)) textures.push_back(*reference);
 }
 
 // 0 is infinity: a surface that mirrors all.

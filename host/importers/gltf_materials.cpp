@@ -55,7 +55,6 @@ Wrap wrap(uint64_t code) {
 
 GltfUv uv_of(const GltfObject& reference) {
   GltfUv uv;
-  uv.taken = true;
   uv.set = reference.count("texCoord", 0);
   if (const auto transform = reference.extension("KHR_texture_transform")) {
     const std::vector<double> offset = transform->numbers("offset", {0, 0});
@@ -167,10 +166,13 @@ std::shared_ptr<const ImageTexture> GltfMaterials::texture(const GltfObject& ref
   });
 }
 
-// A vertex has one uv: that of the first of a material's pictures.
-bool GltfMaterials::shares_uv(const GltfObject& material, const GltfObject& reference) {
-  const auto first = first_texture(material);
-  return first && uv_of(*first) == uv_of(reference);
+std::optional<bool> GltfMaterials::takes_second(const GltfObject& material, const GltfObject& reference,
+                                                const char* what) {
+  const std::vector<GltfUv> known = uv_of_material(material);
+  const auto at = std::ranges::find(known, uv_of(reference));
+  if (at != known.end()) return at != known.begin();
+  left_out_.add(fmt::format("{} with uv of a third kind", what));
+  return std::nullopt;
 }
 
 TexturePtr GltfMaterials::emission(const GltfObject& material) {
@@ -188,11 +190,8 @@ TexturePtr GltfMaterials::emission(const GltfObject& material) {
   if (!reference) return textures::make_constant(color);
   const auto image = texture(*reference, Content::color);
   if (!image) return none;
-  if (!shares_uv(material, *reference)) {
-    left_out_.add("emission maps with uv of their own");
-    return none;
-  }
-  return textures::make_image(image, color);
+  const auto second = takes_second(material, *reference, "emission maps");
+  return second ? textures::make_image(image, color, Vec2(1), *second) : none;
 }
 
 GltfMaterials::Surface GltfMaterials::surface(const GltfObject& material) {
@@ -217,11 +216,8 @@ GltfMaterials::Surface GltfMaterials::surface(const GltfObject& material) {
       const Vec2 mean = mean_green_blue(*image);
       surface.roughness *= mean.x;
       surface.metalness *= mean.y;
-      if (shares_uv(material, *reference)) {
-        surface.metal_rough = textures::make_image(image, factors);
-      } else {
-        left_out_.add("variations of metalness and roughness with uv of their own");
-      }
+      if (const auto second = takes_second(material, *reference, "variations of metalness and roughness"))
+        surface.metal_rough = textures::make_image(image, factors, Vec2(1), *second);
     }
   }
   return surface;
@@ -282,11 +278,9 @@ std::optional<NormalMap> GltfMaterials::normal_map(const GltfObject& material,
   if (!reference) return std::nullopt;
   const auto image = texture(*reference, Content::data);
   if (!image) return std::nullopt;
-  if (!shares_uv(material, *reference)) {
-    left_out_.add("normal maps with uv of their own");
-    return std::nullopt;
-  }
-  return NormalMap{textures::make_image(image), reference->number("scale", 1)};
+  const auto second = takes_second(material, *reference, "normal maps");
+  if (!second) return std::nullopt;
+  return NormalMap{textures::make_image(image, Vec3(1), Vec2(1), *second), reference->number("scale", 1)};
 }
 
 // Nothing where the cutoff cuts nothing out.
@@ -310,19 +304,34 @@ std::optional<GltfObject> GltfMaterials::base_texture(const GltfObject& material
   return old ? old->object("diffuseTexture") : std::nullopt;
 }
 
-// That whose uv the material's other pictures have to share.
-std::optional<GltfObject> GltfMaterials::first_texture(const GltfObject& material) {
-  if (auto base = base_texture(material)) return base;
-  if (auto emissive = material.object("emissiveTexture")) return emissive;
-  if (const auto pbr = material.object("pbrMetallicRoughness"))
-    if (auto metal_rough = pbr->object("metallicRoughnessTexture")) return metal_rough;
-  if (auto normal = material.object("normalTexture")) return normal;
-  return first_extension_texture(material);
+// That of the base colour first: an alpha takes the first uv.
+std::vector<GltfObject> GltfMaterials::textures_of(const GltfObject& material) {
+  std::vector<GltfObject> textures;
+  const auto add = [&](const std::optional<GltfObject>& texture) {
+    if (texture) textures.push_back(*texture);
+  };
+  add(base_texture(material));
+  add(material.object("emissiveTexture"));
+  if (const auto pbr = material.object("pbrMetallicRoughness")) add(pbr->object("metallicRoughnessTexture"));
+  add(material.object("normalTexture"));
+  add_extension_textures(material, textures);
+  return textures;
 }
 
-GltfUv GltfMaterials::uv(size_t index) const {
-  const auto reference = first_texture(document_.element("materials", index));
-  return reference ? uv_of(*reference) : GltfUv{};
+std::vector<GltfUv> GltfMaterials::uv_of_material(const GltfObject& material) {
+  std::vector<GltfUv> found;
+  for (const GltfObject& texture : textures_of(material))
+    if (const GltfUv uv = uv_of(texture); found.size() < 2 && std::ranges::find(found, uv) == found.end())
+      found.push_back(uv);
+  return found;
+}
+
+GltfUvUse GltfMaterials::uv_use(size_t index) const {
+  const GltfObject material = document_.element("materials", index);
+  GltfUvUse use{uv_of_material(material)};
+  const auto normal = material.object("normalTexture");
+  use.second_tangents = normal && use.uv.size() == 2 && uv_of(*normal) == use.uv[1];
+  return use;
 }
 
 double GltfMaterials::factor(const GltfObject& owner, const char* key, double fallback) {

@@ -31,9 +31,14 @@ struct GltfUv {
   uint64_t set = 0;
   glm::dmat2 linear{1.0};
   Vec2 offset{0.0};
-  bool taken = false;  // by any picture
 
   bool operator==(const GltfUv&) const = default;
+};
+
+// What a material's pictures take of a mesh.
+struct GltfUvUse {
+  std::vector<GltfUv> uv;        // at most two, for a vertex has no more
+  bool second_tangents = false;  // whether TANGENT is along the second u: that of the normalTexture
 };
 
 class GltfMaterials {
@@ -42,8 +47,7 @@ class GltfMaterials {
                 GltfLeftOut& left_out, GltfBreaches& breaches);
 
   std::unique_ptr<Material> material(size_t index);
-  // What the material's pictures take of a mesh's uv.
-  GltfUv uv(size_t index) const;
+  GltfUvUse uv_use(size_t index) const;
 
  private:
   // Metallic-roughness, as numbers and pictures.
@@ -82,9 +86,12 @@ class GltfMaterials {
                     const Vec3& factor, Content content = Content::data);
   ImageTexture decode_image(size_t index, image::PixelBudget& budget, std::vector<std::string>& warnings);
   static std::optional<GltfObject> base_texture(const GltfObject& material);
-  static std::optional<GltfObject> first_texture(const GltfObject& material);
-  static std::optional<GltfObject> first_extension_texture(const GltfObject& material);
-  static bool shares_uv(const GltfObject& material, const GltfObject& reference);
+  static std::vector<GltfObject> textures_of(const GltfObject& material);
+  static void add_extension_textures(const GltfObject& material, std::vector<GltfObject>& textures);
+  static std::vector<GltfUv> uv_of_material(const GltfObject& material);
+  // Whether the picture takes the second of them; nothing where it takes a third, which a vertex has not:
+  // what that leaves out is counted as `what`.
+  std::optional<bool> takes_second(const GltfObject& material, const GltfObject& reference, const char* what);
   void note_rest(const GltfObject& material);
   // Numbers that are shares, from 0 to 1.
   double factor(const GltfObject& owner, const char* key, double fallback);

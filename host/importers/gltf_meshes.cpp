@@ -108,10 +108,17 @@ std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std:
     return std::nullopt;
   }
   const auto draco_corners = draco_.open(primitive);
-  const GltfUv uv_use = material ? materials_.uv(*material) : GltfUv{};
+  const GltfUvUse uv_use = material ? materials_.uv_use(*material) : GltfUvUse{};
   const auto normals = attributes->index("NORMAL", accessors);
-  const std::string uv_name = fmt::format("TEXCOORD_{}", uv_use.set);
+  const bool two_uv = uv_use.uv.size() == 2;
+  const GltfUv first_use = uv_use.uv.empty() ? GltfUv{} : uv_use.uv[0];
+  const GltfUv second_use = two_uv ? uv_use.uv[1] : GltfUv{};
+  const std::string uv_name = fmt::format("TEXCOORD_{}", first_use.set);
+  const std::string second_name = fmt::format("TEXCOORD_{}", second_use.set);
   const auto uv = attributes->index(uv_name.c_str(), accessors);
+  const auto second_uv = two_uv ? attributes->index(second_name.c_str(), accessors) : std::nullopt;
+  // Two transforms of one attribute make two uv.
+  const auto other_uv = second_name == uv_name ? std::nullopt : second_uv;
   const auto colors = attributes->index("COLOR_0", accessors);
   // What bends a mesh does not say what it makes of them.
   auto tangents = attributes->index("TANGENT", accessors);
@@ -119,14 +126,15 @@ std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std:
       !pose.joints.empty() || std::ranges::any_of(pose.weights, [](double w) { return w != 0; });
   if (tangents && !normals)
     breaches_.add("meshes with tangents and without normals, made of their uv instead", attributes->place());
-  if (bent || !normals || !uv) tangents.reset();
-  if (uv_use.taken && !uv)
+  if (bent || !normals || !(uv_use.second_tangents ? second_uv : uv)) tangents.reset();
+  if ((!uv && !uv_use.uv.empty()) || (!second_uv && two_uv))
     breaches_.add("meshes without the uv that their material's picture takes", primitive.place());
   for (const auto& [name, accessor] :
        {std::pair<std::string_view, const std::optional<size_t>&>{"POSITION", positions},
         {"NORMAL", normals},
         {"TANGENT", tangents},
         {uv_name, uv},
+        {second_name, other_uv},
         {"COLOR_0", colors}}) {
     if (accessor) breaches_.check_attribute(name, *accessor);
   }
@@ -144,7 +152,16 @@ std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std:
     pool.tangents.clear();
     tangents.reset();
   }
-  if (uv) pool.uv = buffers_.vec2(*uv);
+  const auto read_uv = [&](size_t accessor, const GltfUv& use) {
+    std::vector<Vec2> values = buffers_.vec2(accessor);
+    for (Vec2& place : values) {
+      place = use.linear * place + use.offset;
+      place.y = 1 - place.y;  // theirs starts at the top of the picture
+    }
+    return values;
+  };
+  if (uv) pool.uv = read_uv(*uv, first_use);
+  if (second_uv) pool.second_uv = read_uv(*second_uv, second_use);
   if (colors) {
     for (const Vec4& color : buffers_.colors(*colors)) {
       pool.colors.push_back(sound_color(Vec3(color)));
@@ -154,16 +171,13 @@ std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std:
     }
     if (std::ranges::all_of(pool.alphas, [](double alpha) { return alpha == 1; })) pool.alphas.clear();
   }
-  for (Vec2& place : pool.uv) {
-    place = uv_use.linear * place + uv_use.offset;
-    place.y = 1 - place.y;  // theirs starts at the top of the picture
-  }
   const auto check = [&](bool has, size_t size) {
     if (has && size != pool.positions.size()) attributes->fail("do not all have as many elements");
   };
   check(normals.has_value(), pool.normals.size());
   check(tangents.has_value(), pool.tangents.size());
   check(uv.has_value(), pool.uv.size());
+  check(second_uv.has_value(), pool.second_uv.size());
   check(colors.has_value(), pool.colors.size());
   add_targets(primitive, pose.weights, document_, buffers_, breaches_, pool);
   if (!pose.joints.empty()) move_to_joints(*attributes, pose.joints, document_, buffers_, breaches_, pool);
@@ -191,7 +205,9 @@ std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std:
   raw.has_normals = normals.has_value();
   raw.has_uv = uv.has_value();
   raw.positions = assemble(made_as, corners);
-  return MeshBuilder(pool, counts_).build(raw, smooth_);
+  Mesh mesh = MeshBuilder(pool, counts_).build(raw, smooth_);
+  mesh.second_tangents = tangents && uv_use.second_tangents;
+  return mesh;
 }
 
 std::vector<Mesh> GltfMeshes::take(std::vector<std::string>& warnings) {

@@ -135,6 +135,10 @@ void MeshBuilder::append(Mesh& mesh, const RawTriangles& raw, const Source& sour
   if (raw.has_uv) mesh.uv.push_back(source.uv == no_index ? Vec2(0) : pool_.uv[source.uv]);
   if (!pool_.colors.empty()) mesh.colors.push_back(pool_.colors[source.color]);
   if (!pool_.alphas.empty()) mesh.alphas.push_back(pool_.alphas[source.position]);
+  if (!pool_.second_uv.empty()) {
+    const Vec2& second = pool_.second_uv[source.position];
+    mesh.second_uv.push_back(usable(second) ? second : Vec2(0));
+  }
   if (!pool_.tangents.empty()) {
     const Vec4& tangent = pool_.tangents[source.position];
     mesh.tangents.emplace_back(unit(Vec3(tangent)), tangent.w);
@@ -181,6 +185,7 @@ Mesh MeshBuilder::build(const RawTriangles& raw, double smooth) {
           ++counts_.bad_uv;
         }
       }
+      if (!pool_.second_uv.empty() && !usable(pool_.second_uv[position])) ++counts_.bad_uv;
       const bool own = raw.has_normals && source.normal == no_index;
       triangle[i] = own ? no_index : find_vertex(source);
       if (triangle[i] == no_index) {

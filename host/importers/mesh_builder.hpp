@@ -34,9 +34,10 @@ struct VertexPool {
   std::vector<Vec3> positions;
   std::vector<Vec3> normals;  // of any length
   std::vector<Vec2> uv;
-  std::vector<Vec3> colors;    // linear RGB, one a position or as RawTriangles::colors has it, or none
-  std::vector<double> alphas;  // likewise, and only with colours
-  std::vector<Vec4> tangents;  // one a position, or none: of any length, and the side of v
+  std::vector<Vec3> colors;     // linear RGB, one a position or as RawTriangles::colors has it, or none
+  std::vector<double> alphas;   // likewise, and only with colours
+  std::vector<Vec4> tangents;   // one a position, or none: of any length, and the side of v
+  std::vector<Vec2> second_uv;  // one a position, or none
 };
 
 // Within 0 to 1; 0 for what is not a number.

@@ -210,6 +210,7 @@ void add_smooth_normals(Mesh& mesh, std::span<const Vec3> faces, double degrees)
   };
   mesh.positions = take(mesh.positions);
   if (!mesh.uv.empty()) mesh.uv = take(mesh.uv);
+  if (!mesh.second_uv.empty()) mesh.second_uv = take(mesh.second_uv);
   if (!mesh.colors.empty()) mesh.colors = take(mesh.colors);
   if (!mesh.alphas.empty()) mesh.alphas = take(mesh.alphas);
   mesh.normals = std::move(normals);

@@ -70,10 +70,11 @@ class Fields {
   shader::Emitter& record_;
 };
 
-uint32_t add_corners(const EmitterCorners& at, records::Packer& packer) {
-  const auto vertex = [&](size_t i) { return records::to_bits(records::to_vec4(at.colors[i], at.uv[i].x)); };
-  return packer.add_vertices({vertex(0), vertex(1), vertex(2),
-                              records::to_bits(records::to_vec4({at.uv[0].y, at.uv[1].y, at.uv[2].y}))});
+uint32_t add_corners(const EmitterCorners& at, const shader::Texture& texture, records::Packer& packer) {
+  const auto& uv = reads_second_uv(texture) ? at.second_uv : at.uv;
+  const auto vertex = [&](size_t i) { return records::to_bits(records::to_vec4(at.colors[i], uv[i].x)); };
+  return packer.add_vertices(
+      {vertex(0), vertex(1), vertex(2), records::to_bits(records::to_vec4({uv[0].y, uv[1].y, uv[2].y}))});
 }
 
 shader::LightNode pack_node(const LightBvh::Node& node, const records::Packer& packer) {
@@ -104,7 +105,8 @@ void pack_light_choice(const LightChoice& choice, records::Packer& packer) {
       record.primitive = uint32_t(emitter.primitive);
       record.side = float(emitter.side);
       if (emitter.varies) record.texture = packer.scene.materials[size_t(emitter.material)].emission;
-      if (emitter.corners) record.corners = add_corners(*emitter.corners, packer);
+      if (emitter.corners)
+        record.corners = add_corners(*emitter.corners, packer.scene.textures[record.texture], packer);
     }
     packer.scene.emitters.push_back(record);
   }

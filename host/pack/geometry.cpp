@@ -113,10 +113,15 @@ class GeometryPacker {
     return records;
   }
 
+  void note_attributes(const Mesh& mesh) {
+    packed_.vertex_colors = packed_.vertex_colors || !mesh.colors.empty();
+    packed_.second_uv = packed_.second_uv || !mesh.second_uv.empty();
+  }
+
   // The triangles of an instance, in the space that it leads into.
   MeshRecords triangle_records(const Instance& instance, const Vec3& origin, uint32_t first_id) {
     const Mesh& mesh = scene_.meshes[size_t(instance.mesh)];
-    packed_.vertex_colors = packed_.vertex_colors || !mesh.colors.empty();
+    note_attributes(mesh);
     return {mesh,
             Affine(instance.transform),
             origin,
@@ -144,7 +149,7 @@ class GeometryPacker {
         Blas added{middle(bounds(mesh)), {}};
         added.items.add_mesh(
             {mesh, Affine(Mat4(1.0)), added.origin, 0, 0, 0, packed_.bent_normals, packed_.vertices});
-        packed_.vertex_colors = packed_.vertex_colors || !mesh.colors.empty();
+        note_attributes(mesh);
         space = add_blas(std::move(added));
       }
       add_instance(instance.transform, uint32_t(space), id, uint32_t(instance.material),

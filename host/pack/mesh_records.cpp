@@ -21,14 +21,17 @@ MeshRecords::MeshRecords(const Mesh& mesh, const Affine& map, const Vec3& origin
   first_.id = first_id;
   first_.optical_depth = optical_depth;
   const bool tangents = bends && !mesh.tangents.empty();
-  if (!normals && !uv && !colors && !bends) return;
+  const bool second_uv = !mesh.second_uv.empty();
+  if (!normals && !uv && !second_uv && !colors && !bends) return;
 
   // What corners look up, and by triangle which its corners are.
   const auto first_vertex = uint32_t(vertices.size());
-  const uint32_t vertex_records = (colors ? 2 : 1) + (tangents ? 1 : 0);
+  const uint32_t beside_normal = colors ? 2 : 1;
+  const uint32_t vertex_records = beside_normal + (second_uv ? 1 : 0) + (tangents ? 1 : 0);
   const auto first_corners = uint32_t(first_vertex + mesh.positions.size() * vertex_records);
   first_.extra = first_corners;
-  corner_records_ = (uv ? 2 : 1) + (bends ? 2 : 0);
+  const uint32_t gradients = uv ? 2 : 1;
+  corner_records_ = gradients + (bends ? second_uv ? 4 : 2 : 0);
   const CornerNormals map_normal(map);
   vertices.resize(first_corners + mesh.triangles.size() * corner_records_);
   parallel_for(0, int(mesh.positions.size()), [&](int i) {
@@ -38,6 +41,10 @@ MeshRecords::MeshRecords(const Mesh& mesh, const Affine& map, const Vec3& origin
     if (colors)
       vertex[1] = records::to_bits(
           records::to_vec4(mesh.colors[size_t(i)], mesh.alphas.empty() ? 1 : mesh.alphas[size_t(i)]));
+    if (second_uv) {
+      const Vec2& second = mesh.second_uv[size_t(i)];
+      vertex[beside_normal] = records::to_bits(records::to_vec4({second.x, second.y, 0}));
+    }
     if (tangents) {
       const Vec4& tangent = mesh.tangents[size_t(i)];
       vertex[vertex_records - 1] = records::to_bits(
@@ -50,13 +57,22 @@ MeshRecords::MeshRecords(const Mesh& mesh, const Affine& map, const Vec3& origin
     corners[0] = {first_vertex + v0 * vertex_records, first_vertex + v1 * vertex_records,
                   first_vertex + v2 * vertex_records,
                   (normals ? CORNERS_NORMALS : 0u) | (uv ? CORNERS_UV : 0u) | (colors ? CORNERS_COLORS : 0u) |
-                      (bends ? CORNERS_GRADIENTS : 0u) | (tangents ? CORNERS_TANGENTS : 0u)};
+                      (bends ? CORNERS_GRADIENTS : 0u) | (tangents ? CORNERS_TANGENTS : 0u) |
+                      (second_uv ? CORNERS_SECOND_UV : 0u) |
+                      (tangents && mesh.second_tangents ? CORNERS_SECOND_TANGENTS : 0u)};
     if (uv) corners[1] = records::to_bits(records::to_vec4({mesh.uv[v0].y, mesh.uv[v1].y, mesh.uv[v2].y}));
     if (!bends) return;
-    const auto gradients = uv_gradients(
-        this->corners(uint32_t(i)), uv ? std::array{mesh.uv[v0], mesh.uv[v1], mesh.uv[v2]} : corner_weights);
-    corners[corner_records_ - 2] = records::to_bits(records::to_vec4(gradients.u));
-    corners[corner_records_ - 1] = records::to_bits(records::to_vec4(gradients.v));
+    const auto add_gradients = [&](shader::uvec4* to, const std::array<Vec2, 3>& at) {
+      const UvGradients grow = uv_gradients(this->corners(uint32_t(i)), at);
+      to[0] = records::to_bits(records::to_vec4(grow.u));
+      to[1] = records::to_bits(records::to_vec4(grow.v));
+    };
+    const auto at_corners = [&mesh, i](const std::vector<Vec2>& of) {
+      const auto& corner = mesh.triangles[size_t(i)];
+      return std::array{of[corner[0]], of[corner[1]], of[corner[2]]};
+    };
+    add_gradients(corners + gradients, uv ? at_corners(mesh.uv) : corner_weights);
+    if (second_uv) add_gradients(corners + gradients + 2, at_corners(mesh.second_uv));
   });
 }
 

@@ -50,6 +50,7 @@ struct PackedScene {
   RawVector<shader::uvec4> vertices;
   bool bent_normals = false;   // whether any material bends those of its surface
   bool vertex_colors = false;  // whether any of `vertices` have colours
+  bool second_uv = false;      // … second texture coordinates
   // How much larger, seen from the world, rounding is in a shape's own space: |linear| · |inverse|, the
   // largest of all shapes.
   float map_growth = 1;

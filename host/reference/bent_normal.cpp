@@ -18,16 +18,19 @@ bool usable(const Vec3& v) {
 }
 
 Vec3 mapped(const NormalMap& map, const SurfacePoint& point, const Vec3& n) {
-  // Where u and v run, square to n and to each other.
-  const bool own = point.tangent.w != 0;
-  const Vec3 along_u = own ? Vec3(point.tangent) : point.along_u;
+  // Where u and v run that it reads, square to n and to each other.
+  const bool second = point.second && map.texture->reads_second_uv();
+  const auto uv =
+      second ? *point.second : SurfacePoint::SecondUv{point.uv, point.along_u, point.along_v, point.tangent};
+  const bool own = uv.tangent.w != 0;
+  const Vec3 along_u = own ? Vec3(uv.tangent) : uv.along_u;
   Vec3 t = along_u - n * glm::dot(n, along_u);
   t = usable(t) ? glm::normalize(t) : Vec3(0);
   const double turn =
-      own ? point.tangent.w : glm::dot(glm::cross(point.normal_geometric, point.along_u), point.along_v);
+      own ? uv.tangent.w : glm::dot(glm::cross(point.normal_geometric, uv.along_u), uv.along_v);
   const Vec3 b = glm::cross(n, t) * (turn < 0 ? -1.0 : 1.0);
 
-  const Vec3 code = 2.0 * map.texture->at({point.uv, point.position}) - 1.0;
+  const Vec3 code = 2.0 * map.texture->at({uv.uv, uv.uv, point.position}) - 1.0;
   const Vec3 bent = map.scale * (code.x * t + code.y * b) + code.z * n;
   return usable(bent) ? glm::normalize(bent) : n;
 }

@@ -305,16 +305,17 @@ Vec3 emitter_radiance(const Scene& scene, const Emitter& emitter, const EmitterS
                       const Vec3& from) {
   if (emitter.side * glm::dot(place.normal, from - place.position) < 0) return Vec3(0);
   if (!emitter.varies) return emitter.radiance;
-  Vec2 uv = place.uv;
+  TextureContext at(place.uv, place.position);
   Vec3 color(1);
   if (const EmitterCorners* corners = emitter.corners.get()) {
     const auto between = [&](const auto& values) {
       return (1 - place.uv.x - place.uv.y) * values[0] + place.uv.x * values[1] + place.uv.y * values[2];
     };
-    uv = between(corners->uv);
+    at.uv = between(corners->uv);
+    at.second_uv = between(corners->second_uv);
     color = between(corners->colors);
   }
-  return emitted(*scene.materials[size_t(emitter.material)], {uv, place.position}, color);
+  return emitted(*scene.materials[size_t(emitter.material)], at, color);
 }
 
 Vec2 on_disk(const Vec2& u) {

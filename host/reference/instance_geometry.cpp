@@ -33,12 +33,19 @@ SurfacePoint InstanceGeometry::surface(const Ray&, const TriangleHit& hit) const
                {1 - hit.u - hit.v, hit.u, hit.v});
   if (!mesh.colors.empty()) point.color = interpolate(mesh.colors, triangle, hit);
   point.uv = mesh_->uv(hit);
-  const auto [a, b, c] = triangle;
+  const auto at_corners = [&, &corners = triangle](const std::vector<Vec2>& uv) {
+    return std::array{uv[corners[0]], uv[corners[1]], uv[corners[2]]};
+  };
   std::tie(point.along_u, point.along_v) =
-      along_uv(v, mesh.uv.empty() ? corner_weights : std::array{mesh.uv[a], mesh.uv[b], mesh.uv[c]});
+      along_uv(v, mesh.uv.empty() ? corner_weights : at_corners(mesh.uv));
+  if (!mesh.second_uv.empty()) {
+    const auto [along_u, along_v] = along_uv(v, at_corners(mesh.second_uv));
+    point.second = {interpolate(mesh.second_uv, triangle, hit), along_u, along_v, Vec4(0)};
+  }
   if (!mesh.tangents.empty()) {
-    point.tangent = interpolate(mesh.tangents, triangle, hit);
-    point.tangent.w = mesh.tangents[a].w;
+    Vec4& tangent = mesh.second_tangents ? point.second->tangent : point.tangent;
+    tangent = interpolate(mesh.tangents, triangle, hit);
+    tangent.w = mesh.tangents[triangle[0]].w;
   }
   return map_.out(point);
 }

@@ -27,8 +27,15 @@ SurfacePoint InstanceMap::out(const SurfacePoint& local) const {
   for (Vec3& edge : point.edges) edge = to_world_.linear * edge;
   point.along_u = to_world_.linear * local.along_u;
   point.along_v = to_world_.linear * local.along_v;
-  point.tangent =
-      Vec4(to_world_.linear * Vec3(local.tangent), local.tangent.w * (to_world_.mirrors() ? -1 : 1));
+  const auto out_tangent = [&](const Vec4& tangent) {
+    return Vec4(to_world_.linear * Vec3(tangent), tangent.w * (to_world_.mirrors() ? -1 : 1));
+  };
+  point.tangent = out_tangent(local.tangent);
+  if (point.second) {
+    point.second->along_u = to_world_.linear * local.second->along_u;
+    point.second->along_v = to_world_.linear * local.second->along_v;
+    point.second->tangent = out_tangent(local.second->tangent);
+  }
 
   // The next ray starts here and goes back into the space: there it may be off by the rounding of both maps,
   // which counts across the surface. A distance e across it is e / |across| in the world.

@@ -1,5 +1,6 @@
 #include "host/reference/environment.hpp"
 #include "host/reference/integrator.hpp"
+#include "host/reference/place_on.hpp"
 #include "host/reference/rng.hpp"
 
 namespace eyeray::reference {
@@ -42,8 +43,7 @@ PixelSample raycast(const Tracer& tracer, const SampleId& id, const Ray& eye_ray
       if (cosine > 0) light += illumination.color * cosine;
     }
   }
-  const Vec3 base =
-      scene.materials[size_t(hit->material)]->base_color({surface.uv, surface.position}) * surface.color;
+  const Vec3 base = scene.materials[size_t(hit->material)]->base_color(place_on(surface)) * surface.color;
   observer.value("light", base * light);
   return {.color = base * light, .rays = 1, .hits = 1, .flags = flags};
 }

@@ -5,6 +5,7 @@
 #include "host/core/error.hpp"
 #include "host/scene/primitive_ids.hpp"
 #include "host/scene/scene.hpp"
+#include "host/scene/triangle.hpp"
 
 namespace eyeray {
 
@@ -31,7 +32,8 @@ Vec3 mean_radiance(const Material& material, const TriangleForm& triangle, const
     for (int k = 0; k < steps - i; ++k, ++count) {
       const double b = (i + 1.0 / 3) / steps, c = (k + 1.0 / 3) / steps, a = 1 - b - c;
       const auto at = [&](const auto& values) { return a * values[0] + b * values[1] + c * values[2]; };
-      sum += emitted(material, {at(corners.uv), at(triangle.vertices)}, at(corners.colors));
+      sum += emitted(material, {at(corners.uv), at(corners.second_uv), at(triangle.vertices)},
+                     at(corners.colors));
     }
   return sum / double(count);
 }
@@ -83,8 +85,9 @@ class Collector {
     if (emitter.varies) {
       if (const auto* triangle = std::get_if<TriangleForm>(&emitter.form)) {
         const auto uv = [&](double u, double v) { return shape.surface(Ray(), {.u = u, .v = v}).uv; };
-        emitter.corners = std::make_shared<EmitterCorners>(
-            EmitterCorners{{uv(0, 0), uv(1, 0), uv(0, 1)}, {Vec3(1), Vec3(1), Vec3(1)}});
+        const std::array at{uv(0, 0), uv(1, 0), uv(0, 1)};
+        emitter.corners =
+            std::make_shared<EmitterCorners>(EmitterCorners{at, at, {Vec3(1), Vec3(1), Vec3(1)}});
         emitter.radiance = mean_radiance(its, *triangle, *emitter.corners);
       } else {
         emitter.radiance = mean_radiance(its, point_of(emitter.form));
@@ -110,11 +113,12 @@ class Collector {
     const bool varies = !its.constant_emission() || !mesh.colors.empty();
     for (size_t i = 0; i < mesh.triangles.size(); ++i) {
       TriangleForm form;
-      EmitterCorners corners{{Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)}, {Vec3(1), Vec3(1), Vec3(1)}};
+      EmitterCorners corners{corner_weights, {}, {Vec3(1), Vec3(1), Vec3(1)}};
       for (size_t k = 0; k < 3; ++k) {
         const uint32_t vertex = mesh.triangles[i][k];
         form.vertices[k] = map.point(mesh.positions[vertex]);
         if (!mesh.uv.empty()) corners.uv[k] = mesh.uv[vertex];
+        corners.second_uv[k] = mesh.second_uv.empty() ? corners.uv[k] : mesh.second_uv[vertex];
         if (!mesh.colors.empty()) corners.colors[k] = mesh.colors[vertex];
       }
       add({.primitive = first + i,

@@ -15,7 +15,7 @@ struct Scene;
 
 // What a triangle's light varies by, at its corners.
 struct EmitterCorners {
-  std::array<Vec2, 3> uv;
+  std::array<Vec2, 3> uv, second_uv;
   std::array<Vec3, 3> colors;
 };
 

@@ -26,7 +26,9 @@ struct Mesh {
   // Unit, along u, one a vertex, and in w whether v is to the left of it, 1, or to the right, −1, seen from
   // outside; empty: as uv have it.
   std::vector<Vec4> tangents = {};
-  std::vector<double> alphas = {};  // from 0 to 1, one a vertex, only beside colours; empty: 1
+  std::vector<double> alphas = {};   // from 0 to 1, one a vertex, only beside colours; empty: 1
+  std::vector<Vec2> second_uv = {};  // for images that read these, one a vertex; empty: as uv
+  bool second_tangents = false;      // whether `tangents` are along the u of these
 };
 
 // A mesh in the world. Under a transform that mirrors, the outside stays outside.

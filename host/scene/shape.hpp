@@ -53,7 +53,14 @@ struct SurfacePoint {
   Vec2 uv;
   // How the position moves with u and with v; of a surface whose uv are none, 0.
   Vec3 along_u{0.0}, along_v{0.0};
-  Vec4 tangent{0.0};      // of a mesh that has its own, as Mesh::tangents; not unit, w = 0 of any other
+  Vec4 tangent{0.0};  // of a mesh that has its own, as Mesh::tangents; not unit, w = 0 of any other
+  // The same of a mesh's second texture coordinates, which images may read.
+  struct SecondUv {
+    Vec2 uv;
+    Vec3 along_u, along_v;
+    Vec4 tangent;
+  };
+  std::optional<SecondUv> second = {};
   Vec3 color{1.0};        // of a mesh's vertices
   Vec3 coat_normal{0.0};  // unit, as normal; of a clear coat, once its material has said it
   // How far a triangle with normals at its corners lifts its scattered rays along its interpolated normal, in

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
 #include <type_traits>
 
 #include "host/scene/affine.hpp"
@@ -20,6 +20,7 @@ uint32_t split(Mesh& mesh, uint32_t vertex) {
   again(mesh.positions);
   again(mesh.normals);
   again(mesh.uv);
+  again(mesh.second_uv);
   again(mesh.colors);
   again(mesh.alphas);
   return uint32_t(mesh.positions.size() - 1);
@@ -35,10 +36,11 @@ void add_tangents(Mesh& mesh) {
   constexpr uint32_t none = ~uint32_t{0};
   std::vector<Vec4> sums(mesh.positions.size(), Vec4(0));    // in w the side of v; 0: not known yet
   std::vector<uint32_t> other(mesh.positions.size(), none);  // the vertex for the other side
+  const auto& uv = mesh.second_tangents ? mesh.second_uv : mesh.uv;
   for (auto& triangle : mesh.triangles) {
     const auto [a, b, c] = triangle;
     const Corners corners{mesh.positions[a], mesh.positions[b], mesh.positions[c]};
-    const auto [along_u, along_v] = along_uv(corners, {mesh.uv[a], mesh.uv[b], mesh.uv[c]});
+    const auto [along_u, along_v] = along_uv(corners, {uv[a], uv[b], uv[c]});
     const bool flat = !(magnitude(along_u) > 0 && std::isfinite(magnitude(along_u)));
     const double side = glm::dot(glm::cross(geometric_normal(corners), along_u), along_v) < 0 ? -1 : 1;
     for (size_t i = 0; i < 3 && !flat; ++i) {
@@ -71,18 +73,21 @@ void add_tangents(Mesh& mesh) {
 }  // namespace
 
 void make_tangents(Scene& scene) {
-  std::set<int> wanted;
+  std::map<int, bool> wanted;  // and whether along the second u
   const auto note = [&](const std::vector<Instance>& instances) {
-    for (const Instance& instance : instances)
-      if (const Material& material = *scene.materials[size_t(instance.material)];
-          material.normal_map || material.coat_normal_map)
-        wanted.insert(instance.mesh);
+    for (const Instance& instance : instances) {
+      const Material& material = *scene.materials[size_t(instance.material)];
+      const auto& map = material.normal_map ? material.normal_map : material.coat_normal_map;
+      if (map) wanted.emplace(instance.mesh, map->texture->reads_second_uv());
+    }
   };
   note(scene.instances);
   for (const Group& group : scene.groups) note(group.instances);
-  for (const int index : wanted) {
+  for (const auto& [index, second] : wanted) {
     Mesh& mesh = scene.meshes[size_t(index)];
-    if (!mesh.normals.empty() && !mesh.uv.empty() && mesh.tangents.empty()) add_tangents(mesh);
+    if (mesh.normals.empty() || !mesh.tangents.empty()) continue;
+    mesh.second_tangents = second && !mesh.second_uv.empty();
+    if (mesh.second_tangents || !mesh.uv.empty()) add_tangents(mesh);
   }
 }
 

@@ -20,9 +20,12 @@ class Packer;  // records/packer.hpp
 // Where a texture is asked: on the surface, and in the world.
 struct TextureContext {
   TextureContext(const Vec2& at_uv = Vec2(0.0), const Vec3& at_position = Vec3(0.0))
-      : uv(at_uv), position(at_position) {}
+      : TextureContext(at_uv, at_uv, at_position) {}
+  TextureContext(const Vec2& at_uv, const Vec2& at_second_uv, const Vec3& at_position)
+      : uv(at_uv), second_uv(at_second_uv), position(at_position) {}
 
   Vec2 uv;
+  Vec2 second_uv;  // of a mesh that has them, else uv
   Vec3 position;
 };
 
@@ -42,6 +45,8 @@ class Texture {
   virtual double detail() const { return 0.01; }
   // Whether it asks for the place in the world, which nothing knows where cutouts are looked at.
   virtual bool in_space() const { return false; }
+  // Which texture coordinates of a mesh it reads.
+  virtual bool reads_second_uv() const { return false; }
   // The index of the texture's record, which is added unless there is an equal one.
   virtual uint32_t pack(records::Packer& packer) const = 0;
 };

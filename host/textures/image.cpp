@@ -99,24 +99,24 @@ Vec4 filtered(const ImageTexture& image, bool srgb, const Vec2& uv) {
 
 constexpr uint32_t wrap_codes[] = {WRAP_REPEAT, WRAP_MIRROR, WRAP_CLAMP};  // by Wrap
 
-uint32_t flags_of(const ImageTexture& image, bool srgb) {
+uint32_t flags_of(const ImageTexture& image, bool srgb, bool second_uv) {
   return (image.filter == Filter::nearest ? IMAGE_NEAREST : 0) | (srgb ? 0 : IMAGE_LINEAR) |
-         wrap_codes[size_t(image.wrap_u)] << IMAGE_WRAP_U_SHIFT |
+         (second_uv ? IMAGE_SECOND_UV : 0) | wrap_codes[size_t(image.wrap_u)] << IMAGE_WRAP_U_SHIFT |
          wrap_codes[size_t(image.wrap_v)] << IMAGE_WRAP_V_SHIFT;
 }
 
 class Image final : public Texture {
  public:
-  Image(std::shared_ptr<const ImageTexture> image, bool srgb, const Vec3& tint, const Vec2& size)
-      : image_(std::move(image)), srgb_(srgb), tint_(tint), size_(size) {}
+  Image(std::shared_ptr<const ImageTexture> image, bool srgb, const Vec3& tint, const Vec2& size,
+        bool second_uv)
+      : image_(std::move(image)), srgb_(srgb), tint_(tint), size_(size), second_uv_(second_uv) {}
 
-  Vec3 at(const TextureContext& place) const override {
-    return tint_ * Vec3(filtered(*image_, srgb_, place.uv / size_));
+  Vec3 at(const TextureContext& place) const override { return tint_ * Vec3(texel_mean(place)); }
+  double alpha_at(const TextureContext& place) const override { return tint_.x * texel_mean(place).w; }
+  TexturePtr as_data() const override {
+    return std::make_shared<Image>(image_, false, tint_, size_, second_uv_);
   }
-  double alpha_at(const TextureContext& place) const override {
-    return tint_.x * filtered(*image_, srgb_, place.uv / size_).w;
-  }
-  TexturePtr as_data() const override { return std::make_shared<Image>(image_, false, tint_, size_); }
+  bool reads_second_uv() const override { return second_uv_; }
   // A texel.
   double detail() const override { return std::min(size_.x / image_->width, size_.y / image_->height); }
 
@@ -126,14 +126,19 @@ class Image final : public Texture {
                                       .a = shader::vec4(0),
                                       .b = shader::vec4(glm::vec2(1.0 / size_), 0, 0),
                                       .c = {uint32_t(image_->width), uint32_t(image_->height),
-                                            packer.add_image(image_), flags_of(*image_, srgb_)}});
+                                            packer.add_image(image_), flags_of(*image_, srgb_, second_uv_)}});
   }
 
  private:
+  Vec4 texel_mean(const TextureContext& place) const {
+    return filtered(*image_, srgb_, (second_uv_ ? place.second_uv : place.uv) / size_);
+  }
+
   std::shared_ptr<const ImageTexture> image_;
   bool srgb_;
   Vec3 tint_;
   Vec2 size_;
+  bool second_uv_;
 };
 
 TexturePtr parse(TableReader& table) {
@@ -153,9 +158,10 @@ TexturePtr parse(TableReader& table) {
 
 extern const TextureType image_type{.name = "image", .manual = manual, .keys = keys, .parse = parse};
 
-TexturePtr make_image(std::shared_ptr<const ImageTexture> image, const Vec3& tint, const Vec2& size) {
+TexturePtr make_image(std::shared_ptr<const ImageTexture> image, const Vec3& tint, const Vec2& size,
+                      bool second_uv) {
   const bool srgb = image->srgb;
-  return std::make_shared<Image>(std::move(image), srgb, tint, size);
+  return std::make_shared<Image>(std::move(image), srgb, tint, size, second_uv);
 }
 
 }  // namespace eyeray::textures

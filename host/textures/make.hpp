@@ -17,8 +17,8 @@ TexturePtr make_checker(const Vec3& even, const Vec3& odd, const Vec2& size);
 TexturePtr make_formula(std::shared_ptr<const formula::Formula> formula, const Vec3& tint = Vec3(1));
 
 // A picture in uv, times `tint`: (0, 0) is its lower left corner, `size` its upper right. As an alpha, its
-// own times the first component of `tint`.
+// own times the first component of `tint`. `second_uv`: the uv are a mesh's second; never of an alpha.
 TexturePtr make_image(std::shared_ptr<const ImageTexture> image, const Vec3& tint = Vec3(1),
-                      const Vec2& size = Vec2(1));
+                      const Vec2& size = Vec2(1), bool second_uv = false);
 
 }  // namespace eyeray::textures

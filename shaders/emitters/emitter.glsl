@@ -43,6 +43,9 @@ vec3 emitter_radiance(Emitter e, EmitterSample place, vec3 direction) {
       vec4 c2 = bits_to_floats(load_vertex(e.corners + 2u));
       vec4 v = bits_to_floats(load_vertex(e.corners + 3u));
       at.uv = vec2((c0.w * wa + c1.w * place.uv.x) + c2.w * place.uv.y, (v.x * wa + v.y * place.uv.x) + v.z * place.uv.y);
+#if HAS_SECOND_UV
+      at.second_uv = at.uv;  // corners have those that the texture reads
+#endif
       color = (vec3(c0) * wa + vec3(c1) * place.uv.x) + vec3(c2) * place.uv.y;
     }
     light = emission_texture(e.texture, at) * color;

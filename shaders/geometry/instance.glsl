@@ -75,6 +75,12 @@ Surface out_of_instance(Surface surface, Instance instance) {
   float turned = dot3(vec3(instance.to_world[0]), cross3(vec3(instance.to_world[1]), vec3(instance.to_world[2])));
   set_gradients(world, transposed(instance.to_local, surface.u_gradient), transposed(instance.to_local, surface.v_gradient));
   world.tangent = vec4(tangent.x, tangent.y, tangent.z, turned < 0.0f ? -surface.tangent.w : surface.tangent.w);
+#if HAS_SECOND_UV
+  world.second_u_gradient = transposed(instance.to_local, surface.second_u_gradient);
+  world.second_v_gradient = transposed(instance.to_local, surface.second_v_gradient);
+  vec3 second = map_direction(instance.to_world, vec3(surface.second_tangent));
+  world.second_tangent = vec4(second.x, second.y, second.z, turned < 0.0f ? -surface.second_tangent.w : surface.second_tangent.w);
+#endif
   vec3 local = abs3(surface.p) + map_size(instance.to_local, abs3(world.p - map_offset(instance.to_world)));
   vec3 reach = map_size(instance.to_world, local) + (abs3(world.p) + abs3(map_offset(instance.to_world)));
   world.inward = map_direction(instance.to_world, surface.inward);

@@ -3,6 +3,7 @@
 #define RAY_GLSL
 #include "math/math.glsl"
 #include "records.h"
+#include "textures/place.glsl"
 
 SHADER_BEGIN
 
@@ -71,6 +72,12 @@ struct Surface {
   vec3 u_gradient;  // how u and v grow around p; what is not along the surface does not count
   vec3 v_gradient;
   vec4 tangent;  // a mesh's own: along u, and whether v is to the left of that, 1, or to the right, −1; w = 0 where the gradients say it
+#if HAS_SECOND_UV
+  vec2 second_uv;  // the same of a mesh's second texture coordinates; as above where it has none
+  vec3 second_u_gradient;
+  vec3 second_v_gradient;
+  vec4 second_tangent;
+#endif
 };
 
 void set_gradients(INOUT(Surface) surface, vec3 u_gradient, vec3 v_gradient) {
@@ -78,6 +85,11 @@ void set_gradients(INOUT(Surface) surface, vec3 u_gradient, vec3 v_gradient) {
   surface.v_gradient = v_gradient;
   surface.tangent = vec4(0.0f, 0.0f, 0.0f, 0.0f);
   surface.inward = vec3(0.0f, 0.0f, 0.0f);
+#if HAS_SECOND_UV
+  surface.second_u_gradient = u_gradient;
+  surface.second_v_gradient = v_gradient;
+  surface.second_tangent = surface.tangent;
+#endif
 }
 
 // The same, from how p moves with u and with v.
@@ -101,9 +113,22 @@ Surface no_surface() {
   surface.lift = vec2(-1.0f, -1.0f);
 #endif
   surface.uv = vec2(0.0f, 0.0f);
+#if HAS_SECOND_UV
+  surface.second_uv = surface.uv;
+#endif
   surface.offset = 0.0f;
   set_gradients(surface, surface.p, surface.p);
   return surface;
+}
+
+// Where its textures are asked.
+TextureContext place_on(Surface surface) {
+  TextureContext place = place_of_uv(surface.uv);
+#if HAS_SECOND_UV
+  place.second_uv = surface.second_uv;
+#endif
+  place.p = surface.p;
+  return place;
 }
 
 // uv of a surface that is 1 wide: rounding does not take a point of its border to where the next check begins.

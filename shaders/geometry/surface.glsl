@@ -37,6 +37,9 @@ Surface surface_at(Primitive primitive, Ray ray, Hit hit) {
 #define SURFACE_OF(name, number) \
   if (kind_of(primitive) == number) surface = name##_surface(primitive, local, hit);
   SHAPES(SURFACE_OF)
+#if HAS_SECOND_UV
+  surface.second_uv = second_uv(primitive, hit, surface.uv);
+#endif
 #if HAS_SMOOTH
   surface.lift = lift_of(primitive, hit.uv);
 #endif

@@ -44,8 +44,7 @@ Interaction struck_at(Ray ray, Hit hit, uint media, INOUT(uint) flags) {
   PROBE(front, front);
   PROBE(material, int(material));
 
-  at.context.place = place_of_uv(at.surface.uv);
-  at.context.place.p = at.surface.p;
+  at.context.place = place_on(at.surface);
   at.context.color = vec3(1.0f, 1.0f, 1.0f);
 #if HAS_COLORS
   at.context.color = vertex_color(primitive, hit);

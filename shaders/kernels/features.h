@@ -7,6 +7,9 @@
 #ifndef HAS_COLORS  // a mesh's vertices have colours
 #define HAS_COLORS 1
 #endif
+#ifndef HAS_SECOND_UV  // … or second texture coordinates, which an image may read
+#define HAS_SECOND_UV 1
+#endif
 #ifndef HAS_SMOOTH  // a triangle has normals at its corners
 #define HAS_SMOOTH 1
 #endif

@@ -16,6 +16,19 @@ vec3 unit_or(vec3 v, vec3 otherwise) {
   return squared > 1.0e-30f && squared < 1.0e30f ? v / sqrt(squared) : otherwise;
 }
 
+// The surface, its uv growing as those do that the texture reads.
+Surface as_read_by(uint texture, Surface surface) {
+  Surface read = surface;
+#if HAS_SECOND_UV
+  if (reads_second_uv(load_texture(texture))) {
+    read.u_gradient = surface.second_u_gradient;
+    read.v_gradient = surface.second_v_gradient;
+    read.tangent = surface.second_tangent;
+  }
+#endif
+  return read;
+}
+
 // `n`: the surface's own, on either side of it. `code`: the map's colour.
 vec3 mapped_normal(Surface surface, vec3 n, vec3 code, float scale) {
   float left = dot3(surface.normal_geometric, cross3(surface.u_gradient, surface.v_gradient)) < 0.0f ? -1.0f : 1.0f;
@@ -68,10 +81,10 @@ vec3 above_surface(vec3 n, vec3 normal_geometric, vec3 d) {
 
 // The surface as the material has it where it is hit in the unit direction d.
 Surface bent_by(Material material, Surface surface, vec3 d) {
-  TextureContext place = place_of_uv(surface.uv);
-  place.p = surface.p;
+  TextureContext place = place_on(surface);
   vec3 n = surface.normal;
-  if (material.normal_map != NONE) n = mapped_normal(surface, n, normal_map_of(material, place), material.normal_scale);
+  if (material.normal_map != NONE)
+    n = mapped_normal(as_read_by(material.normal_map, surface), n, normal_map_of(material, place), material.normal_scale);
   if (material.bump != NONE) n = bumped_normal(material, surface, n, place);
   float side = dot3(d, surface.normal_geometric) < 0.0f ? 1.0f : -1.0f;
   vec3 up = surface.normal_geometric * side;
@@ -80,7 +93,8 @@ Surface bent_by(Material material, Surface surface, vec3 d) {
 #if HAS_BENT_COAT
   bent.coat_normal = surface.normal;
   if (material.coat_normal != NONE) {
-    vec3 coat = mapped_normal(surface, surface.normal, coat_normal_of(material, place), material.coat_normal_scale);
+    vec3 coat = mapped_normal(as_read_by(material.coat_normal, surface), surface.normal, coat_normal_of(material, place),
+                              material.coat_normal_scale);
     bent.coat_normal = above_surface(coat * side, up, d) * side;
   }
 #endif

@@ -130,6 +130,9 @@ vec3 triangle_inward(Primitive s, vec3 weights, float room) {
   return up * rise + along * minimum(maximum(slide, m.y), -m.z - rise);
 }
 
+// What a vertex has behind its normal, u and colour, in vec4.
+uint beside_normal(uvec4 corners) { return (corners.w & CORNERS_COLORS) != 0u ? 2u : 1u; }
+
 Surface triangle_surface(Primitive s, Ray ray, Hit hit) {
   float wa = (1.0f - hit.uv.x) - hit.uv.y;
   vec3 a = vec3(s.a) * wa;
@@ -155,16 +158,30 @@ Surface triangle_surface(Primitive s, Ray ray, Hit hit) {
                         (v.x * wa + v.y * hit.uv.x) + v.z * hit.uv.y);
     }
 #if HAS_BENT_NORMALS
-    uint beside = (corners.w & CORNERS_COLORS) != 0u ? 2u : 1u;
+    uint beside = beside_normal(corners);
     uint gradients = s.extra + ((corners.w & CORNERS_UV) != 0u ? 2u : 1u);
     if ((corners.w & CORNERS_GRADIENTS) != 0u)
       set_gradients(surface, vec3(bits_to_floats(load_vertex(gradients))), vec3(bits_to_floats(load_vertex(gradients + 1u))));
+#if HAS_SECOND_UV
+    bool second = (corners.w & CORNERS_SECOND_UV) != 0u;
+    if ((corners.w & CORNERS_GRADIENTS) != 0u && second) {
+      surface.second_u_gradient = vec3(bits_to_floats(load_vertex(gradients + 2u)));
+      surface.second_v_gradient = vec3(bits_to_floats(load_vertex(gradients + 3u)));
+    }
+    beside = second ? beside + 1u : beside;
+#endif
     if ((corners.w & CORNERS_TANGENTS) != 0u) {
       vec4 t0 = bits_to_floats(load_vertex(corners.x + beside));
       vec4 t1 = bits_to_floats(load_vertex(corners.y + beside));
       vec4 t2 = bits_to_floats(load_vertex(corners.z + beside));
       surface.tangent = (t0 * wa + t1 * hit.uv.x) + t2 * hit.uv.y;
       surface.tangent.w = t0.w;
+#if HAS_SECOND_UV
+      bool along_second = (corners.w & CORNERS_SECOND_TANGENTS) != 0u;
+      vec4 none = vec4(0.0f, 0.0f, 0.0f, 0.0f);
+      surface.second_tangent = along_second || !second ? surface.tangent : none;
+      surface.tangent = along_second ? none : surface.tangent;
+#endif
     }
 #endif
   }
@@ -173,6 +190,21 @@ Surface triangle_surface(Primitive s, Ray ray, Hit hit) {
   surface.inward = triangle_inward(s, vec3(wa, hit.uv.x, hit.uv.y), edge_room(ray, max_component(reach)));
   return surface;
 }
+
+#if HAS_SECOND_UV
+// The second texture coordinates of a mesh's vertices; `uv` where they have none, and on other shapes.
+vec2 second_uv(Primitive s, Hit hit, vec2 uv) {
+  if (kind_of(s) != KIND_triangle || s.extra == NONE) return uv;
+  uvec4 corners = load_vertex(s.extra);
+  if ((corners.w & CORNERS_SECOND_UV) == 0u) return uv;
+  uint beside = beside_normal(corners);
+  vec4 a = bits_to_floats(load_vertex(corners.x + beside));
+  vec4 b = bits_to_floats(load_vertex(corners.y + beside));
+  vec4 c = bits_to_floats(load_vertex(corners.z + beside));
+  float wa = (1.0f - hit.uv.x) - hit.uv.y;
+  return vec2((a.x * wa + b.x * hit.uv.x) + c.x * hit.uv.y, (a.y * wa + b.y * hit.uv.x) + c.y * hit.uv.y);
+}
+#endif
 
 #if HAS_COLORS
 // What a mesh's vertices multiply the material's colour by; white where they say nothing, and on other shapes.

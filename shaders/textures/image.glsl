@@ -80,8 +80,16 @@ TexelQuad texels_at(Texture texture, vec2 uv) {
   return place;
 }
 
+// The texture coordinates that it reads.
+vec2 image_uv(Texture texture, TextureContext place) {
+#if HAS_SECOND_UV
+  if (reads_second_uv(texture)) return place.second_uv;
+#endif
+  return place.uv;
+}
+
 vec3 image_color(Texture texture, TextureContext place) {
-  TexelQuad at = texels_at(texture, place.uv);
+  TexelQuad at = texels_at(texture, image_uv(texture, place));
   vec3 bottom_left = texel_color(texture, at.left, at.bottom);
   vec3 top_left = texel_color(texture, at.left, at.top);
   vec3 lower = bottom_left + (texel_color(texture, at.right, at.bottom) - bottom_left) * at.to_right;
@@ -94,7 +102,7 @@ float texel_alpha(Texture texture, uint column, uint row) {
 }
 
 float image_alpha(Texture texture, TextureContext place) {
-  TexelQuad at = texels_at(texture, place.uv);
+  TexelQuad at = texels_at(texture, image_uv(texture, place));
   float bottom_left = texel_alpha(texture, at.left, at.bottom);
   float top_left = texel_alpha(texture, at.left, at.top);
   float lower = bottom_left + (texel_alpha(texture, at.right, at.bottom) - bottom_left) * at.to_right;

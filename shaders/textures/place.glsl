@@ -7,6 +7,9 @@ SHADER_BEGIN
 
 struct TextureContext {
   vec2 uv;
+#if HAS_SECOND_UV
+  vec2 second_uv;  // of a mesh's vertices; uv where there are none
+#endif
   vec3 p;  // from the eye
 };
 
@@ -14,6 +17,9 @@ struct TextureContext {
 TextureContext place_of_uv(vec2 uv) {
   TextureContext place;
   place.uv = uv;
+#if HAS_SECOND_UV
+  place.second_uv = uv;
+#endif
   place.p = vec3(0.0f, 0.0f, 0.0f);
   return place;
 }

@@ -90,7 +90,7 @@ TEST_CASE("gate A sees one bit, wherever it is") {
     flip(narrow);
     value = double(narrow);
   };
-  const std::vector<std::function<void(Frame&)>> faults = {
+  const std::vector<std::function<void(Frame&)>> changes = {
       [&](Frame& f) { flip(f.color.pixel(50, 30)[2]); },
       [&](Frame& f) { flip_double(hit_at(f, on_ball).t); },
       [&](Frame& f) { flip_double(hit_at(f, on_ball).position.y); },
@@ -105,10 +105,10 @@ TEST_CASE("gate A sees one bit, wherever it is") {
   };
   const Frame twin = honest_frame();
   CHECK(compare_exactly(twin, twin).passes(0));
-  for (size_t i = 0; i < faults.size(); ++i) {
+  for (size_t i = 0; i < changes.size(); ++i) {
     CAPTURE(i);
     Frame gpu = twin;
-    faults[i](gpu);
+    changes[i](gpu);
     const ExactComparison comparison = compare_exactly(gpu, twin);
     CHECK_FALSE(comparison.passes(0));
     CHECK(comparison.different_pixels == 1);

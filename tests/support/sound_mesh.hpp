@@ -20,14 +20,17 @@ inline std::string broken_promise(const Mesh& mesh) {
   if (mesh.triangles.empty()) return "no triangles";
   if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size()) return "number of normals";
   if (!mesh.uv.empty() && mesh.uv.size() != mesh.positions.size()) return "number of uv";
+  if (!mesh.second_uv.empty() && mesh.second_uv.size() != mesh.positions.size()) return "number of second uv";
+  if (mesh.second_tangents && (mesh.second_uv.empty() || mesh.tangents.empty())) return "second tangents";
   if (!mesh.colors.empty() && mesh.colors.size() != mesh.positions.size()) return "number of colours";
   for (const Vec3& color : mesh.colors)
     for (int i = 0; i < 3; ++i)
       if (!(color[i] >= 0 && color[i] <= 1)) return "colour out of range";
   for (const Vec3& position : mesh.positions)
     if (!finite(position)) return "position not finite";
-  for (const Vec2& uv : mesh.uv)
-    if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) return "uv not finite";
+  for (const auto* set : {&mesh.uv, &mesh.second_uv})
+    for (const Vec2& uv : *set)
+      if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) return "uv not finite";
   for (const auto& triangle : mesh.triangles) {
     for (const uint32_t vertex : triangle)
       if (vertex >= mesh.positions.size()) return "index out of range";

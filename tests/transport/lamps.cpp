@@ -214,6 +214,36 @@ TEST_CASE("a lamp with a picture: each part as bright as it is") {
       {.mesh = 0, .transform = Mat4(1.0), .material = picture(mesh, {1, 0.5}), .position = {}});
   check(mesh, shown(2 * left + 0.25 * right), 1e-4);
 
+  // And on second uv: the first are all in the dark half.
+  Scene second = floor(1024);
+  const auto halves = std::make_shared<ImageTexture>();
+  halves->width = 2;
+  halves->height = 1;
+  halves->texels = {{255, 255, 255, 255}, {51, 51, 51, 255}};
+  halves->srgb = false;
+  halves->filter = Filter::nearest;
+  Mesh with_second = mesh.meshes[0];
+  with_second.uv.assign(4, Vec2(0.75, 0.5));
+  with_second.colors.clear();
+  with_second.second_uv = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  second.meshes.push_back(with_second);
+  const int glow =
+      add(second,
+          make_phong({.diffuse = gray(0), .emission = textures::make_image(halves, Vec3(4), Vec2(1), true)}));
+  second.instances.push_back({.mesh = 0, .transform = Mat4(1.0), .material = glow, .position = {}});
+  check(second, shown(4 * left + 0.8 * right), 1e-4);
+  // Seen itself, it shines as it lights.
+  for (const IntegratorType integrator : {IntegratorType::path, IntegratorType::whitted})
+    for (const auto& [share, radiance] : {std::pair(0.3, 4.0), std::pair(0.7, 0.8)}) {
+      Scene seen = patch({0, 0, 0}, a + share * u + 0.5 * v, 4);
+      seen.render.integrator = integrator;
+      seen.meshes.push_back(with_second);
+      seen.materials.push_back(
+          make_phong({.diffuse = gray(0), .emission = textures::make_image(halves, Vec3(4), Vec2(1), true)}));
+      seen.instances.push_back({.mesh = 0, .transform = Mat4(1.0), .material = 0, .position = {}});
+      check(seen, radiance);
+    }
+
   // A globe whose southern half is what the floor sees.
   Scene globe = floor(1024);
   add(globe, make_sphere({0, 2, 0}, 0.5), picture(globe, {2, 0.5}));

@@ -7,6 +7,7 @@
 #define HAS_ENVIRONMENT_LIGHT false
 #define TRIANGLE_METHOD 0u
 #define HAS_COLORS 0
+#define HAS_SECOND_UV 0
 #define HAS_SMOOTH 1
 #define HAS_EMISSION 1
 #define HAS_EMISSION_TEXTURES 0

@@ -1,0 +1,13 @@
+// Where a surface's textures are asked.
+#pragma once
+
+#include "host/scene/shape.hpp"
+#include "host/scene/texture.hpp"
+
+namespace eyeray::reference {
+
+inline TextureContext place_on(const SurfacePoint& point) {
+  return {point.uv, point.second ? point.second->uv : point.uv, point.position};
+}
+
+}  // namespace eyeray::reference
