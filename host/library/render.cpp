@@ -126,8 +126,7 @@ void render_into(v0::Picture::Data& picture, v0::Renderer::Data& renderer, const
   quality.flagged = std::max(quality.flagged, collector.flagged_hits);
   if (scene.is_mesh_alone && !scene.environment) quality.illegible = legibility.warning();
   std::ranges::move(render::warnings_of(quality), std::back_inserter(warnings));
-  for (std::string& warning : warnings)
-    picture.warnings.push_back({false, "", 0, 0, std::move(warning)});
+  for (std::string& warning : warnings) picture.warnings.push_back({false, "", 0, 0, std::move(warning)});
   picture.seconds = watch.seconds();
 }
 

@@ -15,7 +15,7 @@ using namespace eyeray::film;
 
 namespace {
 
-constexpr int width = 9, height = 7, taken = 5;
+constexpr int columns = 9, lines = 7, taken = 5;
 
 struct Samples {
   std::vector<PixelSample> samples;
@@ -28,7 +28,7 @@ std::vector<Samples> random_samples() {
   const auto number = [&](double most) { return uint32_t(random.uniform(0, most)); };
   std::vector<Samples> all(taken);
   for (Samples& of_index : all) {
-    for (int i = 0; i < width * height; ++i) {
+    for (int i = 0; i < columns * lines; ++i) {
       PixelSample sample;
       sample.color = Vec3(random.uniform(0, 2), random.uniform(0, 1), random.uniform(-1, 1));
       sample.reflected = number(5);
@@ -46,8 +46,8 @@ std::vector<Samples> random_samples() {
 
 Film film_of(const Channels& channels, const std::vector<Samples>& all) {
   Film film;
-  film.reset(width, height, channels);
-  for (const Samples& each : all) film.add({0, 0, width, height}, each.samples, each.auxiliaries);
+  film.reset(columns, lines, channels);
+  for (const Samples& each : all) film.add({0, 0, columns, lines}, each.samples, each.auxiliaries);
   return film;
 }
 
@@ -70,13 +70,13 @@ float mean(const std::vector<Samples>& all, size_t i, const Value& value) {
 
 TEST_CASE("channels are the means of a pixel's samples") {
   const std::vector<Samples> all = random_samples();
-  const Rows rows = film_of(all_of_samples(), all).rows(0, height);
+  const Rows rows = film_of(all_of_samples(), all).rows(0, lines);
   const auto value = [&](std::string_view name, size_t i, size_t component = 0) {
     const image::Image& image = rows[channel_named(name)];
     return image.samples()[i * size_t(image.channels()) + component];
   };
   uint32_t flags = 0;
-  for (size_t i = 0; i < size_t(width * height); ++i) {
+  for (size_t i = 0; i < size_t(columns * lines); ++i) {
     const auto mean_of = [&](const auto& of) { return mean(all, i, of); };
     using S = const PixelSample&;
     using A = const AuxiliarySample&;
@@ -111,18 +111,18 @@ TEST_CASE("a channel has the same values whatever is summed beside it, and after
   const std::vector<Samples> all = random_samples();
   const Channels channels = all_of_samples();
   const Film film = film_of(channels, all);
-  const Rows together = film.rows(0, height);
+  const Rows together = film.rows(0, lines);
   const auto same = [](const image::Image& a, const image::Image& b) {
     return a.same_size(b) && std::ranges::equal(a.samples(), b.samples(), {}, std::bit_cast<uint32_t, float>,
                                                 std::bit_cast<uint32_t, float>);
   };
   for (const Channel each : channels) {
     CAPTURE(each->name);
-    CHECK(same(film_of({each}, all).rows(0, height)[each], together[each]));
+    CHECK(same(film_of({each}, all).rows(0, lines)[each], together[each]));
   }
 
   Film restored;
-  restored.reset(width, height, channels);
+  restored.reset(columns, lines, channels);
   const auto from = film.parts();
   const auto to = restored.parts();
   REQUIRE(from.size() == to.size());
