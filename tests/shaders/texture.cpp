@@ -280,7 +280,7 @@ TEST_CASE(
     constexpr int count = 50'000;
     for (int i = 0; i < count; ++i) {
       const glm::vec3 p(random.uniform(-6, 6), random.uniform(-6, 6), random.uniform(-6, 6));
-      const Vec3 difference = glm::abs(Vec3(shader::base_texture(index, {{0, 0}, p})) -
+      const Vec3 difference = glm::abs(Vec3(shader::base_texture(index, {{0, 0}, {0, 0}, p})) -
                                        material->base_color({Vec2(0), Vec3(p) + eye}));
       const double most = std::max({difference.x, difference.y, difference.z});
       apart += most > 2e-4;
