@@ -132,7 +132,7 @@ void describe(const PictureRequest& request, const PreparedPicture& prepared,
   if (request.ray_kinds) picture.ray_kinds = totals.ray_kinds;
 
   render::PictureQuality quality;
-  // Of a part the rest is its picture's to say.
+  // A part has only its flags: the rest is for the picture to say.
   if (!request.shard) quality = render::quality_of(scene, prepared.options, totals);
   quality.flags = picture.flags;
   quality.flagged = std::max(picture.flagged_pixels, picture.flagged_hits);

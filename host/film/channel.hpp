@@ -56,7 +56,7 @@ struct ChannelType {
   std::variant<ValueOfHit, EntryOfLegend, OfSamples> values;
   Needs needs = Needs::nothing;
   OfCorners of_corners = OfCorners::nothing;
-  // Of ids: what they stand for; `scene` must outlive it. Else null.
+  // What ids stand for; `scene` must outlive it. Null where values are no ids.
   std::unique_ptr<LegendEntries> (*legend)(const Scene& scene) = nullptr;
 
   // Null where it is of first hits.

@@ -15,7 +15,7 @@ struct Rows {
   // All 0.
   Rows(int from, int width, int count, Channels channels);
 
-  // Of one of `channels`.
+  // The values of one of `channels`.
   const image::Image& operator[](Channel channel) const;
 
   int first = 0;                     // counted from the top of what is rendered
@@ -31,8 +31,8 @@ constexpr int noise_block = 8;
 
 class Film {
  public:
-  // Of `channels` those that are of samples. All 0. `shown_as_one`: the luminance that a picture shows as 1,
-  // the measure of noise in the dark.
+  // Sums those of `channels` that are of samples. All 0. `shown_as_one`: the luminance that a picture shows
+  // as 1, the measure of noise in the dark.
   void reset(int width, int height, const Channels& channels, double shown_as_one = 1);
   int width() const { return width_; }
   int height() const { return height_; }

@@ -19,11 +19,11 @@ class ChannelValues {
   const Channels& channels() const { return channels_; }
   // Is given rows of a channel, by its index.
   using Sink = std::function<void(size_t channel, const image::Image& rows)>;
-  // Of those that are made of these.
+  // Hands on the channels of samples.
   void give(const Rows& rows, const Sink& sink) const;
-  // Of those that are made of first hits, `width` a row, which their legends see.
+  // Hands on the channels of first hits, `width` a row; their legends see the hits.
   void give(std::span<const FirstHit> hits, int width, const Sink& sink);
-  // Of a channel of ids, by its index; null of another.
+  // The legend of a channel of ids, by its index; null for another channel.
   const Legend* legend(size_t channel) const { return legends_[channel] ? &*legends_[channel] : nullptr; }
 
  private:

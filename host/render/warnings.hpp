@@ -22,7 +22,7 @@ struct PictureQuality {
   std::string illegible = {};  // Legibility::warning()
 };
 
-// Of a render's totals; whoever traced first hits or looked at the picture adds what it saw.
+// The quality that a render's totals show; whoever traced first hits or looked at the picture adds to it.
 PictureQuality quality_of(const Scene& scene, const RenderOptions& options, const RenderTotals& totals);
 
 // A sentence each; none where nothing is wrong.

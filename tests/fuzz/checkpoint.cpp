@@ -28,7 +28,7 @@ void write(const std::filesystem::path& file, const std::string& bytes) {
   std::ofstream(file, std::ios::binary).write(bytes.data(), std::streamsize(bytes.size()));
 }
 
-// Of the channels of samples, those that the bits of `first` say.
+// The channels of samples that the bits of `first` choose.
 film::Channels channels_by(uint8_t first) {
   film::Channels channels;
   int bit = 0;
