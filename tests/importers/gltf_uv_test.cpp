@@ -66,12 +66,13 @@ TEST_CASE("a picture on another set of uv, or on the same one otherwise transfor
 }
 
 TEST_CASE("any picture may read the second uv, and a third is left out") {
-  for (const auto& [pointer, left_out] :
+  for (const std::pair<const char*, const char*>& texture :
        {std::pair("/pbrMetallicRoughness/metallicRoughnessTexture", "variations of metalness and roughness"),
         std::pair("/normalTexture", "normal maps"),
         std::pair("/extensions/KHR_materials_clearcoat/clearcoatTexture", "pictures of extensions"),
         std::pair("/extensions/KHR_materials_clearcoat/clearcoatNormalTexture", "normal maps")}) {
-    CAPTURE(pointer);
+    const auto& [pointer, left_out] = texture;
+    CAPTURE(texture.first);
     Json material = glowing(map(1));
     material["extensions"]["KHR_materials_clearcoat"]["clearcoatFactor"] = 1;
     material[Json::json_pointer(pointer)] = map(1);
