@@ -4,6 +4,8 @@
 #include <sstream>
 
 #include "scene.hpp"
+//
+#include "tests/support/doctest.hpp"
 
 namespace eyeray::test {
 

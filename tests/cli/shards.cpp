@@ -54,10 +54,10 @@ void check_shards(const std::string& scene, const Words& more, const Words& endi
   REQUIRE(merged.code == 0);
   const auto expected = files_of(folder, "whole"), found = files_of(folder, "merged");
   CHECK(expected.size() >= endings.size());
-  for (const auto& [name, content] : expected) {
-    CAPTURE(name);
-    REQUIRE(found.contains(name));
-    CHECK((found.at(name) == content));
+  for (const auto& file : expected) {
+    CAPTURE(file.first);
+    REQUIRE(found.contains(file.first));
+    CHECK((found.at(file.first) == file.second));
   }
   CHECK(found.size() == expected.size());
 }

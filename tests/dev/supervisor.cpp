@@ -13,7 +13,7 @@ namespace {
 
 // Renders nothing. The first probe takes it until a newer request has come. On a busy machine the supervisor
 // may start it anew meanwhile: a file counts the probes of both.
-constexpr const char* worker = R"(
+constexpr const char* worker_script = R"(
 import json, os, socket, struct, sys
 end = socket.socket(fileno=int(sys.argv[1]))
 def read(count):
@@ -77,7 +77,8 @@ class Supervised {
  private:
   SupervisorOptions options() const {
     SupervisorOptions options;
-    options.worker = {"/usr/bin/env", "PROBES=" + folder_ / "probes", "/usr/bin/python3", "-c", worker};
+    options.worker = {"/usr/bin/env", "PROBES=" + folder_ / "probes", "/usr/bin/python3", "-c",
+                      worker_script};
     options.scene = folder_ / "scene.toml";
     options.port = 0;
     return options;
