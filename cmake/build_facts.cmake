@@ -21,8 +21,8 @@ list(TRANSFORM sources PREPEND ${CMAKE_SOURCE_DIR}/)
 string(TOUPPER "${CMAKE_BUILD_TYPE}" type)
 set(compiler "${CMAKE_SYSTEM_PROCESSOR} ${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION} ${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${type}} ${EYERAY_SANITIZE}")
 add_custom_command(OUTPUT ${facts} DEPENDS ${head} ${sources} COMMENT "Writing build_facts.cpp" VERBATIM
-  COMMAND ${CMAKE_COMMAND} -D GIT=${GIT_EXECUTABLE} -D SOURCE=${CMAKE_SOURCE_DIR} -D COMPILER=${compiler} -D INSTALLED=${installed} -D TREE=${tree} -D OUTPUT=${facts} -P ${script})
-target_sources(program PRIVATE ${facts})
+  COMMAND ${CMAKE_COMMAND} -D GIT=${GIT_EXECUTABLE} -D SOURCE=${CMAKE_SOURCE_DIR} -D COMPILER=${compiler} -D INSTALLED=${installed} -D TREE=${tree} -D VERSION=${PROJECT_VERSION} -D OUTPUT=${facts} -P ${script})
+target_sources(build PRIVATE ${facts})
 
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program FILES_MATCHING PATTERN "*.md" PATTERN experiments EXCLUDE)

@@ -1,5 +1,5 @@
-# cmake -D GIT=… -D SOURCE=… -D COMPILER=… -D INSTALLED=… -D TREE=… -D OUTPUT=… -P write_build_facts.cmake: OUTPUT defines
-# host/program/build_facts.hpp. A clone that only surrounds SOURCE, as where a source package was unpacked in one, is another project's.
+# cmake -D GIT=… -D SOURCE=… -D COMPILER=… -D INSTALLED=… -D TREE=… -D VERSION=… -D OUTPUT=… -P write_build_facts.cmake: OUTPUT defines
+# host/build/build_facts.hpp. A clone that only surrounds SOURCE, as where a source package was unpacked in one, is another project's.
 set(commit "")
 if(GIT)
   execute_process(COMMAND ${GIT} rev-parse --show-toplevel WORKING_DIRECTORY ${SOURCE}
@@ -19,10 +19,13 @@ foreach(source IN LISTS sources)
 endforeach()
 string(SHA256 sum "${sums}")
 file(CONFIGURE OUTPUT ${OUTPUT} @ONLY CONTENT [[
-#include "host/program/build_facts.hpp"
+#include "host/build/build_facts.hpp"
 
-namespace eyeray::program {
+namespace eyeray::build {
 
+std::string_view version() {
+  return "@VERSION@";
+}
 std::string_view commit() {
   return "@commit@";
 }
@@ -36,5 +39,5 @@ std::string_view documents_from_built() {
   return "@TREE@";
 }
 
-}  // namespace eyeray::program
+}  // namespace eyeray::build
 ]])

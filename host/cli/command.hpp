@@ -96,9 +96,8 @@ std::vector<executors::Backend> parse_backends(const std::string& list);
 // --backend gpu|twin|reference.
 void add_backend_option(CLI::App& command, executors::Backend& backend);
 
-// --crop X,Y,W,H; an empty rect when not given. Error (bad_input) at load time when it leaves the picture.
+// --crop X,Y,W,H; an empty rect when not given.
 void add_crop_option(CLI::App& command, Rect& crop);
-void check_crop(const Rect& crop, const ImageSettings& image);
 
 // Progress on stderr: a bar with rays/s and time left on a terminal, a plain line every few seconds
 // otherwise, nothing under --quiet. NO_COLOR is honoured. Call it with Progress() before making the executor:

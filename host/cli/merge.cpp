@@ -2,17 +2,15 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "host/build/build_facts.hpp"
 #include "host/cli/merged_report.hpp"
-#include "host/cli/picture.hpp"
-#include "host/cli/picture_files.hpp"
+#include "host/cli/picture_text.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/core/escaped_text.hpp"
 #include "host/core/standard_streams.hpp"
 #include "host/core/termination.hpp"
 #include "host/image/image_file.hpp"
-#include "host/program/build_facts.hpp"
-#include "host/render/warnings.hpp"
-#include "host/scene/luminance.hpp"
+#include "host/session/picture_files.hpp"
 #include "host/shards/part_set.hpp"
 
 namespace fs = std::filesystem;
@@ -31,7 +29,7 @@ struct MergeCommand {
   ExitCode run();
   ExitCode merge_reports() const;
   ExitCode report_faults(const shards::PartSet& set) const;
-  Picture merge(shards::PartSet& set) const;
+  session::Result merge(shards::PartSet& set) const;
   void check_outputs(const shards::PartHeader& header);
 };
 
@@ -64,53 +62,43 @@ void MergeCommand::check_outputs(const shards::PartHeader& header) {
   }
 }
 
-Picture MergeCommand::merge(shards::PartSet& set) const {
+session::Result MergeCommand::merge(shards::PartSet& set) const {
   const Stopwatch watch;
   const shards::PartHeader& header = *set.header();
-  const Rect& area = header.area;
-  PictureFiles files(outputs, header.aovs, area.width, area.height, half, header.tone);
+  session::PictureFiles files(outputs, header.aovs, half);
+  files.begin(header.area.width, header.area.height, header.tone);
   double luminances = 0;
   set.merge([&](size_t plane, const image::Image& rows) {
-    if (plane > 0) return files.write(plane - 1, rows);
-    files.write(rows);
-    for (size_t i = 0; i < rows.sample_count(); i += 3) {
-      const float* const color = &rows.samples()[i];
-      luminances += luminance(Vec3(color[0], color[1], color[2]));
-    }
+    files.write(plane, rows);
+    if (plane == 0) luminances += render::sum_of_luminances(rows);
   });
-
-  Picture picture;
   const shards::PartTotals totals = set.totals();
   {
     const Saving saving;
-    files.finish_picture(picture.files);
-    files.finish_aovs(picture.files, [&](size_t aov, const fs::path& file) {
-      return film::write_legend(totals.legends[aov], file);
-    });
+    files.finish_color();
+    files.finish_aovs(
+        [&](size_t aov, const fs::path& file) { return film::write_legend(totals.legends[aov], file); });
   }
-  const double pixels = double(area.pixels());
+
+  session::Result picture;
+  picture.files = files.written();
   picture.device = header.device;
-  picture.crop = area;
-  picture.samples = picture.samples_done = picture.most_samples = header.samples;
-  picture.mean_samples = header.samples;
-  picture.share = 1;
-  picture.parts = set.parts().size();
-  picture.rays = totals.rays;
-  picture.sampling_seconds = totals.seconds;
-  picture.sampling_processor_seconds = totals.processor_seconds;
-  picture.flagged_pixels = totals.flagged_pixels;
+  picture.crop = header.area;
+  picture.pixels = header.area.pixels();
+  picture.samples = picture.totals.samples_done = picture.totals.most_samples = header.samples;
+  picture.totals.rays = totals.rays;
+  picture.totals.seconds = totals.seconds;
+  picture.totals.processor_seconds = totals.processor_seconds;
+  picture.totals.flagged_pixels = totals.flagged_pixels;
   picture.flagged_hits = totals.flagged_hits;
-  picture.flags = totals.flags;
-  picture.clamp = header.clamp;
-  picture.clamped = totals.clamped;
-  if (header.random_paths)
-    picture.fireflies = totals.brightness.above(render::Fireflies::times * luminances / pixels);
   picture.ray_kinds = totals.ray_kinds;
-  picture.warnings = render::warnings_of({.flags = picture.flags,
-                                          .flagged = std::max(picture.flagged_pixels, picture.flagged_hits),
-                                          .fireflies = picture.fireflies,
-                                          .clamp = picture.clamp,
-                                          .clamped = picture.clamped});
+  session::PictureQuality& quality = picture.quality;
+  quality.flags = totals.flags;
+  quality.flagged = std::max(totals.flagged_pixels, totals.flagged_hits);
+  quality.clamp = header.clamp;
+  quality.clamped = totals.clamped;
+  if (header.random_paths) quality.fireflies = totals.brightness.fireflies(luminances, picture.pixels);
+  picture.warnings = session::warnings_of(quality);
   picture.seconds = watch.seconds();
   return picture;
 }
@@ -147,12 +135,12 @@ ExitCode MergeCommand::run() {
   set.faults().refuse();
   const shards::PartHeader& header = *set.header();
   check_outputs(header);
-  if (header.build != sum_of_sources())
+  if (header.build != build::sum_of_sources())
     print_lines(stderr, "eyeray: warning: the parts were rendered by another build of eyeray than this\n");
-  const Picture picture = merge(set);
-  for (const std::string& warning : picture.warnings) print_lines(stderr, "eyeray: warning: {}\n", warning);
-  if (!quiet) print_lines(stderr, "{}\n", summary(picture));
-  if (json) print_json(to_json(picture));
+  const session::Result picture = merge(set);
+  print_warnings(picture);
+  if (!quiet) print_lines(stderr, "{}\n", summary(picture, set.parts().size()));
+  if (json) print_json(json_of(picture, set.parts().size()));
   return ExitCode::ok;
 }
 

@@ -12,9 +12,9 @@
 #include "host/core/process.hpp"
 #include "host/core/standard_streams.hpp"
 #include "host/executors/cpp_compiler.hpp"
-#include "host/executors/formula_check.hpp"
 #include "host/executors/tuning.hpp"
 #include "host/loader/scene_file.hpp"
+#include "host/session/request.hpp"
 
 namespace eyeray::cli {
 namespace {
@@ -139,10 +139,7 @@ Scene SceneOptions::load() const {
   add("--seed", "render.seed", seed_);
   add("--triangle", "render.triangle", triangle_);
 
-  Scene scene = loader::load_scene(file_, overrides, trust_);
-  executors::check_formulas(scene);
-  for (Diagnostic& doubt : executors::doubt_lipschitz_constants(scene))
-    scene.warnings.push_back(std::move(doubt));
+  Scene scene = session::checked(loader::load_scene(file_, overrides, trust_));
   for (const Diagnostic& warning : scene.warnings) print_lines(stderr, "{}\n", format_diagnostic(warning));
   return scene;
 }
@@ -237,16 +234,6 @@ void add_crop_option(CLI::App& command, Rect& crop) {
                                         "Only these pixels of the picture, from its top left.")
       ->option_text("X,Y,W,H")
       ->group("Scene");
-}
-
-void check_crop(const Rect& crop, const ImageSettings& image) {
-  if (crop == Rect{}) return;
-  const bool inside = crop.x >= 0 && crop.y >= 0 && crop.width > 0 && crop.height > 0 &&
-                      crop.x < image.width && crop.y < image.height && crop.width <= image.width - crop.x &&
-                      crop.height <= image.height - crop.y;
-  if (!inside)
-    throw Error(ExitCode::bad_input, "--crop {},{},{},{} leaves the picture, which is {}x{}", crop.x, crop.y,
-                crop.width, crop.height, image.width, image.height);
 }
 
 }  // namespace eyeray::cli

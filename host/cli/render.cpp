@@ -5,19 +5,23 @@
 #include <utility>
 
 #include "host/cli/frames.hpp"
-#include "host/cli/picture.hpp"
-#include "host/cli/picture_files.hpp"
+#include "host/cli/picture_options.hpp"
+#include "host/cli/picture_text.hpp"
 #include "host/core/escaped_text.hpp"
 #include "host/core/readable.hpp"
 #include "host/core/standard_streams.hpp"
 #include "host/program/within.hpp"
+#include "host/session/part_file.hpp"
+#include "host/session/picture_files.hpp"
+#include "host/session/session.hpp"
 #include "host/shards/part.hpp"
 
 namespace eyeray::cli {
 namespace {
 
 struct RenderCommand {
-  PictureRequest request;
+  PictureOptions options;
+  int band_mebibytes = 256;  // Request::band_bytes
   bool stats = false;
   bool quiet = false;
   bool json = false;
@@ -28,11 +32,14 @@ struct RenderCommand {
   ExitCode run();
 
  private:
-  ExitCode run_picture(PictureRequest picture, Json& said);
+  session::Result render(PictureOptions& wanted);
+  ExitCode run_picture(PictureOptions wanted, Json& said);
   ExitCode run_frames();
+
+  session::Session session_;
 };
 
-void print_stages(const Picture& picture) {
+void print_stages(const session::Result& picture) {
   for (const auto& [stage, seconds] : picture.times.stages())
     print_lines(stderr, "  {:<16} {:>10}\n", stage, format_seconds(seconds));
   print_lines(stderr, "  {:<16} {:>10}\n", "all in all", format_seconds(picture.seconds));
@@ -54,27 +61,27 @@ void print_rays(const RayCounts& kinds, double seconds) {
 }
 
 // A sentence on a picture that was interrupted.
-std::string what_was_kept(const Picture& picture, bool aovs) {
+std::string what_was_kept(const session::Result& picture, bool aovs) {
   const std::string file = picture.checkpoint.string();
   std::string text;
   if (!picture.files.empty()) {
-    text = fmt::format("interrupted; {} of {} samples a pixel were kept{}", picture.samples_done,
+    text = fmt::format("interrupted; {} of {} samples a pixel were kept{}", picture.totals.samples_done,
                        picture.samples, aovs ? ", and no AOVs" : "");
   } else if (!file.empty()) {
     text = "interrupted before the picture was whole";
   } else if (picture.shard) {
     text = "interrupted, and a part is whole or nothing; nothing was kept (--checkpoint FILE would)";
-  } else if (picture.bands == 1) {
+  } else if (picture.totals.bands == 1) {
     text = "interrupted before every pixel had a sample; nothing was kept";
   } else {
     text = fmt::format(
         "interrupted, and a picture of {} bands is whole only at its end; nothing was kept "
         "(--checkpoint FILE would)",
-        picture.bands);
+        picture.totals.bands);
   }
   if (file.empty()) return text;
   return fmt::format("{}; {} has {:.1f} % of the work: to go on, give the same options and --resume {}", text,
-                     file, 100 * picture.share, shell_word(file));
+                     file, 100 * picture.share(), shell_word(file));
 }
 
 void add_frame_options(CLI::App& command, RenderCommand& options) {
@@ -93,43 +100,59 @@ void add_frame_options(CLI::App& command, RenderCommand& options) {
   command.add_flag("--overwrite", options.overwrite, "Render frames that are there anew.")->group(group);
 }
 
-void add_long_render_options(CLI::App& command, LongRender& options) {
+void add_long_render_options(CLI::App& command, RenderCommand& options) {
+  session::CheckpointFile& file = options.options.request.checkpoint;
   const std::string group = "Long renders";
   const auto add = [&](const char* name, auto& value, const char* text, const char* description) {
     return command.add_option(name, value, description)->option_text(text)->group(group);
   };
   CLI::Option* const checkpoint =
-      add("--checkpoint", options.checkpoint, "FILE",
+      add("--checkpoint", file.begin, "FILE",
           "Keep what is done in this file, now and then and on Ctrl-C, until the picture is written.");
-  add("--resume", options.resume, "FILE",
+  add("--resume", file.resume, "FILE",
       "Go on from a checkpoint, and keep it as --checkpoint does. All else must be as it was.")
       ->excludes(checkpoint);
-  add("--checkpoint-every", options.checkpoint_seconds, "SECONDS=30", "How often the checkpoint is written.")
+  add("--checkpoint-every", file.seconds, "SECONDS=30", "How often the checkpoint is written.")
       ->check(within(0.01, 1e6));
   add("--band-memory", options.band_mebibytes, "MIB=256",
       "A picture whose sums (40 bytes a pixel) need more is rendered in bands of rows.")
       ->check(CLI::Range(1, 1 << 20));
 }
 
-// One picture. `said`: what is said of it as JSON.
-ExitCode RenderCommand::run_picture(PictureRequest wanted, Json& said) {
-  wanted.check_outputs();
-  wanted.ray_kinds = stats;
-  const bool aovs = !wanted.aovs.empty();
-  const bool share = wanted.shard.has_value();
-  const Picture picture = share ? make_part(std::move(wanted), progress_reporter(quiet))
-                                : make_picture(std::move(wanted), progress_reporter(quiet));
-  request.executor.open_device = picture.open_device;
+session::Result RenderCommand::render(PictureOptions& wanted) {
+  const Stopwatch watch;
+  StageTimes times;
+  const Scene scene = times.measure("load", [&] { return wanted.load(); });
+  session::PictureFiles files(wanted.outputs, wanted.request.channels, wanted.half);
+  session::PartFile part(wanted.outputs[0], wanted.scene.file());
+  session::Output& output = wanted.request.shard ? static_cast<session::Output&>(part) : files;
+  session::Result result = session_.render(scene, wanted.request, output);
+  for (const auto& [stage, seconds] : result.times.stages()) times.add(stage, seconds);
+  result.times = std::move(times);
+  result.seconds = watch.seconds();
+  return result;
+}
 
-  for (const std::string& warning : picture.warnings) print_lines(stderr, "eyeray: warning: {}\n", warning);
-  if (picture.interrupted && picture.files.empty())
+// One picture. `said`: what is said of it as JSON.
+ExitCode RenderCommand::run_picture(PictureOptions wanted, Json& said) {
+  wanted.check_outputs();
+  session::Request& request = wanted.request;
+  request.ray_kinds = stats;
+  request.band_bytes = size_t(band_mebibytes) << 20;
+  request.overrides = wanted.scene.as_written();
+  request.progress = progress_reporter(quiet);
+  request.warn = [](const std::string& warning) { print_lines(stderr, "eyeray: warning: {}\n", warning); };
+  const session::Result picture = render(wanted);
+
+  print_warnings(picture);
+  if (picture.interrupted() && picture.files.empty())
     throw Error(ExitCode::interrupted, "{}", what_was_kept(picture, false));
   if (!quiet) print_lines(stderr, "{}\n", summary(picture));
   if (stats) print_stages(picture);
-  if (picture.ray_kinds) print_rays(*picture.ray_kinds, picture.sampling_seconds);
-  said = to_json(picture);
-  if (!picture.interrupted) return ExitCode::ok;
-  print_lines(stderr, "eyeray: {}\n", what_was_kept(picture, aovs));
+  if (picture.ray_kinds) print_rays(*picture.ray_kinds, picture.totals.seconds);
+  said = json_of(picture);
+  if (!picture.interrupted()) return ExitCode::ok;
+  print_lines(stderr, "eyeray: {}\n", what_was_kept(picture, !request.channels.empty()));
   return ExitCode::interrupted;
 }
 
@@ -137,7 +160,7 @@ ExitCode RenderCommand::run_picture(PictureRequest wanted, Json& said) {
 // kept as they are.
 ExitCode RenderCommand::run_frames() {
   std::vector<int> wanted = parse_frames(frames);
-  if (const auto shard = std::exchange(request.shard, std::nullopt)) {
+  if (const auto shard = std::exchange(options.request.shard, std::nullopt)) {
     if (!video.empty())
       throw Error(ExitCode::bad_input,
                   "--video takes all frames, and --shard renders a share of them: the video "
@@ -147,34 +170,34 @@ ExitCode RenderCommand::run_frames() {
       share.push_back(wanted[i]);
     wanted = std::move(share);
   }
-  if (request.outputs.empty())
-    request.outputs.push_back(std::filesystem::path(request.scene.file()).stem().string() + ".%04d.png");
-  for (const std::string& output : request.outputs) frame_name(output, 0);
-  const bool shown = request.outputs[0].ends_with(".png");
+  if (options.outputs.empty())
+    options.outputs.push_back(std::filesystem::path(options.scene.file()).stem().string() + ".%04d.png");
+  for (const std::string& output : options.outputs) frame_name(output, 0);
+  const bool shown = options.outputs[0].ends_with(".png");
   if (!video.empty()) {
     if (!shown)
       throw Error(ExitCode::bad_input, "--video is made of the first output, which is to be a .png then");
     check_video(video);
   }
-  const Scene scene = request.scene.load();
+  const Scene scene = options.scene.load();
   const Animation& animation = scene.animation;
   if (animation.tracks == 0)
     throw Error(ExitCode::bad_input,
                 "{} has no [[track]] and shows no animation of a glTF file: nothing moves, and all its "
                 "frames would be the same",
-                request.scene.file());
+                options.scene.file());
 
-  request.executor = executors::for_frames(request.executor, scene.image.all_samples());
+  session_.options() = executors::for_frames(options.executor, scene.image.all_samples());
 
   Json said{{"frames", Json::array()}};
   std::vector<std::filesystem::path> pictures;
   int kept = 0;
   for (const int frame : wanted) {
-    PictureRequest one = request;
-    one.scene = request.scene.with_defines({fmt::format("animation.frame={}", frame)});
+    PictureOptions one = options;
+    one.scene = options.scene.with_defines({fmt::format("animation.frame={}", frame)});
     for (std::string& output : one.outputs) output = frame_name(output, frame);
     pictures.emplace_back(one.outputs[0]);
-    const auto files = files_written(one.outputs, one.aovs);
+    const auto files = session::files_written(one.outputs, one.request.channels);
     const bool there =
         std::ranges::all_of(files, [](const auto& file) { return std::filesystem::exists(file); });
     if (there && !overwrite) {
@@ -199,11 +222,12 @@ ExitCode RenderCommand::run_frames() {
 }
 
 ExitCode RenderCommand::run() {
+  session_.options() = options.executor;
   if (!frames.empty()) return run_frames();
   if (!video.empty() || overwrite)
     throw Error(ExitCode::bad_input, "--{} is about --frames", video.empty() ? "overwrite" : "video");
   Json said;
-  const ExitCode code = run_picture(request, said);
+  const ExitCode code = run_picture(options, said);
   if (json) print_json(said);
   return code;
 }
@@ -212,14 +236,15 @@ ExitCode RenderCommand::run() {
 
 void add_render(CLI::App& app, Run& run) {
   CLI::App* const command = app.add_subcommand("render", "Render a scene to picture files.");
-  const auto options = std::make_shared<RenderCommand>();
-  options->request.add_to(*command);
-  add_long_render_options(*command, options->request.long_render);
-  add_frame_options(*command, *options);
+  const auto render = std::make_shared<RenderCommand>();
+  session::Request& request = render->options.request;
+  render->options.add_to(*command);
+  add_long_render_options(*command, *render);
+  add_frame_options(*command, *render);
   CLI::Option* const noise =
       command
           ->add_option(
-              "--noise", options->request.noise,
+              "--noise", request.noise,
               fmt::format(
                   "Take samples until pixels are off by no more than this share of their brightness, as "
                   "0.01, each as many as it needs; --spp N (without it {}) is the most.",
@@ -228,7 +253,7 @@ void add_render(CLI::App& app, Run& run) {
           ->check(within(1e-4, 1));
   command
       ->add_option(
-          "--clamp", options->request.clamp,
+          "--clamp", request.clamp,
           "Cut every sample to this in any channel: no more bright dots, but a biased picture, which "
           "is darker than the truth.")
       ->option_text("X")
@@ -236,24 +261,24 @@ void add_render(CLI::App& app, Run& run) {
   command
       ->add_option_function<std::string>(
           "--shard",
-          [options](const std::string& text) { options->request.shard = shards::parse_shard(text); },
+          [render](const std::string& text) { render->options.request.shard = shards::parse_shard(text); },
           "Render the I-th of N shares of the picture, as 3/64, to a part; eyeray merge makes the picture of "
           "all.")
       ->option_text("I/N")
       ->group("Many machines");
   command->add_flag(
-      "--stats", options->stats,
+      "--stats", render->stats,
       "Print how long each stage took, and how many eye, reflected, refracted and shadow rays there were.");
   command
       ->add_flag(
-          "--classic", options->request.classic,
+          "--classic", render->options.classic,
           "Sample as Haines' published statistics do: a ray a pixel corner, at most 5 in a row with the eye "
           "ray, none left out for counting little.")
       ->excludes("--spp")
       ->excludes(noise)
       ->excludes("--max-depth");
-  command->add_flag("-q,--quiet", options->quiet, "No progress and no summary; warnings and errors remain.");
-  command->add_flag("--json", options->json, "Say what was done as JSON on standard output.");
+  command->add_flag("-q,--quiet", render->quiet, "No progress and no summary; warnings and errors remain.");
+  command->add_flag("--json", render->json, "Say what was done as JSON on standard output.");
   command->footer(
       "Examples:\n"
       "  eyeray render scenes/whitted.toml                                   whitted.png\n"
@@ -266,7 +291,7 @@ void add_render(CLI::App& app, Run& run) {
       "long.part\n"
       "  eyeray render scenes/whitted.toml --shard 3/64                      whitted.3-of-64.eyeray\n"
       "Ctrl-C keeps what was rendered so far, if every pixel has a sample.");
-  command->callback([options, &run] { run = [options] { return options->run(); }; });
+  command->callback([render, &run] { run = [render] { return render->run(); }; });
 }
 
 }  // namespace eyeray::cli

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "host/build/build_facts.hpp"
 #include "host/cli/frames.hpp"
-#include "host/cli/picture.hpp"
-#include "host/cli/picture_files.hpp"
+#include "host/cli/picture_options.hpp"
 #include "host/core/content_hash.hpp"
 #include "host/core/standard_streams.hpp"
-#include "host/program/build_facts.hpp"
+#include "host/session/picture_files.hpp"
 #include "host/slurm/array.hpp"
 
 namespace fs = std::filesystem;
@@ -19,7 +19,7 @@ namespace eyeray::cli {
 namespace {
 
 struct SlurmCommand {
-  PictureRequest request;
+  PictureOptions picture;
   std::vector<std::string> more_scenes;
   std::vector<std::string> sbatch_words;
   std::vector<std::string> render_words = {};
@@ -56,7 +56,7 @@ void SlurmCommand::check_options() const {
     for (const char* own : {"--array", "-a", "--dependency", "-d", "--job-name", "-J", "--wait", "-W"})
       if (word == own || word.starts_with(std::string(own) + "="))
         throw Error(ExitCode::bad_input, "{} is eyeray's to say: leave it out", own);
-  if (!more_scenes.empty() && !(request.outputs.empty() && folder.empty() && video.empty()))
+  if (!more_scenes.empty() && !(picture.outputs.empty() && folder.empty() && video.empty()))
     throw Error(ExitCode::bad_input,
                 "several scenes have a picture and a folder each, named after them: leave out -o, --folder "
                 "and --video");
@@ -66,14 +66,14 @@ void SlurmCommand::check_options() const {
 
 // Adds what the array makes: a picture, by its last job, or frames, every N-th of them a share.
 void SlurmCommand::add_outputs(slurm::Array& array, const fs::path& scene) const {
-  std::vector<std::string> outputs = request.outputs;
+  std::vector<std::string> outputs = picture.outputs;
   if (outputs.empty())
     outputs.push_back(frames.empty() ? scene.filename().replace_extension(".png").string()
                                      : scene.stem().string() + ".%04d.png");
   std::vector<std::string>& words = frames.empty() ? array.last_words : array.render_words;
   if (!frames.empty()) words.insert(words.end(), {"--frames", frames});
   for (const std::string& output : outputs) words.insert(words.end(), {"-o", output});
-  if (request.half) words.emplace_back("--half");
+  if (picture.half) words.emplace_back("--half");
   if (frames.empty()) {
     array.files = outputs;
     return;
@@ -83,7 +83,8 @@ void SlurmCommand::add_outputs(slurm::Array& array, const fs::path& scene) const
     std::vector<std::string> names;
     for (const std::string& output : outputs) names.push_back(frame_name(output, frame));
     array.files.insert(array.files.end(), names.begin(), names.end());
-    std::ranges::copy(files_written(names, request.aovs), std::back_inserter(array.frames_of_shares[share]));
+    std::ranges::copy(session::files_written(names, picture.request.channels),
+                      std::back_inserter(array.frames_of_shares[share]));
     share = (share + 1) % size_t(shards);
   }
   if (video.empty()) return;
@@ -93,8 +94,8 @@ void SlurmCommand::add_outputs(slurm::Array& array, const fs::path& scene) const
 
 slurm::Array SlurmCommand::array_of(const std::string& scene) const {
   // Faults of a scene are errors now, not on the nodes.
-  const Scene loaded = request.scene.for_file(scene).load();
-  check_crop(request.crop, loaded.image);
+  const Scene loaded = picture.scene.for_file(scene).load();
+  session::crop_within(picture.request.crop, loaded.image);
 
   slurm::Array array;
   array.program = fs::read_symlink("/proc/self/exe").string();
@@ -103,7 +104,7 @@ slurm::Array SlurmCommand::array_of(const std::string& scene) const {
   array.sbatch_words = sbatch_words;
   array.folder = folder.empty() ? fs::path(scene).stem().string() + ".slurm" : folder;
   array.shards = shards;
-  array.contents = ContentHash().add(hash_of_files(loaded.files)).add(sum_of_sources()).hex();
+  array.contents = ContentHash().add(hash_of_files(loaded.files)).add(build::sum_of_sources()).hex();
   add_outputs(array, scene);
   return array;
 }
@@ -125,7 +126,7 @@ void print(const slurm::Array& array, const slurm::ArrayState& state,
 
 ExitCode SlurmCommand::run() {
   check_options();
-  std::vector<slurm::Array> arrays{array_of(request.scene.file())};
+  std::vector<slurm::Array> arrays{array_of(picture.scene.file())};
   for (const std::string& scene : more_scenes) arrays.push_back(array_of(scene));
   for (slurm::Array& array : arrays) prepare(array);
 
@@ -155,7 +156,7 @@ void add_slurm(CLI::App& app, Run& run, const std::vector<std::string>& sbatch_w
   CLI::App* const command = app.add_subcommand("slurm", "Render a scene on a Slurm cluster, a share a job.");
   const auto options = std::make_shared<SlurmCommand>();
   options->sbatch_words = sbatch_words;
-  options->request.add_to(*command);
+  options->picture.add_to(*command);
   command->add_option("MORE", options->more_scenes, "Further scenes, under the same options.")
       ->option_text(" ");
   const auto add = [&](const char* name, auto& value, const char* text, const char* description) {

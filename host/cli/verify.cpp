@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "host/build/build_facts.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/merged_report.hpp"
 #include "host/core/atomic_file.hpp"
@@ -16,8 +17,8 @@
 #include "host/core/standard_streams.hpp"
 #include "host/loader/scene_edit.hpp"
 #include "host/loader/suite.hpp"
-#include "host/program/build_facts.hpp"
 #include "host/program/within.hpp"
+#include "host/session/request.hpp"
 #include "host/shards/part.hpp"
 #include "host/verify/page.hpp"
 
@@ -106,7 +107,7 @@ void VerifyCommand::find_files() {
 void VerifyCommand::keep_share() {
   ContentHash hash;
   for (const std::string& file : files) hash.add(file);
-  suite = hash.add(scene_options.as_written()).add(sum_of_sources()).hex();
+  suite = hash.add(scene_options.as_written()).add(build::sum_of_sources()).hex();
   suite_size = files.size();
   if (!shard) return;
   std::vector<std::string> share;
@@ -127,7 +128,7 @@ std::string VerifyCommand::report_in_json(std::span<const compare::Report> repor
 
 compare::Report VerifyCommand::report_on(const SceneOptions& scene_file) const {
   const Scene scene = scene_file.load();
-  check_crop(options.crop, scene.image);
+  session::crop_within(options.crop, scene.image);
   const fs::path& folder = options.executor.shader_folder;
   std::string shaders = folder.empty() ? "" : " --shaders " + shell_word(folder.string());
   if (options.executor.compile_twin) shaders += " --compile-twin";

@@ -4,6 +4,9 @@
 
 #include "host/core/stopwatch.hpp"
 #include "host/film/film.hpp"
+#include "host/render/brightness.hpp"
+#include "host/render/legibility.hpp"
+#include "host/scene/integrator.hpp"
 
 namespace eyeray::dev {
 namespace {
@@ -44,10 +47,15 @@ bool paint_coarsely(const View& view, const ImageSettings& image, executors::Exe
   return sink({shown(view, film.rows(0, height)), 0, coarse_stride});
 }
 
-std::optional<Painted> paint_samples(const View& view, const ImageSettings& image,
-                                     executors::Executor& executor, const RowsSink& sink) {
+std::optional<Painted> paint_samples(const View& view, const Scene& scene, executors::Executor& executor,
+                                     const RowsSink& sink) {
+  const ImageSettings& image = scene.image;
   if (!paint_coarsely(view, image, executor, sink)) return std::nullopt;
   Painted painted;
+  session::PictureQuality& quality = painted.quality;
+  render::Brightness brightness;
+  double luminances = 0;
+  std::optional<render::Legibility> legibility = render::legibility_of(scene);
   film::Film film;
   film.reset(image.width, image.height, view.film_channels());
   std::vector<PixelSample> samples;
@@ -60,14 +68,22 @@ std::optional<Painted> paint_samples(const View& view, const ImageSettings& imag
       if (view.needs() == film::Needs::auxiliary) auxiliaries.resize(samples.size());
       if (!executor.sample(tile, uint32_t(sample), samples, auxiliaries)) return false;
       film.add(tile, samples, auxiliaries);
+      brightness.add(samples);
       for (const PixelSample& each : samples) painted.rays += each.rays;
       const film::Rows finished = film.rows(row, rows);
-      painted.flags |= finished.flags;
-      if (sample + 1 == image.samples) painted.flagged_pixels += finished.flagged_pixels;
+      if (sample + 1 == image.samples) {
+        quality.flags |= finished.flags;
+        quality.flagged += finished.flagged_pixels;
+        luminances += render::sum_of_luminances(finished.color);
+        if (legibility) legibility->see(finished.color);
+      }
       return sink({shown(view, finished), row, 1, sample});
     });
     if (!whole) return std::nullopt;
   }
+  if (walks_at_random(scene.render.integrator))
+    quality.fireflies = brightness.fireflies(luminances, int64_t{image.width} * image.height);
+  if (legibility) quality.illegible = legibility->warning();
   return painted;
 }
 
@@ -82,8 +98,8 @@ std::optional<Painted> paint_first_hits(const View& view, const Scene& scene, ex
     hits.resize(size_t(rows) * size_t(image.width));
     executor.first_hits({0, row, image.width, rows}, hits);
     for (const FirstHit& hit : hits) {
-      painted.flags |= hit.flags;
-      painted.flagged_pixels += hit.flags != 0;
+      painted.quality.flags |= hit.flags;
+      painted.quality.flagged += hit.flags != 0;
     }
     painted.rays += hits.size();
     return sink({film::channel_image(view.aov, hits, image.width, entries.get()), row});
@@ -103,7 +119,7 @@ View parse_view(const std::string& name) {
 std::optional<Painted> paint(const View& view, const Scene& scene, executors::Executor& executor,
                              const RowsSink& sink) {
   if (view.aov && !view.aov->of_samples()) return paint_first_hits(view, scene, executor, sink);
-  return paint_samples(view, scene.image, executor, sink);
+  return paint_samples(view, scene, executor, sink);
 }
 
 }  // namespace eyeray::dev

@@ -7,6 +7,7 @@
 
 #include "host/executors/executor.hpp"
 #include "host/film/channel.hpp"
+#include "host/session/warnings.hpp"
 
 namespace eyeray::dev {
 
@@ -35,8 +36,7 @@ using RowsSink = std::function<bool(const PaintedRows&)>;
 
 struct Painted {
   uint64_t rays = 0;
-  uint64_t flagged_pixels = 0;
-  uint32_t flags = 0;  // all SampleFlags seen
+  session::PictureQuality quality = {};
 };
 
 // All of a view by `executor`, which is of its backend and counts what it needs; in bands of some hundredths

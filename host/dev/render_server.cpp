@@ -10,8 +10,8 @@
 #include "host/dev/scene_tunables.hpp"
 #include "host/executors/cpp_compiler.hpp"
 #include "host/probe/probe.hpp"
-#include "host/render/flags.hpp"
 #include "host/scene/integrator.hpp"
+#include "host/session/request.hpp"
 
 namespace eyeray::dev {
 namespace {
@@ -131,11 +131,9 @@ void RenderServer::load(const Json& request) {
 }
 
 executors::ExecutorOptions RenderServer::options_for(const View& view) {
-  executors::ExecutorOptions options = options_.executor;
+  executors::ExecutorOptions options = session::counting(options_.executor, view.film_channels());
   options.constants = options.constants && own_kernel_;
   options.formula_numbers = !own_kernel_;
-  options.ray_kinds = view.needs() == film::Needs::ray_kinds;
-  options.search_cost = view.needs() == film::Needs::search_cost;
   return options;
 }
 
@@ -316,7 +314,7 @@ void RenderServer::send_rows(const std::string& name, const View& view, const Pa
 
 std::vector<std::string> RenderServer::doubts(const View& view, const Painted& painted) const {
   std::vector<std::string> doubts;
-  if (painted.flags != 0) doubts.push_back(render::flag_warning(painted.flags, painted.flagged_pixels));
+  for (const Diagnostic& each : session::warnings_of(painted.quality)) doubts.push_back(each.message);
   const std::string shaders = options_.executor.shader_folder.string();
   if (view.backend != executors::Backend::twin || shaders.empty()) return doubts;
   if (!options_.executor.compile_twin)

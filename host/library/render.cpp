@@ -1,6 +1,4 @@
 // Renderer::render: a scene becomes planes of floats.
-#include "host/render/render.hpp"
-
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -8,126 +6,76 @@
 #include <utility>
 
 #include "host/core/disk_cache.hpp"
+#include "host/library/engine_call.hpp"
 #include "host/library/picture.hpp"
 #include "host/library/renderer.hpp"
 #include "host/library/scene.hpp"
-#include "host/render/legibility.hpp"
-#include "host/render/shutter.hpp"
-#include "host/render/warnings.hpp"
-#include "host/scene/sampler.hpp"
+#include "host/session/session.hpp"
 
 namespace eyeray::library {
 namespace {
 
-// Those that were named; of "all", those that the integrator has.
-film::Channels channels_wanted(const v0::RenderOptions& options, const Scene& scene) {
-  if (options.aovs.empty()) return {};
-  return film::channels_of(scene, film::parse_channels(fmt::format("{}", fmt::join(options.aovs, ","))));
-}
-
-render::RenderOptions driver_options(const v0::RenderOptions& options, const Scene& scene,
-                                     const film::Channels& aovs) {
-  if (!(options.noise >= 0 && options.noise <= 1) || !(options.clamp >= 0 && options.clamp <= 1e15))
-    throw Error(ExitCode::bad_input, "noise is from 0 to 1, and clamp from 0 to 1e15");
-  if (options.noise > 0 && sample_count_of(scene.image.pattern) != SampleCount::any)
-    throw Error(ExitCode::bad_input,
-                "noise stops after any number of samples, and of the pattern '{}' all are needed: "
-                "image.pattern=\"sobol\" or \"random\"",
-                sample_patterns[uint32_t(scene.image.pattern)]);
-  render::RenderOptions driver;
-  driver.crop = crop_of(options.crop, scene);
-  driver.channels = aovs;
-  driver.noise = options.noise;
-  driver.clamp = options.clamp;
-  driver.progress = progress_of(options.progress, options.cancellation);
-  return driver;
-}
-
-// One picture while it comes.
-class Collector {
+// A picture in memory.
+class Planes final : public session::Output {
  public:
-  Collector(const Scene& scene, const Rect& crop, film::Channels aovs, v0::Picture::Data& picture)
-      : scene_(scene), crop_(crop), picture_(picture) {
-    for (const film::Channel each : aovs) picture_.aovs.emplace_back(each, image::Image());
+  explicit Planes(v0::Picture::Data& picture) : picture_(picture) {}
+
+  void begin(const session::Plan& plan) override {
+    crop_ = plan.crop;
+    picture_.tone = plan.scene.image.tone;
+    for (const film::Channel each : plan.channels) picture_.aovs.emplace_back(each, image::Image());
+    rows_.resize(1 + plan.channels.size());
   }
 
-  void take(const film::Rows& rows) {
-    copy(rows.color, rows.first, picture_.color);
-    for (auto& [aov, image] : picture_.aovs)
-      if (aov->of_samples()) copy(rows[aov], rows.first, image);
+  void write(size_t plane, const image::Image& rows) override {
+    image::Image& image = plane == 0 ? picture_.color : picture_.aovs[plane - 1].second;
+    if (image.sample_count() == 0) image = image::Image(crop_.width, crop_.height, rows.channels());
+    std::ranges::copy(rows.samples(), image.pixel(0, rows_[plane]));
+    rows_[plane] += rows.height();
   }
 
-  // False when it was cancelled.
-  bool trace_first_hits(executors::Executor& executor) {
-    std::vector<std::unique_ptr<film::LegendEntries>> entries;
-    for (const auto& [aov, image] : picture_.aovs)
-      entries.push_back(aov->legend ? aov->legend(scene_) : nullptr);
-    return render::trace_first_hits(executor, crop_, [&](int first, std::span<const FirstHit> hits) {
-      for (const FirstHit& hit : hits) {
-        flags |= hit.flags;
-        flagged_hits += hit.flags != 0;
-      }
-      for (size_t i = 0; i < entries.size(); ++i) {
-        auto& [aov, image] = picture_.aovs[i];
-        if (!aov->of_samples())
-          copy(film::channel_image(aov, hits, crop_.width, entries[i].get()), first, image);
-      }
-    });
-  }
+  void finish_color() override {}
 
-  uint32_t flags = 0;
-  uint64_t flagged_hits = 0;
+  void finish(const film::ChannelValues&, session::Result& result) override {
+    if (result.interrupted())
+      std::erase_if(picture_.aovs, [](const auto& each) { return !each.first->of_samples(); });
+  }
 
  private:
-  void copy(const image::Image& rows, int first, image::Image& image) const {
-    if (image.sample_count() == 0) image = image::Image(crop_.width, crop_.height, rows.channels());
-    std::ranges::copy(rows.samples(), image.pixel(0, first));
-  }
-
-  const Scene& scene_;
-  const Rect crop_;
   v0::Picture::Data& picture_;
+  Rect crop_;
+  std::vector<int> rows_;  // of each plane, that are there
 };
+
+session::Request request_of(const v0::RenderOptions& options) {
+  session::Request request;
+  request.backend = backend_of(options.backend);
+  request.crop = rect_of(options.crop);
+  if (!options.aovs.empty())
+    request.channels = film::parse_channels(fmt::format("{}", fmt::join(options.aovs, ",")));
+  request.noise = options.noise;
+  request.clamp = options.clamp;
+  request.next_is_alike = true;
+  request.progress = progress_of(options.progress, options.cancellation);
+  return request;
+}
 
 void render_into(v0::Picture::Data& picture, v0::Renderer::Data& renderer, const Scene& scene,
                  const v0::RenderOptions& options) {
-  const Stopwatch watch;
-  picture.tone = scene.image.tone;
-  const film::Channels aovs = channels_wanted(options, scene);
-  const render::RenderOptions driver = driver_options(options, scene, aovs);
-  const executors::Backend backend = backend_of(options.backend);
-  executors::ExecutorOptions how = executor_options(renderer, backend == executors::Backend::gpu);
-  how.ray_kinds = film::any_needs(aovs, film::Needs::ray_kinds);
-  // The next scene is likely one that differs in what moved.
-  how.constants = executors::repay_kernels(scene.image.all_samples());
-  how.search_cost = film::any_needs(aovs, film::Needs::search_cost);
-  const auto executor = render::make_picture_executor(backend, scene, how);
-
-  Collector collector(scene, driver.crop, aovs, picture);
-  render::Legibility legibility(scene.render.background, scene.image.tone.exposure);
-  const render::RenderTotals totals =
-      render::render_rows(scene, *executor, driver, [&](const film::Rows& rows) {
-        collector.take(rows);
-        legibility.see(rows.color);
-      });
-  picture.samples_done = totals.samples_done;
-  picture.rays = totals.rays;
-  picture.sampling_seconds = totals.seconds;
-  picture.complete = !totals.interrupted;
-  if (picture.complete && film::any_of_first_hits(aovs))
-    picture.complete = collector.trace_first_hits(*executor);
-  if (!picture.complete)
-    std::erase_if(picture.aovs, [](const auto& each) { return !each.first->of_samples(); });
-  std::vector<std::string> warnings;
-  if (backend != executors::Backend::reference && !std::exchange(renderer.warned_of_caches, true))
-    warnings = DiskCache::of_user().warnings();
-  render::PictureQuality quality = render::quality_of(scene, driver, totals);
-  quality.flags |= collector.flags;
-  quality.flagged = std::max(quality.flagged, collector.flagged_hits);
-  if (scene.is_mesh_alone && !scene.environment) quality.illegible = legibility.warning();
-  std::ranges::move(render::warnings_of(quality), std::back_inserter(warnings));
-  for (std::string& warning : warnings) picture.warnings.push_back({false, "", 0, 0, std::move(warning)});
-  picture.seconds = watch.seconds();
+  const session::Request request = request_of(options);
+  session::Session session(executor_options(renderer, request.backend == executors::Backend::gpu));
+  Planes planes(picture);
+  session::Result result = session.render(scene, request, planes);
+  picture.samples_done = result.totals.samples_done;
+  picture.rays = result.totals.rays;
+  picture.sampling_seconds = result.totals.seconds;
+  picture.complete = !result.interrupted();
+  picture.seconds = result.seconds;
+  std::vector<Diagnostic> warnings;
+  if (request.backend != executors::Backend::reference && !std::exchange(renderer.warned_of_caches, true))
+    std::ranges::transform(DiskCache::of_user().warnings(), std::back_inserter(warnings), session::warning);
+  std::ranges::move(result.warnings, std::back_inserter(warnings));
+  picture.warnings = to_public(warnings);
 }
 
 }  // namespace

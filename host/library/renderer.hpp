@@ -29,8 +29,7 @@ struct Renderer::Data {
 namespace eyeray::library {
 
 executors::Backend backend_of(v0::Backend backend);
-// Error (bad_input) where it leaves the picture.
-Rect crop_of(const v0::Rect& crop, const Scene& scene);
+Rect rect_of(const v0::Rect& crop);
 // What to make executors with; for the backend gpu on the renderer's device, which is opened now if it is
 // not.
 executors::ExecutorOptions executor_options(v0::Renderer::Data& renderer, bool gpu);

@@ -1,9 +1,9 @@
 // Scenes of the library: read, parsed, built.
 #include "host/library/scene.hpp"
 
-#include "host/executors/formula_check.hpp"
 #include "host/library/engine_call.hpp"
 #include "host/loader/scene_file.hpp"
+#include "host/session/request.hpp"
 
 namespace eyeray::library {
 namespace {
@@ -14,11 +14,8 @@ std::vector<loader::Override> overrides_of(const v0::SceneOptions& options) {
   return overrides;
 }
 
-// As the program does with a scene that it has read.
-v0::Scene checked(Scene scene) {
-  executors::check_formulas(scene);
-  for (Diagnostic& doubt : executors::doubt_lipschitz_constants(scene))
-    scene.warnings.push_back(std::move(doubt));
+v0::Scene checked(Scene read) {
+  Scene scene = session::checked(std::move(read));
   std::vector<v0::Diagnostic> warnings = to_public(scene.warnings);
   return v0::Scene(
       std::make_shared<const v0::Scene::Data>(v0::Scene::Data{std::move(scene), std::move(warnings)}));

@@ -5,6 +5,7 @@
 
 #include "host/library/renderer.hpp"
 #include "host/library/scene.hpp"
+#include "host/session/request.hpp"
 
 namespace eyeray::v0 {
 
@@ -18,7 +19,7 @@ Report Renderer::verify(const Scene& scene, const VerifyOptions& options) {
     if (how.backends.empty() || std::ranges::count(how.backends, executors::Backend::reference) > 0)
       throw eyeray::Error(ExitCode::bad_input,
                           "backends names what is compared with the reference: gpu, twin, or both");
-    how.crop = library::crop_of(options.crop, what);
+    how.crop = session::crop_within(library::rect_of(options.crop), what.image);
     how.executor =
         library::executor_options(*data_, std::ranges::count(how.backends, executors::Backend::gpu) > 0);
     how.progress = [&] { return library::progress_of(options.progress, options.cancellation); };

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "host/program/build_facts.hpp"
+#include "host/build/build_facts.hpp"
 
 namespace eyeray::program {
 namespace {
@@ -33,7 +33,7 @@ std::string wrapped(const std::string& text, size_t columns) {
 std::filesystem::path documents() {
   std::error_code error;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-  for (const std::string_view way : {documents_from_built(), documents_from_installed()}) {
+  for (const std::string_view way : {build::documents_from_built(), build::documents_from_installed()}) {
     std::filesystem::path folder = (program.parent_path() / way).lexically_normal();
     if (std::filesystem::exists(folder / "docs/command-line.md", error)) return folder;
   }

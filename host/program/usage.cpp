@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "host/build/build_facts.hpp"
 #include "host/core/diagnostic.hpp"
 #include "host/core/error.hpp"
-#include "host/program/build_facts.hpp"
 #include "host/program/help.hpp"
 
 namespace eyeray::program {
@@ -92,7 +92,7 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
 }
 
 std::string version(const std::string& name) {
-  const std::string_view built_from = commit();
+  const std::string_view built_from = build::commit();
   return name + " " EYERAY_VERSION + (built_from.empty() ? "" : fmt::format(" (commit {})", built_from));
 }
 

@@ -29,4 +29,13 @@ uint64_t Brightness::above(double luminance) const {
   return std::accumulate(first, counts_.end(), uint64_t{0});
 }
 
+double sum_of_luminances(const image::Image& rows) {
+  double sum = 0;
+  for (size_t i = 0; i < rows.sample_count(); i += 3) {
+    const float* const color = &rows.samples()[i];
+    sum += luminance(Vec3(color[0], color[1], color[2]));
+  }
+  return sum;
+}
+
 }  // namespace eyeray::render

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "host/core/pixel.hpp"
+#include "host/image/image.hpp"
 
 namespace eyeray::render {
 
@@ -14,6 +15,12 @@ class Brightness {
   void add(std::span<const PixelSample> samples);
   // How many have more luminance than that, which is above 0; of those hardly brighter only some. 0 else.
   uint64_t above(double luminance) const;
+  // How many are so much brighter than the mean of a picture of `pixels`, whose luminances come to that sum,
+  // that they make dots.
+  uint64_t fireflies(double luminances, int64_t pixels) const {
+    return above(times_of_fireflies * luminances / double(pixels));
+  }
+  static constexpr double times_of_fireflies = 1000;
   // What another machine counted.
   void add(const Brightness& other);
   std::array<uint64_t, 2048>& counts() { return counts_; }
@@ -23,5 +30,8 @@ class Brightness {
   std::array<uint64_t, 2048>
       counts_{};  // by the upper bits of a float32: exponent, and three of its fraction
 };
+
+// Of all pixels of some rows of colours.
+double sum_of_luminances(const image::Image& rows);
 
 }  // namespace eyeray::render

@@ -39,4 +39,9 @@ std::string Legibility::warning() const {
   return "";
 }
 
+std::optional<Legibility> legibility_of(const Scene& scene) {
+  if (!scene.is_mesh_alone || scene.environment) return std::nullopt;
+  return Legibility(scene.render.background, scene.image.tone.exposure);
+}
+
 }  // namespace eyeray::render

@@ -2,10 +2,12 @@
 // background.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "host/core/vec.hpp"
 #include "host/image/image.hpp"
+#include "host/scene/scene.hpp"
 
 namespace eyeray::render {
 
@@ -27,5 +29,8 @@ class Legibility {
   int64_t foreground_ = 0;  // pixels that differ from the background
   int64_t bright_ = 0;      // of these, with all channels beyond 1
 };
+
+// Of the picture of a model alone in eyeray's own light; nothing for a scene that someone lit.
+std::optional<Legibility> legibility_of(const Scene& scene);
 
 }  // namespace eyeray::render

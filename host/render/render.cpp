@@ -11,7 +11,6 @@
 #include "host/core/termination.hpp"
 #include "host/render/adaptive.hpp"
 #include "host/render/checkpoint.hpp"
-#include "host/scene/luminance.hpp"
 
 namespace eyeray::render {
 namespace {
@@ -273,10 +272,7 @@ class Driver {
   }
 
   void give(const film::Rows& rows) {
-    for (size_t i = 0; i < rows.color.sample_count(); i += 3) {
-      const float* const color = &rows.color.samples()[i];
-      luminances_given_ += luminance(Vec3(color[0], color[1], color[2]));
-    }
+    luminances_given_ += sum_of_luminances(rows.color);
     const float* const noise =
         options_.noise > 0 ? rows[film::channel_named("noise")].samples().data() : nullptr;
     const std::vector<float>& counts = rows[film::channel_named("samples")].samples();
@@ -304,7 +300,7 @@ class Driver {
     totals.flags = uint32_t(position_.flags);
     totals.bands = bands();
     totals.samples_taken = progress_.samples_done;
-    totals.fireflies.samples = brightness_.above(Fireflies::times * luminances_given_ / double(pixels_));
+    totals.fireflies = brightness_.fireflies(luminances_given_, pixels_);
     totals.brightness = brightness_;
     totals.samples_total = progress_.samples_total;
     return totals;

@@ -50,12 +50,6 @@ struct RenderOptions {
   Checkpoint* checkpoint = nullptr;  // kept and resumed from; see render_rows
 };
 
-// Samples that stand out: rare ones that are so bright make dots.
-struct Fireflies {
-  static constexpr double times = 1000;  // as bright as the picture on the mean
-  uint64_t samples = 0;
-};
-
 // What a render came to, beside its pixels.
 struct RenderTotals {
   uint64_t rays = 0;            // resumed ones included
@@ -70,11 +64,11 @@ struct RenderTotals {
   uint64_t samples_total = 0;    // as in Progress
   uint64_t samples_resumed = 0;
   uint64_t rays_resumed = 0;
-  RayCounts ray_kinds;    // of this run, where they were asked for
-  int most_samples = 0;   // that a pixel has
-  Fireflies fireflies;    // of this run
-  Brightness brightness;  // of its samples
-  uint64_t clamped = 0;   // samples of this run that RenderOptions::clamp changed
+  RayCounts ray_kinds;     // of this run, where they were asked for
+  int most_samples = 0;    // that a pixel has
+  uint64_t fireflies = 0;  // Brightness::fireflies of this run
+  Brightness brightness;   // of its samples
+  uint64_t clamped = 0;    // samples of this run that RenderOptions::clamp changed
   // With RenderOptions::noise: how many pixels have no more, and the greatest that one has.
   uint64_t quiet_pixels = 0;
   double greatest_noise = 0;

@@ -48,7 +48,7 @@ struct PartHeader {
   double clamp = 0;           // RenderOptions::clamp
   bool random_paths = false;  // whether bright samples may be fireflies
   std::string device;         // for people
-  std::string build;          // program/build_facts.hpp, sum_of_sources
+  std::string build;          // build/build_facts.hpp, sum_of_sources
   film::Channels aovs;
   // What decides the bits: the same in all parts of one picture.
   std::vector<render::IdentityPart> identity;

@@ -54,9 +54,8 @@ TEST_CASE("--noise that cannot be reached is told, and what makes none is refuse
     return result.err;
   };
   CHECK(refusal({"--noise", "0.1"}) ==
-        "eyeray: error: --noise stops after any number of samples, and of the pattern 'regular' all are "
-        "needed: "
-        "-D image.pattern=sobol or random\n");
+        "eyeray: error: noise stops after any number of samples, and the pattern 'regular' needs all of them: "
+        "set image.pattern to \"sobol\" or \"random\"\n");
   for (const std::string wrong : {"nan", "0", "-1", "2", "x"})
     CHECK(refusal({"--noise", wrong}).find("is not a number from 0.0001 to 1") != std::string::npos);
   refusal({"--noise", "0.1", "--classic"});

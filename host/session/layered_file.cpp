@@ -1,4 +1,4 @@
-#include "host/cli/layered_file.hpp"
+#include "host/session/layered_file.hpp"
 
 #include <algorithm>
 
@@ -6,7 +6,7 @@
 
 namespace fs = std::filesystem;
 
-namespace eyeray::cli {
+namespace eyeray::session {
 namespace {
 
 // How many values are put together at a time.
@@ -77,4 +77,4 @@ void LayeredFile::finish(std::vector<fs::path>& files, bool with_aovs) {
   files.push_back(path_);
 }
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::session

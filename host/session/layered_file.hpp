@@ -9,7 +9,7 @@
 #include "host/image/exr_file.hpp"
 #include "host/image/image.hpp"
 
-namespace eyeray::cli {
+namespace eyeray::session {
 
 // A row of the file holds all layers, and these come one after the other: until the last has come they wait,
 // in a file beside it that nobody sees.
@@ -18,9 +18,8 @@ class LayeredFile {
   // `half`: whether the picture is written so; AOVs never are.
   LayeredFile(std::filesystem::path path, const film::Channels& aovs, int width, int height, bool half);
 
-  // The next rows, from the top down, of the picture or of an AOV, by its index.
-  void write(const image::Image& color) { write(layers_[0], color); }
-  void write(size_t aov, const image::Image& rows) { write(layers_[1 + aov], rows); }
+  // The next rows, from the top down, of the picture (plane 0) or of an AOV (1 + its index).
+  void write(size_t plane, const image::Image& rows) { write(layers_[plane], rows); }
   // Makes the file: of all layers, or of the picture alone, which AOVs are left out of where it was
   // interrupted. Adds its name to `files`.
   void finish(std::vector<std::filesystem::path>& files, bool with_aovs);
@@ -43,4 +42,4 @@ class LayeredFile {
   AtomicFile waiting_;  // never committed
 };
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::session

@@ -3,8 +3,10 @@
 
 #include <string_view>
 
-namespace eyeray::program {
+namespace eyeray::build {
 
+// "0.1.0".
+std::string_view version();
 // The abbreviated hash of the commit that the program was built from; "" where the sources were no git clone.
 std::string_view commit();
 // Names what makes the program's bits: a sum of its sources, its compiler and the compiler's flags. The
@@ -15,4 +17,4 @@ std::string_view sum_of_sources();
 std::string_view documents_from_installed();
 std::string_view documents_from_built();
 
-}  // namespace eyeray::program
+}  // namespace eyeray::build

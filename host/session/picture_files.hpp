@@ -7,13 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "host/cli/layered_file.hpp"
 #include "host/film/channel.hpp"
 #include "host/image/false_color.hpp"
 #include "host/image/image_writer.hpp"
 #include "host/image/tone.hpp"
+#include "host/session/layered_file.hpp"
+#include "host/session/output.hpp"
 
-namespace eyeray::cli {
+namespace eyeray::session {
 
 // All that a picture with these outputs and AOVs writes.
 std::vector<std::filesystem::path> files_written(const std::vector<std::string>& outputs,
@@ -44,30 +45,38 @@ class AovFiles {
   image::FalseColorPainter painter_;
 };
 
-// Nothing of it is seen before its finish_…; Error (file_io) when a file cannot be written.
-class PictureFiles {
+// A file appears whole or not at all; Error (file_io) when one cannot be written.
+class PictureFiles final : public Output {
  public:
-  // AOVs are layers of the first output where that is an .exr, else files of their own. `half`: whether the
-  // picture is, in each .exr. `tone`: of each .png.
-  PictureFiles(const std::vector<std::string>& outputs, const film::Channels& aovs, int width, int height,
-               bool half, const image::Tone& tone);
+  // `outputs`: at least one. AOVs are layers of the first where that is an .exr, else files of their own.
+  // `half`: whether the colour is, in each .exr.
+  PictureFiles(std::vector<std::string> outputs, const film::Channels& aovs, bool half);
 
-  // The next rows, from the top down, of the picture or of an AOV, by its index.
-  void write(const image::Image& color);
-  void write(size_t aov, const image::Image& rows);
-  // After the last rows: the picture, then the AOVs, or what is there without them where hits were
-  // interrupted. They add the names of what was written to `files`.
-  void finish_picture(std::vector<std::filesystem::path>& files);
-  void finish_aovs(std::vector<std::filesystem::path>& files, const LegendOf& write_legend);
-  void finish_without_aovs(std::vector<std::filesystem::path>& files);
+  std::vector<std::filesystem::path> files() const override;
+  void begin(const Plan& plan) override;
+  // The same for a picture that nobody renders now. `tone`: of each .png.
+  void begin(int width, int height, const image::Tone& tone);
+  // Opens the files with the first rows: a picture of one band comes when it is done.
+  void write(size_t plane, const image::Image& rows) override;
+  void finish_color() override;
+  void finish(const film::ChannelValues& values, Result& result) override;
+  // The AOVs, all complete.
+  void finish_aovs(const LegendOf& write_legend);
+  const std::vector<std::filesystem::path>& written() const { return written_; }
 
  private:
-  std::string output_;  // the first
-  film::Channels wanted_;
+  void open();
+
+  std::vector<std::string> outputs_;
+  film::Channels aovs_;
+  bool half_;
+  int width_ = 0, height_ = 0;
   image::Tone tone_;
+  bool opened_ = false;
   std::vector<std::pair<std::string, image::ImageWriter>> writers_;  // one an output that is not layered_
   std::optional<LayeredFile> layered_;
-  std::vector<AovFiles> aovs_;  // none where layered_
+  std::vector<AovFiles> aov_files_;  // none where layered_
+  std::vector<std::filesystem::path> written_;
 };
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::session

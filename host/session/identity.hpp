@@ -1,0 +1,16 @@
+// What decides a picture's bits, for its checkpoint and for its parts.
+#pragma once
+
+#include <vector>
+
+#include "host/render/checkpoint.hpp"
+#include "host/session/output.hpp"
+
+namespace eyeray::session {
+
+// Error (file_io) when a file of the scene or a shader cannot be read any more.
+std::vector<render::IdentityPart> identity_of_checkpoint(const Plan& plan);
+// The same of a part, which must go with those of other machines: of the device only what decides bits.
+std::vector<render::IdentityPart> identity_of_part(const Plan& plan);
+
+}  // namespace eyeray::session

@@ -1,0 +1,82 @@
+#include "host/session/request.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include "host/core/error.hpp"
+#include "host/executors/formula_check.hpp"
+#include "host/render/corners.hpp"
+#include "host/scene/sampler.hpp"
+
+namespace eyeray::session {
+namespace {
+
+void check_noise(const Request& request, const Scene& scene) {
+  if (!(request.noise >= 0 && request.noise <= 1) || !(request.clamp >= 0 && request.clamp <= 1e15))
+    throw Error(ExitCode::bad_input, "noise is from 0 to 1, and clamp from 0 to 1e15");
+  if (request.noise == 0) return;
+  if (request.shard)
+    throw Error(
+        ExitCode::bad_input,
+        "noise is measured from a pixel's neighbours, which other shards have: give all pixels the same "
+        "samples");
+  if (sample_count_of(scene.image.pattern) != SampleCount::any)
+    throw Error(ExitCode::bad_input,
+                "noise stops after any number of samples, and the pattern '{}' needs all of them: set "
+                "image.pattern to \"sobol\" or \"random\"",
+                sample_patterns[uint32_t(scene.image.pattern)]);
+}
+
+void check_classic(const Request& request) {
+  film::Channels has, lacks;
+  for (const film::ChannelType& type : film::channel_types())
+    if (type.of_corners != film::OfCorners::nothing) has.push_back(&type);
+  std::ranges::copy_if(request.channels, std::back_inserter(lacks),
+                       [&](film::Channel each) { return !film::contains(has, each); });
+  if (!lacks.empty())
+    throw Error(ExitCode::bad_input,
+                "--classic samples the corners of pixels and so lacks the AOVs {}; it has {}",
+                film::channel_names(lacks), film::channel_names(has));
+}
+
+}  // namespace
+
+Scene checked(Scene scene) {
+  executors::check_formulas(scene);
+  std::ranges::move(executors::doubt_lipschitz_constants(scene), std::back_inserter(scene.warnings));
+  return scene;
+}
+
+Rect crop_within(const Rect& crop, const ImageSettings& image) {
+  if (crop == Rect{}) return {0, 0, image.width, image.height};
+  const bool inside = crop.x >= 0 && crop.y >= 0 && crop.width > 0 && crop.height > 0 &&
+                      crop.x < image.width && crop.y < image.height && crop.width <= image.width - crop.x &&
+                      crop.height <= image.height - crop.y;
+  if (!inside)
+    throw Error(ExitCode::bad_input, "the crop {},{},{},{} leaves the picture, which is {}x{}", crop.x,
+                crop.y, crop.width, crop.height, image.width, image.height);
+  return crop;
+}
+
+executors::ExecutorOptions counting(executors::ExecutorOptions options, const film::Channels& channels) {
+  options.ray_kinds = film::any_needs(channels, film::Needs::ray_kinds);
+  options.search_cost = film::any_needs(channels, film::Needs::search_cost);
+  return options;
+}
+
+void make_classic(Scene& scene, Request& request) {
+  request.classic = true;
+  request.crop = crop_within(request.crop, scene.image);
+  render::sample_corners(scene);
+  scene.render.max_depth = 4;
+  scene.render.min_throughput = 0;
+}
+
+film::Channels check(const Request& request, const Scene& scene) {
+  if (request.classic) check_classic(request);
+  check_noise(request, scene);
+  crop_within(request.crop, scene.image);
+  return film::channels_of(scene, request.channels);
+}
+
+}  // namespace eyeray::session

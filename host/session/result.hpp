@@ -1,0 +1,43 @@
+// What became of a request.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/core/diagnostic.hpp"
+#include "host/core/ray_counts.hpp"
+#include "host/core/stopwatch.hpp"
+#include "host/render/render.hpp"
+#include "host/session/warnings.hpp"
+
+namespace eyeray::session {
+
+struct Result {
+  render::RenderTotals totals;  // `interrupted` also where first hits were
+  Rect crop;                    // what was rendered
+  int samples = 0;              // a pixel, asked for
+  int64_t pixels = 0;           // of the crop, or of the share
+  std::optional<render::Shard> shard;
+  std::string device;         // Executor::description()
+  uint64_t flagged_hits = 0;  // 0 if no channel is made of first hits
+  PictureQuality quality;     // of colour and first hits
+  std::vector<Diagnostic> warnings;
+  std::vector<std::filesystem::path> files;  // written
+  std::filesystem::path checkpoint;          // left behind, to go on from; empty: none
+  std::optional<RayCounts> ray_kinds;        // of this run, where they were asked for
+  StageTimes times;
+  double seconds = 0;  // all in all
+
+  bool interrupted() const { return totals.interrupted; }
+  // The share of all samples that were taken.
+  double share() const;
+  // A pixel's, on the mean.
+  double mean_samples() const { return pixels > 0 ? double(totals.samples_taken) / double(pixels) : 0; }
+  // Of this run.
+  double rays_per_second() const;
+};
+
+}  // namespace eyeray::session

@@ -1,0 +1,199 @@
+#include "host/session/session.hpp"
+
+#include <algorithm>
+
+#include "host/core/error.hpp"
+#include "host/core/termination.hpp"
+#include "host/render/checkpoint.hpp"
+#include "host/render/corners.hpp"
+#include "host/render/legibility.hpp"
+#include "host/render/shutter.hpp"
+#include "host/session/identity.hpp"
+
+namespace fs = std::filesystem;
+
+namespace eyeray::session {
+namespace {
+
+// Throws where what is to be written would take the place of what was read, links followed.
+void spare_sources(const std::vector<fs::path>& outputs, const Scene& scene) {
+  for (const fs::path& output : outputs) {
+    for (const fs::path& source : scene.files) {
+      std::error_code absent;
+      if (fs::equivalent(output, source, absent))
+        throw Error(ExitCode::bad_input,
+                    "{} would be overwritten, and the scene reads it{}: name another file", output.string(),
+                    output == source ? "" : " as " + source.string());
+    }
+  }
+}
+
+std::optional<render::Checkpoint> checkpoint_of(const Plan& plan) {
+  const CheckpointFile& wanted = plan.request.checkpoint;
+  if (wanted.begin.empty() && wanted.resume.empty()) return std::nullopt;
+  std::vector<render::IdentityPart> identity = identity_of_checkpoint(plan);
+  if (wanted.resume.empty())
+    return render::Checkpoint::begin(wanted.begin, std::move(identity), wanted.seconds);
+  return render::Checkpoint::resume(wanted.resume, std::move(identity), wanted.seconds);
+}
+
+// One request while it is rendered.
+class Rendering {
+ public:
+  Rendering(const Plan& plan, executors::Executor& executor, Output& output)
+      : plan_(plan),
+        request_(plan.request),
+        executor_(executor),
+        output_(output),
+        values_(plan.channels, plan.scene),
+        legibility_(render::legibility_of(plan.scene)),
+        checkpoint_(checkpoint_of(plan)) {}
+
+  Result run() {
+    output_.begin(plan_);
+    take_samples();
+    // A picture in which every pixel has a sample is worth keeping, whatever becomes of the first hits.
+    if (result_.totals.samples_done > 0) {
+      const Saving saving;
+      output_times_.measure("encode", [&] { output_.finish_color(); });
+    }
+    if (!result_.interrupted() && film::any_of_first_hits(plan_.channels))
+      result_.totals.interrupted = !take_first_hits();
+    describe();
+    {
+      const Saving saving;
+      output_times_.measure("encode", [&] { output_.finish(values_, result_); });
+    }
+    if (checkpoint_ && !result_.interrupted()) checkpoint_->remove();
+    for (const StageTimes& times : {executor_.times(), output_times_})
+      for (const auto& [stage, seconds] : times.stages()) result_.times.add(stage, seconds);
+    return std::move(result_);
+  }
+
+ private:
+  render::RenderOptions driver_options() {
+    render::RenderOptions options;
+    options.crop = request_.classic ? render::corners_of(plan_.crop) : plan_.crop;
+    options.tiles = plan_.tiles;
+    options.ray_kinds = request_.ray_kinds;
+    options.channels = plan_.channels;
+    options.noise = request_.noise;
+    options.clamp = request_.clamp;
+    options.band_bytes = request_.band_bytes;
+    options.checkpoint = checkpoint_ ? &*checkpoint_ : nullptr;
+    options.progress = [this](const render::Progress& now) { report(now); };
+    return options;
+  }
+
+  void report(const render::Progress& now) {
+    if (request_.progress) request_.progress(now);
+    if (failure_is_known_ || !checkpoint_ || checkpoint_->failure().empty()) return;
+    failure_is_known_ = true;
+    if (request_.warn) request_.warn("no more checkpoints are written: " + checkpoint_->failure());
+  }
+
+  void take_samples() {
+    const render::RenderOptions options = driver_options();
+    result_.pixels = plan_.tiles ? plan_.tiles->pixels() : options.crop.pixels();
+    if (result_.pixels == 0) return;  // more shards than tiles
+    render::CornerMean corners;
+    result_.totals = render::render_rows(plan_.scene, executor_, options, [&](const film::Rows& rows) {
+      output_times_.measure("encode", [&] { write(request_.classic ? corners.add(rows) : rows); });
+    });
+    // A part is whole or nothing.
+    if (request_.shard && result_.interrupted()) result_.totals.samples_done = 0;
+  }
+
+  void write(const film::Rows& rows) {
+    output_.write(0, rows.color);
+    if (legibility_) legibility_->see(rows.color);
+    values_.give(rows, [&](size_t channel, const image::Image& image) { output_.write(1 + channel, image); });
+  }
+
+  bool take_first_hits() {
+    const std::vector<Rect> areas = plan_.tiles ? plan_.tiles->tiles() : std::vector{plan_.crop};
+    return std::ranges::all_of(areas, [&](const Rect& area) {
+      return render::trace_first_hits(executor_, area, [&](int, std::span<const FirstHit> hits) {
+        for (const FirstHit& hit : hits) {
+          first_hit_flags_ |= hit.flags;
+          result_.flagged_hits += hit.flags != 0;
+        }
+        output_times_.measure("encode", [&] {
+          values_.give(hits, area.width,
+                       [&](size_t channel, const image::Image& image) { output_.write(1 + channel, image); });
+        });
+      });
+    });
+  }
+
+  void describe() {
+    result_.crop = plan_.crop;
+    result_.shard = request_.shard;
+    result_.samples = plan_.scene.image.samples;
+    result_.device = executor_.description();
+    if (checkpoint_ && result_.interrupted() && checkpoint_->on_disk())
+      result_.checkpoint = checkpoint_->file();
+    // A checkpoint has no kinds of rays: those that were counted before it are lost.
+    const bool resumed = checkpoint_ && checkpoint_->resumes();
+    if (request_.ray_kinds && !(request_.shard && resumed)) result_.ray_kinds = result_.totals.ray_kinds;
+
+    PictureQuality& quality = result_.quality;
+    quality = quality_of(plan_.scene, request_.noise, request_.clamp, result_.pixels, result_.totals);
+    quality.flags |= first_hit_flags_;
+    quality.flagged = std::max(quality.flagged, result_.flagged_hits);
+    if (legibility_) quality.illegible = legibility_->warning();
+    // Of a share only its flags are known: the rest is for the picture to say.
+    result_.warnings = warnings_of(
+        request_.shard ? PictureQuality{.flags = quality.flags, .flagged = quality.flagged} : quality);
+  }
+
+  const Plan& plan_;
+  const Request& request_;
+  executors::Executor& executor_;
+  Output& output_;
+  film::ChannelValues values_;
+  std::optional<render::Legibility> legibility_;
+  std::optional<render::Checkpoint> checkpoint_;
+  bool failure_is_known_ = false;  // of the checkpoint
+  uint32_t first_hit_flags_ = 0;
+  StageTimes output_times_;
+  Result result_;
+};
+
+}  // namespace
+
+double Result::share() const {
+  return totals.samples_total ? double(totals.samples_taken) / double(totals.samples_total) : 1;
+}
+
+double Result::rays_per_second() const {
+  return totals.seconds == 0 ? 0 : double(totals.rays - totals.rays_resumed) / totals.seconds;
+}
+
+std::unique_ptr<executors::Executor> Session::executor_for(const Scene& scene, const Request& request,
+                                                           const film::Channels& channels) {
+  executors::ExecutorOptions options = counting(options_, channels);
+  options.ray_kinds |= request.ray_kinds;
+  if (!options.shader_folder.empty()) options.compile_twin = true;
+  if (request.next_is_alike) options.constants = executors::repay_kernels(scene.image.all_samples());
+  auto executor = render::make_picture_executor(request.backend, scene, options);
+  if (executor->device()) options_.open_device = executor->device();
+  return executor;
+}
+
+Result Session::render(const Scene& scene, const Request& request, Output& output) {
+  const Stopwatch watch;
+  const film::Channels channels = check(request, scene);
+  spare_sources(output.files(), scene);
+  std::optional<render::ShardTiles> tiles;
+  const Rect crop = crop_within(request.crop, scene.image);
+  if (request.shard) tiles.emplace(crop, *request.shard);
+  if (request.progress) request.progress({});
+  const auto executor = executor_for(scene, request, channels);
+  const Plan plan{request, scene, *executor, crop, channels, options_.fast_math, tiles ? &*tiles : nullptr};
+  Result result = Rendering(plan, *executor, output).run();
+  result.seconds = watch.seconds();
+  return result;
+}
+
+}  // namespace eyeray::session

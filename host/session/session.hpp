@@ -1,0 +1,34 @@
+// One way from a request to a picture, for every program: what checks it, renders it and says what to doubt.
+#pragma once
+
+#include <memory>
+
+#include "host/executors/executor.hpp"
+#include "host/session/output.hpp"
+#include "host/session/request.hpp"
+#include "host/session/result.hpp"
+
+namespace eyeray::session {
+
+// What requests share: how executors are made, and the device, which stays open between them.
+class Session {
+ public:
+  Session() = default;
+  explicit Session(executors::ExecutorOptions options) : options_(std::move(options)) {}
+
+  // May be changed between requests.
+  executors::ExecutorOptions& options() { return options_; }
+
+  // Renders `scene` to `output`. Error (bad_input) before anything is written where they do not go together
+  // (session::check), or where the output would take the place of a file that the scene reads; else as
+  // make_executor, render_rows, Checkpoint and the output's functions throw.
+  Result render(const Scene& scene, const Request& request, Output& output);
+
+ private:
+  std::unique_ptr<executors::Executor> executor_for(const Scene& scene, const Request& request,
+                                                    const film::Channels& channels);
+
+  executors::ExecutorOptions options_;
+};
+
+}  // namespace eyeray::session
