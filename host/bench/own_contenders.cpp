@@ -7,8 +7,8 @@ namespace eyeray::bench {
 OwnContenders::OwnContenders(const Scene& scene, const std::vector<std::string>& backends,
                              const std::vector<std::string>& incoherent, const std::string& device) {
   executors::ExecutorOptions options;
-  options.device = device;
-  options.wide_vectors = false;  // rays go in packets, and by four lanes each
+  options.gpu.device = device;
+  options.gpu.wide_vectors = false;  // rays go in packets, and by four lanes each
   for (const std::string& name : backends) {
     const executors::Backend backend = executors::parse_backend(name);
     if (backend != executors::Backend::gpu) {
@@ -17,7 +17,7 @@ OwnContenders::OwnContenders(const Scene& scene, const std::vector<std::string>&
     }
     for (const std::string& how : incoherent) {
       executors::ExecutorOptions traced_so = options;
-      traced_so.profile.incoherent = how;
+      traced_so.gpu.profile.incoherent = how;
       add(how.empty() ? name : name + " " + how, scene, backend, traced_so);
     }
   }
@@ -41,7 +41,7 @@ std::vector<Build> OwnContenders::builds() const {
     for (const auto& [stage, spent] : executors_[i]->times().stages())
       if (stage == "pack" || stage == "collapse") packing += spent;
     builds.push_back(
-        {contenders_[i].name, packing > 0 ? packing : seconds_[i], executors_[i]->geometry_bytes()});
+        {contenders_[i].name, packing > 0 ? packing : seconds_[i], executors_[i]->facts().geometry_bytes});
   }
   return builds;
 }

@@ -149,7 +149,7 @@ ExitCode DevCommand::run() {
   options.scene = scene.file();
   options.shader_folder = executor.shader_folder;
   options.view = executors::backend_name(backend);
-  options.timeout_seconds = std::max(executor.timeout_seconds, executor.least_compile_seconds);
+  options.timeout_seconds = std::max(executor.gpu.timeout_seconds, executor.gpu.least_compile_seconds);
   options.once = once;
   if (!no_page) options.port = port;
   dev::Supervisor* known = nullptr;
@@ -165,9 +165,9 @@ void add_dev(CLI::App& app, Run& run) {
       "dev", "Render on every save of the scene or a shader, and show it on a page for the browser.");
   const auto options = std::make_shared<DevCommand>();
   // A dispatch is made to take 40 ms; compiling may take its time.
-  options->executor.timeout_seconds = 2;
-  options->executor.least_compile_seconds = 60;
-  options->executor.validate_spirv = true;
+  options->executor.gpu.timeout_seconds = 2;
+  options->executor.gpu.least_compile_seconds = 60;
+  options->executor.gpu.validate_spirv = true;
   options->scene.add_to(*command);
   command
       ->add_option("-o,--output", options->outputs,

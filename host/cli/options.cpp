@@ -42,8 +42,8 @@ void warn_of_misplaced_shaders(const std::filesystem::path& folder) {
 void sanitize(executors::ExecutorOptions& options, const std::string& list) {
   if (list != "address" && list != "undefined" && list != "address,undefined" && list != "undefined,address")
     throw Error(ExitCode::bad_input, "--sanitize is address, undefined or address,undefined, not '{}'", list);
-  options.compile_twin = true;
-  options.sanitizers = list;
+  options.twin.compile = true;
+  options.twin.sanitizers = list;
   constexpr const char* prepared = "EYERAY_SANITIZERS";
   if (const char* const done = std::getenv(prepared); done && done == list) return;
   Environment environment = executors::sanitizer_environment(list);
@@ -147,7 +147,7 @@ Scene SceneOptions::load() const {
 void add_executor_options(CLI::App& command, executors::ExecutorOptions& options) {
   const std::string group = "Device";
   command
-      .add_option("--device", options.device,
+      .add_option("--device", options.gpu.device,
                   "auto, cpu, gpu, a number or part of a name (see eyeray devices).")
       ->option_text("WHICH")
       ->group(group);
@@ -163,8 +163,9 @@ void add_executor_options(CLI::App& command, executors::ExecutorOptions& options
         warn_of_misplaced_shaders(folder);
         return std::string();
       });
-  command.add_option("--timeout", options.timeout_seconds, "The longest wait for the device, in seconds.")
-      ->option_text(fmt::format("SECONDS={}", options.timeout_seconds))
+  command
+      .add_option("--timeout", options.gpu.timeout_seconds, "The longest wait for the device, in seconds.")
+      ->option_text(fmt::format("SECONDS={}", options.gpu.timeout_seconds))
       ->group(group)
       ->check([](const std::string& text) {
         double seconds = 0;
@@ -174,7 +175,7 @@ void add_executor_options(CLI::App& command, executors::ExecutorOptions& options
         return good ? std::string() : fmt::format("wants seconds from 0.001 to 1000000, not '{}'", text);
       });
   command
-      .add_flag("--compile-twin", options.compile_twin,
+      .add_flag("--compile-twin", options.twin.compile,
                 "Make the twin of the shaders of --shaders, too, by a C++ compiler ($CXX), for debuggers.")
       ->group(group);
   command
@@ -184,7 +185,7 @@ void add_executor_options(CLI::App& command, executors::ExecutorOptions& options
       ->option_text("LIST")
       ->group(group);
   command
-      .add_flag("--fast-math", options.fast_math,
+      .add_flag("--fast-math", options.gpu.fast_math,
                 "Let the driver contract and re-associate arithmetic: no bit-exact results.")
       ->group(group);
   std::string keys;
@@ -204,7 +205,8 @@ void add_executor_options(CLI::App& command, executors::ExecutorOptions& options
       ->take_all()
       ->group(group);
   command
-      .add_option("--validate", options.validation, "Run under the Vulkan validation layer: core or sync.")
+      .add_option("--validate", options.gpu.validation,
+                  "Run under the Vulkan validation layer: core or sync.")
       ->option_text("SET")
       ->group(group)
       ->check(CLI::IsMember({"core", "sync"}));

@@ -131,7 +131,7 @@ compare::Report VerifyCommand::report_on(const SceneOptions& scene_file) const {
   session::crop_within(options.crop, scene.image);
   const fs::path& folder = options.executor.shader_folder;
   std::string shaders = folder.empty() ? "" : " --shaders " + shell_word(folder.string());
-  if (options.executor.compile_twin) shaders += " --compile-twin";
+  if (options.executor.twin.compile) shaders += " --compile-twin";
   return verify::verify_scene({scene, scene_file.file(), scene_file.as_written() + shaders,
                                folder_for(scene_file.file()), keep_passed, golden_of(scene_file.file())},
                               options);

@@ -36,15 +36,14 @@ const image::Image& shown(const View& view, const film::Rows& rows) {
 
 bool paint_coarsely(const View& view, const ImageSettings& image, executors::Executor& executor,
                     const RowsSink& sink) {
-  const int width = (image.width + coarse_stride - 1) / coarse_stride;
-  const int height = (image.height + coarse_stride - 1) / coarse_stride;
-  std::vector<PixelSample> samples(size_t(width) * size_t(height));
-  if (view.needs() == film::Needs::auxiliary || !executor.coarse_sample(coarse_stride, 0, samples))
-    return true;
+  const Grid grid({0, 0, image.width, image.height}, coarse_stride);
+  std::vector<PixelSample> samples(size_t(grid.pixels()));
+  std::vector<AuxiliarySample> auxiliaries(view.needs() == film::Needs::auxiliary ? samples.size() : 0);
+  if (!executor.sample(grid, 0, samples, auxiliaries)) return false;
   film::Film film;
-  film.reset(width, height, view.film_channels());
-  film.add({0, 0, width, height}, samples);
-  return sink({shown(view, film.rows(0, height)), 0, coarse_stride});
+  film.reset(grid.width(), grid.height(), view.film_channels());
+  film.add({0, 0, grid.width(), grid.height()}, samples, auxiliaries);
+  return sink({shown(view, film.rows(0, grid.height())), 0, coarse_stride});
 }
 
 std::optional<Painted> paint_samples(const View& view, const Scene& scene, executors::Executor& executor,

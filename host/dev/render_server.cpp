@@ -9,6 +9,7 @@
 #include "host/core/termination.hpp"
 #include "host/dev/scene_tunables.hpp"
 #include "host/executors/cpp_compiler.hpp"
+#include "host/executors/open_device.hpp"
 #include "host/probe/probe.hpp"
 #include "host/scene/integrator.hpp"
 #include "host/session/request.hpp"
@@ -52,7 +53,7 @@ RenderServer::RenderServer(Options options, MessageSocket socket)
     : options_(std::move(options)),
       socket_(std::move(socket)),
       tunables_(std::make_shared<executors::Tunables>()) {
-  options_.executor.tunables = tunables_;
+  options_.executor.gpu.tunables = tunables_;
 }
 
 void RenderServer::serve() {
@@ -132,8 +133,8 @@ void RenderServer::load(const Json& request) {
 
 executors::ExecutorOptions RenderServer::options_for(const View& view) {
   executors::ExecutorOptions options = session::counting(options_.executor, view.film_channels());
-  options.constants = options.constants && own_kernel_;
-  options.formula_numbers = !own_kernel_;
+  options.gpu.constants = options.gpu.constants && own_kernel_;
+  options.gpu.formula_numbers = !own_kernel_;
   return options;
 }
 
@@ -143,11 +144,11 @@ executors::Executor& RenderServer::executor_for(const View& view) {
   send("stage", {{"stage", "compile"}});
   if (view.backend == executors::Backend::gpu) {
     collect(longest_wait);
-    if (!options_.executor.open_device)
-      options_.executor.open_device = executors::open_device(options_.executor);
+    std::shared_ptr<executors::OpenDevice>& device = options_.executor.gpu.open_device;
+    if (!device) device = executors::open_device(options_.executor.gpu);
   }
   if (view.backend == executors::Backend::twin && !options_.executor.shader_folder.empty())
-    options_.executor.compile_twin = !executors::cpp_compiler().empty();
+    options_.executor.twin.compile = !executors::cpp_compiler().empty();
   const executors::ExecutorOptions options = options_for(view);
   std::unique_ptr<executors::Executor> executor;
   try {
@@ -176,7 +177,7 @@ void RenderServer::start_making() {
   std::erase_if(executors_, [](const auto& each) { return each.first.first == executors::Backend::gpu; });
   made_of_ = revision_;
   being_made_ = std::async(std::launch::async, [scene = scene_, options = options_for({})]() mutable {
-    if (!options.open_device) options.open_device = executors::open_device(options);
+    if (!options.gpu.open_device) options.gpu.open_device = executors::open_device(options.gpu);
     std::unique_ptr<executors::Executor> executor =
         executors::make_executor(executors::Backend::gpu, *scene, options);
     // Drivers may compile at the first dispatch.
@@ -194,7 +195,7 @@ void RenderServer::collect(double seconds) {
   const bool wanted = made_of_ == revision_;
   try {
     std::unique_ptr<executors::Executor> executor = being_made_.get();
-    options_.executor.open_device = executor->device();
+    options_.executor.gpu.open_device = executor->facts().device;
     if (wanted) executors_[colors_of_gpu] = std::move(executor);
   } catch (const std::exception&) {
     if (wanted) throw;
@@ -237,11 +238,7 @@ void RenderServer::choose_tunables(const Json& values) {
       if (numbers[i].is_number()) value[i] = numbers[i];
     chosen[id] = value;
   }
-  if (std::exchange(tunables_->chosen, chosen) == chosen) return;
-  if (tunables_->as_constants)
-    executors_.clear();
-  else
-    for (const auto& [kind, executor] : executors_) executor->reload_tunables();
+  if (tunables_->choose(std::move(chosen)) && tunables_->as_constants) executors_.clear();
 }
 
 void RenderServer::send_tunables() {
@@ -278,13 +275,13 @@ void RenderServer::paint(const std::string& name, bool last) {
   if (!painted) return;
 
   Json files = Json::array();
-  for (const auto& file : executor.source_files()) files.push_back(file.string());
+  for (const auto& file : executor.facts().source_files) files.push_back(file.string());
   Json stages = Json::object();
   for (const auto& [stage, seconds] : executor.times().stages()) stages[stage] = seconds;
   for (const auto& [stage, seconds] : before.stages()) stages[stage] = stages[stage].get<double>() - seconds;
   send("done", {{"view", name},
                 {"last", last},
-                {"device", executor.description()},
+                {"device", executor.facts().description},
                 {"seconds", watch.seconds()},
                 {"stages", std::move(stages)},
                 {"rays", painted->rays},
@@ -317,12 +314,12 @@ std::vector<std::string> RenderServer::doubts(const View& view, const Painted& p
   for (const Diagnostic& each : session::warnings_of(painted.quality)) doubts.push_back(each.message);
   const std::string shaders = options_.executor.shader_folder.string();
   if (view.backend != executors::Backend::twin || shaders.empty()) return doubts;
-  if (!options_.executor.compile_twin)
+  if (!options_.executor.twin.compile)
     doubts.push_back(fmt::format(
         "this is the twin of eyeray's own shaders: for those of {} there is no C++ compiler (c++, "
         "g++, clang++ or $CXX)",
         shaders));
-  else if (!tunables_->chosen.empty())
+  else if (tunables_->any_chosen())
     doubts.push_back("the twin has the values that are written in the shaders, not those of the sliders");
   return doubts;
 }

@@ -23,15 +23,17 @@
 namespace eyeray::executors {
 namespace {
 
-// Calls pixel(x, y, out[i]) for every pixel of the tile. Returns false when interrupted.
+// Makes out[i] = pixel(x, y) for every pixel of the grid. Returns false when interrupted.
 template <typename Result, typename Pixel>
-bool for_each_pixel(const Rect& tile, std::span<Result> out, const Pixel& pixel) {
-  CHECK_EQ(out.size(), size_t(tile.pixels()));
+bool for_each_pixel(const Grid& grid, std::span<Result> out, const Pixel& pixel) {
+  CHECK_EQ(out.size(), size_t(grid.pixels()));
+  const int width = grid.width();
   try {
-    parallel_for(0, tile.height, [&](int row) {
-      for (int column = 0; column < tile.width; ++column) {
+    parallel_for(0, grid.height(), [&](int row) {
+      for (int column = 0; column < width; ++column) {
         stop_if_interrupted();
-        out[size_t(row) * size_t(tile.width) + size_t(column)] = pixel(tile.x + column, tile.y + row);
+        out[size_t(row) * size_t(width) + size_t(column)] =
+            pixel(grid.area.x + column * grid.stride, grid.area.y + row * grid.stride);
       }
     });
   } catch (const Error& error) {
@@ -39,14 +41,6 @@ bool for_each_pixel(const Rect& tile, std::span<Result> out, const Pixel& pixel)
     return false;
   }
   return true;
-}
-
-// Calls pixel(x, y, out[i]) for every stride-th pixel of every stride-th row.
-template <typename Pixel>
-bool for_each_coarse_pixel(const ImageSettings& image, int stride, std::span<PixelSample> out,
-                           const Pixel& pixel) {
-  const Rect coarse{0, 0, (image.width + stride - 1) / stride, (image.height + stride - 1) / stride};
-  return for_each_pixel(coarse, out, [&](int x, int y) { return pixel(x * stride, y * stride); });
 }
 
 // Calls answer(ray) for every ray, in parallel; the seconds that took.
@@ -62,12 +56,14 @@ double timed_queries(std::span<const Query> rays, std::span<QueryHit> hits, cons
   return watch.seconds();
 }
 
-class TwinExecutor final : public Executor {
+class TwinExecutor final : public Twin {
  public:
   TwinExecutor(const Scene& scene, const ExecutorOptions& options)
-      : folder_(options.shader_folder), eye_(scene.camera.eye), image_(scene.image) {
-    if (options.compile_twin)
-      times_.measure("compile", [&] { module_.emplace(options.shader_folder, options.sanitizers); });
+      : folder_(options.shader_folder), eye_(scene.camera.eye), left_out_(options.left_out) {
+    if (options.twin.compile)
+      times_.measure("compile", [&] { module_.emplace(folder_, options.twin.sanitizers); });
+    facts_.description = description();
+    if (module_) facts_.source_files = module_->files();
     times_.measure("pack", [&] { packed_ = pack::pack(scene, options.pack); });
     view_ = twin::view_of(packed_);
     if (module_)
@@ -81,31 +77,20 @@ class TwinExecutor final : public Executor {
     }
   }
 
-  bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out,
+  bool sample(const Grid& grid, uint32_t index, std::span<PixelSample> out,
               std::span<AuxiliarySample> auxiliaries) override {
     if (!send_out_photons(index)) return false;
     return times_.measure("trace", [&] {
-      return for_each_pixel(tile, out, [&](int x, int y) { return sample_of(x, y, index); }) &&
-             (auxiliaries.empty() || for_each_pixel(tile, auxiliaries, [&](int x, int y) {
+      return for_each_pixel(grid, out, [&](int x, int y) { return sample_of(x, y, index); }) &&
+             (auxiliaries.empty() || for_each_pixel(grid, auxiliaries, [&](int x, int y) {
                 return to_auxiliary(functions().auxiliary(view_, uint32_t(x), uint32_t(y), index));
               }));
-    });
-  }
-
-  bool coarse_sample(int stride, uint32_t index, std::span<PixelSample> out) override {
-    return send_out_photons(index) && times_.measure("trace", [&] {
-      return for_each_coarse_pixel(image_, stride, out, [&](int x, int y) { return sample_of(x, y, index); });
     });
   }
 
   std::vector<PhotonWay> photon_ways(uint32_t index) override {
     if (!send_out_photons(index)) stop_if_interrupted();
     return photon_ways_;
-  }
-
-  void leave_out(std::vector<std::vector<uint32_t>> photons) override {
-    left_out_ = std::move(photons);
-    photons_of_.reset();
   }
 
   void first_hits(const Rect& tile, std::span<FirstHit> out) override {
@@ -141,16 +126,13 @@ class TwinExecutor final : public Executor {
     });
   }
 
-  std::string description() const override {
+ private:
+  std::string description() const {
     const std::string shaders = module_ && !folder_.empty() ? folder_.string() : "the shaders";
     const std::string how = module_ ? fmt::format(", by {} for debuggers", module_->compiler()) : "";
     return fmt::format("twin: {} as C++{}, {} threads", shaders, how, std::thread::hardware_concurrency());
   }
-  std::vector<std::filesystem::path> source_files() const override {
-    return module_ ? module_->files() : std::vector<std::filesystem::path>{};
-  }
 
- private:
   PixelSample sample_of(int x, int y, uint32_t index) const {
     PixelSample sample = to_sample(functions().sample(view_, uint32_t(x), uint32_t(y), index, nullptr), true);
     sample.flags |= photon_flags_;
@@ -205,10 +187,7 @@ class TwinExecutor final : public Executor {
 
   void hand_over(std::span<const shader::Photon> stored, uint32_t index) {
     photon_pass_ = photon_pass(*photon_settings_, index, eye_, 0);
-    const bool listed = index < left_out_.size();
-    photons_ =
-        photon_list(stored, photon_pass_.key_mask,
-                    listed ? std::span<const uint32_t>(left_out_[index]) : std::span<const uint32_t>());
+    photons_ = photon_list(stored, photon_pass_.key_mask, left_out_.of(index));
     view_.photon_pass = &photon_pass_;
     view_.photons = photons_.photons.data();
     view_.photon_cells = photons_.cells.data();
@@ -219,7 +198,6 @@ class TwinExecutor final : public Executor {
   records::PackedScene packed_;
   twin::SceneView view_{};
   Vec3 eye_;
-  ImageSettings image_;
 
   // Where the scene's integrator gathers photons: those of one sample.
   std::optional<PhotonSettings> photon_settings_;
@@ -228,36 +206,24 @@ class TwinExecutor final : public Executor {
   PhotonList photons_;
   std::vector<PhotonWay> photon_ways_;
   uint32_t photon_flags_ = 0;
-  std::vector<std::vector<uint32_t>> left_out_;  // by sample
+  LeftOutPhotons left_out_;
 };
 
 class ReferenceExecutor final : public Executor {
  public:
   explicit ReferenceExecutor(std::shared_ptr<const reference::Renderer> renderer)
-      : renderer_(std::move(renderer)) {}
+      : renderer_(std::move(renderer)) {
+    facts_.description = fmt::format("reference: float64, {} threads", std::thread::hardware_concurrency());
+  }
 
-  bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out,
+  bool sample(const Grid& grid, uint32_t index, std::span<PixelSample> out,
               std::span<AuxiliarySample> auxiliaries) override {
     return times_.measure("trace", [&] {
-      return for_each_pixel(tile, out, [&](int x, int y) { return renderer_->sample(x, y, index); }) &&
-             (auxiliaries.empty() || for_each_pixel(tile, auxiliaries, [&](int x, int y) {
+      return for_each_pixel(grid, out, [&](int x, int y) { return renderer_->sample(x, y, index); }) &&
+             (auxiliaries.empty() || for_each_pixel(grid, auxiliaries, [&](int x, int y) {
                 return renderer_->auxiliary(x, y, index);
               }));
     });
-  }
-
-  bool coarse_sample(int stride, uint32_t index, std::span<PixelSample> out) override {
-    return times_.measure("trace", [&] {
-      return for_each_coarse_pixel(renderer_->tracer().scene().image, stride, out,
-                                   [&](int x, int y) { return renderer_->sample(x, y, index); });
-    });
-  }
-
-  std::vector<PhotonWay> photon_ways(uint32_t index) override {
-    return renderer_->tracer().photons(index)->ways();
-  }
-  void leave_out(std::vector<std::vector<uint32_t>> photons) override {
-    renderer_->tracer().leave_out(std::move(photons));
   }
 
   void first_hits(const Rect& tile, std::span<FirstHit> out) override {
@@ -284,23 +250,20 @@ class ReferenceExecutor final : public Executor {
     });
   }
 
-  std::string description() const override {
-    return fmt::format("reference: float64, {} threads", std::thread::hardware_concurrency());
-  }
-
  private:
   std::shared_ptr<const reference::Renderer> renderer_;
 };
 
 }  // namespace
 
-std::unique_ptr<Executor> make_twin_executor(const Scene& scene, const ExecutorOptions& options) {
+std::unique_ptr<Twin> make_twin_executor(const Scene& scene, const ExecutorOptions& options) {
   return std::make_unique<TwinExecutor>(scene, options);
 }
 
 std::unique_ptr<Executor> make_reference_executor(const Scene& scene, const ExecutorOptions& options) {
-  return make_reference_executor(
-      std::make_shared<const reference::Renderer>(scene, options.pack.acceleration));
+  auto renderer = std::make_shared<const reference::Renderer>(scene, options.pack.acceleration);
+  renderer->tracer().leave_out(options.left_out);
+  return make_reference_executor(std::move(renderer));
 }
 
 std::unique_ptr<Executor> make_reference_executor(std::shared_ptr<const reference::Renderer> renderer) {

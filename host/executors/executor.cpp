@@ -1,6 +1,5 @@
 #include "host/executors/executor.hpp"
 
-#include "host/bvh/history.hpp"
 #include "host/core/error.hpp"
 #include "host/executors/executors.hpp"
 
@@ -23,17 +22,6 @@ std::string_view backend_name(Backend backend) {
       return "reference";
   }
   return "";
-}
-
-bool repay_kernels(int64_t samples) {
-  // From there on, what a second of compiling saves is more than a second.
-  return samples >= 1 << 24;
-}
-
-ExecutorOptions for_frames(ExecutorOptions options, int64_t samples) {
-  options.constants = options.constants && repay_kernels(samples);
-  if (!options.pack.history) options.pack.history = std::make_shared<bvh::BvhHistory>();
-  return options;
 }
 
 std::unique_ptr<Executor> make_executor(Backend backend, const Scene& scene, const ExecutorOptions& options) {

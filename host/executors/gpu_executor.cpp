@@ -36,14 +36,16 @@ class GpuExecutor final : public Executor {
               const StageTimes& times, const ExecutorOptions& options)
       : options_(options),
         eye_(scene.camera.eye),
-        image_(scene.image),
         open_device_(std::move(open_device)),
         device_(open_device_->device()),
-        profile_(choose_profile(options.profile, device_.info())),
+        profile_(choose_profile(options.gpu.profile, device_.info())),
         uploaded_(device_, profile_.texel_buffers) {
     times_ = times;
+    facts_.description = description();
+    facts_.arithmetic = arithmetic();
+    facts_.device = open_device_;
     const uint32_t lanes = device_.info().limits.subgroup_size;
-    const TracePlan plan = plan_tracing(profile_, options.profile, scene.image, packed, lanes);
+    const TracePlan plan = plan_tracing(profile_, options.gpu.profile, scene.image, packed, lanes);
     workgroups_.subgroup = lanes;
     if (device_.info().type == gpu::DeviceType::cpu)
       workgroups_.stride = std::max(1u, std::thread::hardware_concurrency());
@@ -62,25 +64,15 @@ class GpuExecutor final : public Executor {
     check_validation();
   }
 
-  bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out,
+  bool sample(const Grid& grid, uint32_t index, std::span<PixelSample> out,
               std::span<AuxiliarySample> auxiliaries) override {
     if (!send_out_photons(index)) return false;
     const auto trace = [&](const shader::Dispatch& push, gpu::Buffer& output) {
       return wavefront_ ? wavefront_->run(push, output) : dispatch(*sample_kernel_, push, output);
     };
-    return for_bands<shader::SampleResult>(tile, 1, index, trace,
+    return for_bands<shader::SampleResult>(grid, index, trace,
                                            [&](size_t first, auto results) { take(results, first, out); }) &&
-           (auxiliaries.empty() || sample_auxiliaries(tile, index, auxiliaries));
-  }
-
-  bool coarse_sample(int stride, uint32_t index, std::span<PixelSample> out) override {
-    if (wavefront_ || !send_out_photons(index)) return false;
-    const auto trace = [&](const shader::Dispatch& push, gpu::Buffer& output) {
-      return dispatch(*sample_kernel_, push, output);
-    };
-    const Rect pixels{0, 0, (image_.width + stride - 1) / stride, (image_.height + stride - 1) / stride};
-    return for_bands<shader::SampleResult>(pixels, stride, index, trace,
-                                           [&](size_t first, auto results) { take(results, first, out); });
+           (auxiliaries.empty() || sample_auxiliaries(grid, index, auxiliaries));
   }
 
   void first_hits(const Rect& tile, std::span<FirstHit> out) override {
@@ -88,7 +80,7 @@ class GpuExecutor final : public Executor {
     const auto trace = [&](const shader::Dispatch& push, gpu::Buffer& output) {
       return dispatch(*hit_kernel_, push, output);
     };
-    for_bands<shader::HitResult>(tile, 1, 0, trace, [&](size_t first, auto results) {
+    for_bands<shader::HitResult>(tile, 0, trace, [&](size_t first, auto results) {
       for (size_t i = 0; i < results.size(); ++i) {
         check_traced(results[i].flags, device_.info().driver_version);
         out[first + i] = to_first_hit(results[i], eye_, options_.search_cost);
@@ -109,7 +101,7 @@ class GpuExecutor final : public Executor {
       return dispatch(*kernel, push, output);
     };
     Probed result;
-    for_bands<shader::SampleResult>({x, y, 1, 1}, 1, index, trace, [&](size_t, auto results) {
+    for_bands<shader::SampleResult>(Rect{x, y, 1, 1}, index, trace, [&](size_t, auto results) {
       result.sample = to_sample(results[0], true);
     });
     stop_if_interrupted();
@@ -123,48 +115,30 @@ class GpuExecutor final : public Executor {
     return seconds;
   }
 
-  void leave_out(std::vector<std::vector<uint32_t>> photons) override {
-    left_out_ = std::move(photons);
-    if (photons_) photons_->forget();
-  }
-
-  void reload_tunables() override {
-    kernels_->upload_tunables();
-    if (photons_) photons_->forget();
-  }
-
-  uint64_t geometry_bytes() const override { return uploaded_.geometry_bytes(); }
-
-  std::string description() const override {
+ private:
+  std::string description() const {
     const gpu::DeviceInfo& info = device_.info();
     return fmt::format("gpu: {}, {}; {}", info.name, info.driver_version, describe(profile_));
   }
 
-  std::string arithmetic() const override {
+  std::string arithmetic() const {
     const gpu::DeviceFacts& facts = open_device_->facts();
     const auto kept = [](bool is) { return is ? "kept" : "lost"; };
     std::string text =
         fmt::format("denormals {}, infinities {}", kept(facts.denormals_kept), kept(facts.infinities_kept));
     if (facts.loop_cap) text += fmt::format(", loops end after {} iterations", facts.loop_iterations);
-    if (facts.exact_arithmetic && !options_.fast_math) return "exact, " + text;
+    if (facts.exact_arithmetic && !options_.gpu.fast_math) return "exact, " + text;
     return fmt::format("not exact, {}, on {}, {}", text, device_.info().name, device_.info().driver_version);
   }
 
-  std::shared_ptr<OpenDevice> device() const override { return open_device_; }
-
-  std::vector<std::filesystem::path> source_files() const override {
-    return {kernels_->looked_for().begin(), kernels_->looked_for().end()};
-  }
-
- private:
   // By the loop, whatever makes the picture.
-  bool sample_auxiliaries(const Rect& tile, uint32_t index, std::span<AuxiliarySample> out) {
+  bool sample_auxiliaries(const Grid& grid, uint32_t index, std::span<AuxiliarySample> out) {
     if (!auxiliary_kernel_)
       auxiliary_kernel_ = kernels_->make("kernels/render.comp.glsl", "#define AUXILIARY\n");
     const auto trace = [&](const shader::Dispatch& push, gpu::Buffer& output) {
       return dispatch(*auxiliary_kernel_, push, output);
     };
-    return for_bands<shader::AuxiliaryResult>(tile, 1, index, trace, [&](size_t first, auto results) {
+    return for_bands<shader::AuxiliaryResult>(grid, index, trace, [&](size_t first, auto results) {
       for (size_t i = 0; i < results.size(); ++i) {
         check_traced(results[i].flags, device_.info().driver_version);
         out[first + i] = to_auxiliary(results[i]);
@@ -174,10 +148,7 @@ class GpuExecutor final : public Executor {
 
   // Those of sample `index`, if there are to be any. Returns false when interrupted.
   bool send_out_photons(uint32_t index) {
-    if (!photons_) return true;
-    const bool listed = index < left_out_.size();
-    return photons_->send_out(
-        index, listed ? std::span<const uint32_t>(left_out_[index]) : std::span<const uint32_t>());
+    return !photons_ || photons_->send_out(index, options_.left_out.of(index));
   }
 
   // Results, of which the first is out[first].
@@ -194,14 +165,14 @@ class GpuExecutor final : public Executor {
 
   void make_kernels_for(records::PackedScene& packed, const TracePlan& plan) {
     Specialisation specialisation;
-    specialisation.constants = options_.constants && profile_.constants;
+    specialisation.constants = options_.gpu.constants && profile_.constants;
     specialisation.profile = profile_;
     specialisation.ray_kinds = options_.ray_kinds;
     specialisation.search_cost = options_.search_cost;
     specialisation.subgroup_size = workgroups_.subgroup;
     specialisation.group_stride = workgroups_.stride;
     expression::LoadedNumbers numbers;
-    if (options_.formula_numbers && !packed.formulas.empty()) specialisation.formula_numbers = &numbers;
+    if (options_.gpu.formula_numbers && !packed.formulas.empty()) specialisation.formula_numbers = &numbers;
     if (open_device_->facts().loop_cap)
       specialisation.loop_budget = loop_budget_of(packed, device_.info().driver_version);
     // A copy of the nodes, to which those for packets are about to be appended.
@@ -212,13 +183,13 @@ class GpuExecutor final : public Executor {
           times_.measure("collapse", [&] { return pack::add_packet_bvh(packed, workgroups_.subgroup); });
 
     gpu::KernelOptions how{.strict = device_.info().float_modes,
-                           .optimise = options_.optimise,
+                           .optimise = options_.gpu.optimise,
                            .flatten = profile_.flatten,
-                           .validate = options_.validate_spirv};
-    if (options_.fast_math) how.strict = std::nullopt;
+                           .validate = options_.gpu.validate_spirv};
+    if (options_.gpu.fast_math) how.strict = std::nullopt;
     // A capped driver grants 65 535 iterations to all loops together (docs/lavapipe.md).
     const uint32_t most_iterations = open_device_->facts().loop_cap ? 50'000 : LoopGuard().most();
-    kernels_.emplace(SceneKernels::Workshop{*open_device_, times_, how, options_.tunables.get(),
+    kernels_.emplace(SceneKernels::Workshop{*open_device_, times_, facts_, how, options_.gpu.tunables.get(),
                                             most_iterations, options_.ray_kinds},
                      uploaded_, ShaderFiles(options_.shader_folder, specialise(packed, specialisation)));
     if (specialisation.formula_numbers) uploaded_.add(formula_numbers_buffer(numbers.words()));
@@ -238,24 +209,24 @@ class GpuExecutor final : public Executor {
         options);
   }
 
-  // Calls trace(push, output) for every stride-th pixel of every stride-th row from `tile`'s corner on, in
-  // bands of rows, and take(first, results) with each band's results and the index of its first pixel; of
-  // `tile` the width and height are counted in these. Returns false when interrupted.
+  // Calls trace(push, output) for the grid's pixels in bands of rows, and take(first, results) with each
+  // band's results and the index of its first pixel. Returns false when interrupted.
   template <typename Result, typename Trace, typename Take>
-  bool for_bands(const Rect& tile, int stride, uint32_t index, const Trace& trace, const Take& take) {
-    for (int row = 0; row < tile.height;) {
+  bool for_bands(const Grid& grid, uint32_t index, const Trace& trace, const Take& take) {
+    const int width = grid.width();
+    for (int row = 0; row < grid.height();) {
       if (interrupted()) return false;
-      const int height = std::min(dispatch_size_.rows(tile.width), tile.height - row);
-      const size_t pixels = size_t(height) * size_t(tile.width);
+      const int height = std::min(dispatch_size_.rows(width), grid.height() - row);
+      const size_t pixels = size_t(height) * size_t(width);
       gpu::Buffer& output = output_for(pixels * sizeof(Result));
       shader::Dispatch push{};
-      push.tile_x = uint32_t(tile.x);
-      push.tile_y = uint32_t(tile.y + row * stride);
-      push.tile_width = uint32_t(tile.width);
+      push.tile_x = uint32_t(grid.area.x);
+      push.tile_y = uint32_t(grid.area.y + row * grid.stride);
+      push.tile_width = uint32_t(width);
       push.tile_height = uint32_t(height);
       push.sample_index = index;
       push.count = uint32_t(pixels);
-      push.stride = uint32_t(stride);
+      push.stride = uint32_t(grid.stride);
       const std::optional<double> seconds = kernels_->run([&] { return trace(push, output); });
       if (!seconds) return false;
       times_.add("dispatch", *seconds);
@@ -265,7 +236,7 @@ class GpuExecutor final : public Executor {
         const std::byte* bytes = output.read(pixels * sizeof(Result)).data();
         const std::span results(reinterpret_cast<const Result*>(bytes), pixels);
         kernels_->check_loops(results);
-        take(size_t(row) * size_t(tile.width), results);
+        take(size_t(row) * size_t(width), results);
       });
       row += height;
     }
@@ -299,7 +270,6 @@ class GpuExecutor final : public Executor {
 
   ExecutorOptions options_;
   Vec3 eye_;
-  ImageSettings image_;
   std::shared_ptr<OpenDevice> open_device_;
   gpu::Device& device_;
   Profile profile_;
@@ -309,7 +279,6 @@ class GpuExecutor final : public Executor {
   std::optional<SceneKernels> kernels_;
   std::optional<GpuQueries> queries_;
   std::optional<PhotonKernel> photons_;                         // where the integrator gathers any
-  std::vector<std::vector<uint32_t>> left_out_ = {};            // of these, by sample
   std::optional<Wavefront> wavefront_;                          // makes samples,
   std::shared_ptr<gpu::Kernel> sample_kernel_;                  // or else this
   std::shared_ptr<gpu::Kernel> auxiliary_kernel_, hit_kernel_;  // null until they are asked for
@@ -321,10 +290,11 @@ class GpuExecutor final : public Executor {
 std::unique_ptr<Executor> make_gpu_executor(const Scene& scene, const ExecutorOptions& options) {
   StageTimes times;
   records::PackedScene packed = times.measure("pack", [&] { return pack::pack(scene, options.pack); });
-  std::shared_ptr<OpenDevice> device = options.open_device;
+  const GpuOptions& gpu = options.gpu;
+  std::shared_ptr<OpenDevice> device = gpu.open_device;
   if (!device) {
-    const bool wide = options.wide_vectors && wants_wide_vectors(options.profile, scene.image, packed);
-    device = std::make_shared<OpenDevice>(options, wide, times);
+    const bool wide = gpu.wide_vectors && wants_wide_vectors(gpu.profile, scene.image, packed);
+    device = std::make_shared<OpenDevice>(gpu, wide, times);
   }
   return std::make_unique<GpuExecutor>(scene, std::move(packed), std::move(device), times, options);
 }

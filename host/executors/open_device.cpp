@@ -10,7 +10,9 @@ namespace {
 
 constexpr size_t most_kernels = 8;
 
-gpu::DeviceOptions device_options(const ExecutorOptions& options, bool wide_vectors) {
+}  // namespace
+
+gpu::DeviceOptions device_options(const GpuOptions& options, bool wide_vectors) {
   gpu::DeviceOptions device;
   device.select = options.device;
   device.validation = options.validation;
@@ -21,9 +23,7 @@ gpu::DeviceOptions device_options(const ExecutorOptions& options, bool wide_vect
   return device;
 }
 
-}  // namespace
-
-OpenDevice::OpenDevice(const ExecutorOptions& options, bool wide_vectors, StageTimes& times)
+OpenDevice::OpenDevice(const GpuOptions& options, bool wide_vectors, StageTimes& times)
     : device_(times.measure("device", [&] { return gpu::Device(device_options(options, wide_vectors)); })),
       facts_(times.measure("self-test", [&] {
         return gpu::self_test(
@@ -43,7 +43,7 @@ std::shared_ptr<gpu::Kernel> OpenDevice::kernel(std::span<const uint32_t> spirv,
   return built_.front().kernel;
 }
 
-std::shared_ptr<OpenDevice> open_device(const ExecutorOptions& options) {
+std::shared_ptr<OpenDevice> open_device(const GpuOptions& options) {
   StageTimes times;
   return std::make_shared<OpenDevice>(options, false, times);
 }

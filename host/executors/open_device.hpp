@@ -9,17 +9,19 @@
 
 #include "host/core/disk_cache.hpp"
 #include "host/core/stopwatch.hpp"
-#include "host/executors/executor.hpp"
+#include "host/executors/options.hpp"
 #include "host/gpu/kernel.hpp"
 #include "host/gpu/self_test.hpp"
 
 namespace eyeray::executors {
 
+gpu::DeviceOptions device_options(const GpuOptions& options, bool wide_vectors);
+
 class OpenDevice {
  public:
   // Opens what the options select, and tests it. The time goes to `times`. `wide_vectors`: as the picture
   // wants them.
-  OpenDevice(const ExecutorOptions& options, bool wide_vectors, StageTimes& times);
+  OpenDevice(const GpuOptions& options, bool wide_vectors, StageTimes& times);
 
   gpu::Device& device() { return device_; }
   const gpu::DeviceFacts& facts() const { return facts_; }
@@ -39,5 +41,8 @@ class OpenDevice {
   gpu::DeviceFacts facts_;
   std::list<Built> built_;  // the last used first
 };
+
+// For GpuOptions::open_device. Error (no_device) when no device will do.
+std::shared_ptr<OpenDevice> open_device(const GpuOptions& options);
 
 }  // namespace eyeray::executors

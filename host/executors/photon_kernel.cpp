@@ -94,7 +94,7 @@ bool PhotonKernel::trace(uint32_t index) {
 }
 
 bool PhotonKernel::send_out(uint32_t index, std::span<const uint32_t> left_out) {
-  if (sample_ == index) return true;
+  if (sample_ == index && choice_ == kernels_.choice()) return true;
   sample_.reset();
   if (!trace(index)) return false;
   if (stored_ > capacity_) {
@@ -126,6 +126,7 @@ bool PhotonKernel::send_out(uint32_t index, std::span<const uint32_t> left_out) 
   for (const shader::PhotonResult& result : results) flags_ |= result.flags & ~FLAG_ENDLESS_LOOP;
   check_ended(flags_);
   sample_ = index;
+  choice_ = kernels_.choice();
   return true;
 }
 

@@ -26,14 +26,13 @@ class PhotonKernel {
   void bind(gpu::Kernel& kernel) const;
   // What may be wrong with any of the last that were sent out: SampleFlags.
   uint32_t flags() const { return flags_; }
-  void forget() { sample_.reset(); }
 
  private:
   bool trace(uint32_t index);
   void make_room(uint32_t photons);
 
   gpu::Device& device_;
-  const SceneKernels& kernels_;
+  SceneKernels& kernels_;
   StageTimes& times_;
   Workgroups workgroups_;
   PhotonSettings settings_;
@@ -44,7 +43,8 @@ class PhotonKernel {
   uint32_t stored_ = 0;
   gpu::Buffer pass_, results_, count_;
   std::optional<gpu::Buffer> found_, photons_, cells_;
-  std::optional<uint32_t> sample_;  // whose photons these are
+  std::optional<uint32_t> sample_;  // whose photons these are,
+  uint64_t choice_ = 0;             // and by which choice of tunables
   uint32_t flags_ = 0;
 };
 

@@ -40,6 +40,8 @@ std::shared_ptr<gpu::Kernel> SceneKernels::make(const std::string& entry, std::s
     upload_tunables();
     kernel->set_buffer(BINDING_TUNABLES, *tunables_);
   }
+  workshop_.facts.geometry_bytes = scene_.geometry_bytes();
+  workshop_.facts.source_files = {files_.looked_for().begin(), files_.looked_for().end()};
   return kernel;
 }
 
@@ -60,11 +62,11 @@ bool SceneKernels::moves_tunables() const {
 }
 
 void SceneKernels::upload_tunables() {
-  if (!moves_tunables()) return;
   const auto records = workshop_.tunables->records();
   const auto bytes = std::as_bytes(std::span(records));
   if (!tunables_) tunables_.emplace(workshop_.device.device(), bytes.size(), "tunables");
   tunables_->upload(bytes);
+  uploaded_ = choice();
 }
 
 void SceneKernels::upload_bvh4() {

@@ -1,15 +1,14 @@
 // Kernels that are made for one scene: the entries, compiled with its scene.glsl, with its buffers bound.
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 
 #include "host/core/error.hpp"
 #include "host/core/raw_vector.hpp"
 #include "host/core/stopwatch.hpp"
+#include "host/executors/executor.hpp"
 #include "host/executors/loop_guard.hpp"
 #include "host/executors/open_device.hpp"
 #include "host/executors/shader_files.hpp"
@@ -31,6 +30,7 @@ class SceneKernels {
   struct Workshop {
     OpenDevice& device;
     StageTimes& times;
+    ExecutorFacts& facts;  // gets what they read and take
     gpu::KernelOptions how;
     Tunables* tunables;  // null: none
     // Iterations that counted loops of a user's shaders may make together in one invocation.
@@ -48,12 +48,13 @@ class SceneKernels {
   }
   // InputError where the text does not compile.
   std::shared_ptr<gpu::Kernel> make(const std::string& entry, std::string defines = "");
-  void upload_tunables();
   // The text of an entry and all that it includes.
   gpu::ShaderSource source(const std::string& entry) { return source(entry, false); }
-  // Runs a dispatch of these kernels. Its time-out names the loops of a user's shaders.
+  // Runs a dispatch of these kernels, by the tunables as they are now. Its time-out names the loops of a
+  // user's shaders.
   template <typename Dispatch>
-  auto run(const Dispatch& dispatch) const {
+  auto run(const Dispatch& dispatch) {
+    if (tunables_ && uploaded_ != choice()) upload_tunables();
     try {
       return dispatch();
     } catch (const Error& error) {
@@ -68,11 +69,13 @@ class SceneKernels {
     if (!guard_.active()) return;
     for (const auto& result : results) guard_.check(result.flags, workshop_.ray_kinds);
   }
-  const std::set<std::filesystem::path>& looked_for() const { return files_.looked_for(); }
+  // Tunables::choice: samples of another one are outdated.
+  uint64_t choice() const { return workshop_.tunables ? workshop_.tunables->choice() : 0; }
 
  private:
   gpu::ShaderSource source(const std::string& entry, bool guarded);
   void upload_bvh4();
+  void upload_tunables();
   bool moves_tunables() const;
 
   Workshop workshop_;
@@ -83,6 +86,7 @@ class SceneKernels {
   shader::Bvh bvh_{};
   uint32_t bvh4_stack_ = 1;  // CollapsedBvh::stack_size
   std::optional<gpu::Buffer> tunables_;
+  uint64_t uploaded_ = 0;  // the choice that the buffer has
 };
 
 }  // namespace eyeray::executors

@@ -125,9 +125,16 @@ std::string Tunables::apply(const std::string& file, std::string_view text) {
   return result;
 }
 
+bool Tunables::choose(std::map<std::string, Tunable::Value> values) {
+  if (values == chosen_) return false;
+  chosen_ = std::move(values);
+  ++choice_;
+  return true;
+}
+
 Tunable::Value Tunables::value(const Tunable& tunable) const {
-  const auto found = chosen.find(tunable.id);
-  return found == chosen.end() ? tunable.written : found->second;
+  const auto found = chosen_.find(tunable.id);
+  return found == chosen_.end() ? tunable.written : found->second;
 }
 
 std::array<std::array<float, 4>, Tunables::most> Tunables::records() const {

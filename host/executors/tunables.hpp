@@ -45,8 +45,11 @@ class Tunables {
 
   // All that were seen since begin().
   const std::vector<Tunable>& found() const { return found_; }
-  // By id; where nothing is chosen, what is written counts.
-  std::map<std::string, Tunable::Value> chosen;
+  // Values by id; where nothing is chosen, what is written counts. Returns whether that changes anything.
+  bool choose(std::map<std::string, Tunable::Value> values);
+  // The number of the choice: executors compare it before they sample.
+  uint64_t choice() const { return choice_; }
+  bool any_chosen() const { return !chosen_.empty(); }
   Tunable::Value value(const Tunable& tunable) const;
   // BINDING_TUNABLES's buffer.
   std::array<std::array<float, 4>, most> records() const;
@@ -55,6 +58,8 @@ class Tunables {
   size_t place_of(const std::string& id);
 
   std::vector<Tunable> found_;
+  std::map<std::string, Tunable::Value> chosen_;
+  uint64_t choice_ = 0;
   std::vector<std::string> places_;  // ids, as they lie in the buffer: once given, for ever
 };
 

@@ -6,14 +6,14 @@
 
 #include "host/core/diagnostic.hpp"
 #include "host/core/error.hpp"
-#include "host/executors/executor.hpp"
+#include "host/executors/options.hpp"
 
 namespace eyeray::executors {
 namespace {
 
 template <std::string ProfileOptions::* part>
 void choose_part(ExecutorOptions& options, std::string_view value) {
-  options.profile.*part = value;
+  options.gpu.profile.*part = value;
 }
 
 void choose_acceleration(ExecutorOptions& options, std::string_view value) {
@@ -54,11 +54,11 @@ const Tuning tuning_rows[] = {
     {"constants",
      {"on", "off"},
      "compiles materials, lights and a small scene's shapes into the kernel",
-     [](ExecutorOptions& options, std::string_view value) { options.constants = value == "on"; }},
+     [](ExecutorOptions& options, std::string_view value) { options.gpu.constants = value == "on"; }},
     {"optimiser",
      {"on", "off"},
      "optimises kernels before the driver gets them; without, each start takes longer",
-     [](ExecutorOptions& options, std::string_view value) { options.optimise = value == "on"; }},
+     [](ExecutorOptions& options, std::string_view value) { options.gpu.optimise = value == "on"; }},
 };
 
 const Tuning& tuning_of(std::string_view key) {

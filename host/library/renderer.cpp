@@ -26,7 +26,7 @@ Rect rect_of(const v0::Rect& crop) {
 
 namespace {
 
-void open_device(v0::Renderer::Data& renderer, const executors::ExecutorOptions& options) {
+void open_device(v0::Renderer::Data& renderer, const executors::GpuOptions& options) {
   static std::atomic<pid_t> first_process = 0;
   pid_t process = 0;
   if (!first_process.compare_exchange_strong(process, ::getpid()) && process != ::getpid())
@@ -48,14 +48,14 @@ void open_device(v0::Renderer::Data& renderer, const executors::ExecutorOptions&
 
 executors::ExecutorOptions executor_options(v0::Renderer::Data& renderer, bool gpu) {
   executors::ExecutorOptions options;
-  options.device = renderer.options.device;
+  options.gpu.device = renderer.options.device;
   options.shader_folder = renderer.options.shaders;
-  options.timeout_seconds = renderer.options.timeout_seconds;
+  options.gpu.timeout_seconds = renderer.options.timeout_seconds;
   // What a driver reads of the environment is the process's, and other threads may be reading it.
-  options.sets_environment = false;
-  options.compile_twin = !renderer.options.shaders.empty();
-  if (gpu) open_device(renderer, options);
-  options.open_device = renderer.device;
+  options.gpu.sets_environment = false;
+  options.twin.compile = !renderer.options.shaders.empty();
+  if (gpu) open_device(renderer, options.gpu);
+  options.gpu.open_device = renderer.device;
   return options;
 }
 

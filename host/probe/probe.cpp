@@ -51,7 +51,7 @@ class Pixel {
       executors::Probed probed = executors_[i]->probe(options_.x, options_.y, index_);
       const Backend backend = options_.backends[i];
       const std::string name(backend_name(backend));
-      findings.participants.push_back({backend, executors_[i]->description(), probed.sample});
+      findings.participants.push_back({backend, executors_[i]->facts().description, probed.sample});
       if (const Vec3 color = sample(i, index_).color; !same_bits(color, probed.sample.color))
         findings.notes.push_back(fmt::format(
             "the kernel that renders makes the pixel {:.9g} {:.9g} {:.9g} by {}, not what is seen "
@@ -84,7 +84,7 @@ class Pixel {
 
   PixelSample sample(size_t executor, uint32_t index) {
     PixelSample sample;
-    if (!executors_[executor]->sample({options_.x, options_.y, 1, 1}, index, std::span(&sample, 1)))
+    if (!executors_[executor]->sample(Rect{options_.x, options_.y, 1, 1}, index, std::span(&sample, 1)))
       stop_if_interrupted();
     return sample;
   }
@@ -166,7 +166,7 @@ class Pixel {
 
   void note_changed_shaders(Findings& findings) const {
     const std::vector<std::string> changed = executors::changed_shaders(options_.executor.shader_folder);
-    if (!changed.empty() && !options_.executor.compile_twin)
+    if (!changed.empty() && !options_.executor.twin.compile)
       findings.notes.push_back(
           fmt::format("the gpu has {}; the twin has the built-in shaders", fmt::join(changed, ", ")));
   }

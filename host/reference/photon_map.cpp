@@ -59,14 +59,12 @@ std::shared_ptr<const PhotonMap> PhotonMaps::of_sample(const Tracer& tracer, uin
   const std::lock_guard lock(mutex_);
   if (const auto found = kept_.find(index); found != kept_.end()) return found->second;
   if (kept_.size() == most_kept) kept_.erase(kept_.begin());
-  const bool lists = index < left_out_.size();
-  auto map = std::make_shared<const PhotonMap>(
-      tracer, index, lists ? std::span<const uint32_t>(left_out_[index]) : std::span<const uint32_t>());
+  auto map = std::make_shared<const PhotonMap>(tracer, index, left_out_.of(index));
   kept_.emplace(index, map);
   return map;
 }
 
-void PhotonMaps::leave_out(std::vector<std::vector<uint32_t>> photons) {
+void PhotonMaps::leave_out(LeftOutPhotons photons) {
   const std::lock_guard lock(mutex_);
   left_out_ = std::move(photons);
   kept_.clear();

@@ -63,14 +63,14 @@ class PhotonMaps {
  public:
   std::shared_ptr<const PhotonMap> of_sample(const Tracer& tracer, uint32_t index);
   // From now on these photons of each sample bring nothing.
-  void leave_out(std::vector<std::vector<uint32_t>> photons);
+  void leave_out(LeftOutPhotons photons);
 
  private:
   static constexpr size_t most_kept = 8;
 
   std::mutex mutex_;
   std::map<uint32_t, std::shared_ptr<const PhotonMap>> kept_;
-  std::vector<std::vector<uint32_t>> left_out_;  // by sample
+  LeftOutPhotons left_out_;
 };
 
 }  // namespace eyeray::reference

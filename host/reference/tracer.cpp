@@ -68,7 +68,7 @@ std::shared_ptr<const PhotonMap> Tracer::photons(uint32_t index) const {
   return photon_maps_->of_sample(*this, index);
 }
 
-void Tracer::leave_out(std::vector<std::vector<uint32_t>> photons) const {
+void Tracer::leave_out(LeftOutPhotons photons) const {
   photon_maps_->leave_out(std::move(photons));
 }
 

@@ -7,6 +7,7 @@
 #include "host/core/pixel.hpp"
 #include "host/reference/group_geometry.hpp"
 #include "host/scene/light_choice.hpp"
+#include "host/scene/photons.hpp"
 #include "host/scene/primitive_ids.hpp"
 #include "host/scene/scene.hpp"
 
@@ -57,7 +58,7 @@ class Tracer {
   // Of sample `index`, where the scene's integrator sends out photons. From many threads at once.
   std::shared_ptr<const PhotonMap> photons(uint32_t index) const;
   // From now on these photons of each sample bring nothing.
-  void leave_out(std::vector<std::vector<uint32_t>> photons) const;
+  void leave_out(LeftOutPhotons photons) const;
   // The scene's own objects, and as Scene::group_instances those of groups.
   const Objects& world() const { return *world_; }
   const std::vector<GroupGeometry>& groups() const { return groups_; }

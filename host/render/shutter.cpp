@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <type_traits>
 
 namespace eyeray::render {
 namespace {
@@ -30,10 +31,10 @@ class Shutter final : public Executor {
     show(scene_.animation.frame);
   }
 
-  bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out,
+  bool sample(const Grid& grid, uint32_t index, std::span<PixelSample> out,
               std::span<AuxiliarySample> auxiliaries) override {
     show_moment_of(index);
-    return timed([&] { return executor_->sample(tile, index, out, auxiliaries); });
+    return timed([&] { return executor_->sample(grid, index, out, auxiliaries); });
   }
   void first_hits(const Rect& tile, std::span<FirstHit> out) override {
     show(scene_.animation.frame);
@@ -41,18 +42,12 @@ class Shutter final : public Executor {
   }
   executors::Probed probe(int x, int y, uint32_t index) override {
     show_moment_of(index);
-    return executor_->probe(x, y, index);
+    return timed([&] { return executor_->probe(x, y, index); });
   }
   double query(const QueryBatch& batch, std::span<QueryHit> hits) override {
     show(scene_.animation.frame);
-    return executor_->query(batch, hits);
+    return timed([&] { return executor_->query(batch, hits); });
   }
-
-  std::shared_ptr<executors::OpenDevice> device() const override { return executor_->device(); }
-  uint64_t geometry_bytes() const override { return executor_->geometry_bytes(); }
-  std::string description() const override { return executor_->description(); }
-  std::string arithmetic() const override { return executor_->arithmetic(); }
-  std::vector<std::filesystem::path> source_files() const override { return executor_->source_files(); }
 
  private:
   int moments() const { return std::min(scene_.animation.shutter_steps, scene_.image.samples); }
@@ -73,18 +68,20 @@ class Shutter final : public Executor {
     moment_->render.max_depth = scene_.render.max_depth;
     moment_->render.min_throughput = scene_.render.min_throughput;
     executor_ = executors::make_executor(backend_, *moment_, options_);
-    options_.open_device = executor_->device();
     shown_ = frame;
-    add_times();
+    take_over();
+    options_.gpu.open_device = facts_.device;
   }
 
+  // Work of the executor, whose facts and times are then these.
   template <typename Work>
-  bool timed(const Work& work) {
-    const bool done = work();
-    add_times();
+  std::invoke_result_t<Work> timed(const Work& work) {
+    auto done = work();
+    take_over();
     return done;
   }
-  void add_times() {
+  void take_over() {
+    facts_ = executor_->facts();
     times_ = gone_;
     for (const auto& [stage, seconds] : executor_->times().stages()) times_.add(stage, seconds);
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "host/scene/photon_targets.hpp"
@@ -20,6 +21,16 @@ struct PhotonSettings {
 struct PhotonWay {
   uint32_t trail = 0;  // what it decided on its way, as PixelSample::trail
   Vec3 places{0};      // the sum of those where it stays
+};
+
+// Photons that bring no light: by sample their numbers, in order.
+struct LeftOutPhotons {
+  std::vector<std::vector<uint32_t>> by_sample = {};
+
+  std::span<const uint32_t> of(uint32_t sample) const {
+    if (sample >= by_sample.size()) return {};
+    return by_sample[sample];
+  }
 };
 
 // Where the scene names no radius, it is two pixels wide as seen at the middle of all that has an end, or, if

@@ -89,7 +89,7 @@ compare::Reference neighbours(const Scene& scene, const reference::Renderer& ren
 }
 
 compare::PathReference path_neighbours(const Scene& scene, const reference::Renderer& renderer,
-                                       const executors::Executor* twin) {
+                                       const executors::Twin* twin) {
   compare::PathReference paths;
   paths.around = [&](int sample) -> compare::Reference {
     return [&scene, &renderer, sample](int x, int y, const Vec2& shift, compare::Chance chance) {

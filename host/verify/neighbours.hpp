@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/compare/explain.hpp"
-#include "host/executors/executor.hpp"
+#include "host/executors/executors.hpp"
 #include "host/reference/renderer.hpp"
 #include "host/scene/scene.hpp"
 
@@ -13,6 +13,6 @@ compare::Reference neighbours(const Scene& scene, const reference::Renderer& ren
 
 // The same of single samples, for gate D. `twin` must outlive it too; null: nobody knows the shaders' paths.
 compare::PathReference path_neighbours(const Scene& scene, const reference::Renderer& renderer,
-                                       const executors::Executor* twin);
+                                       const executors::Twin* twin);
 
 }  // namespace eyeray::verify

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "host/core/parallel_for.hpp"
+#include "host/reference/photon_map.hpp"
 #include "host/reference/photon_traces.hpp"
 #include "host/reference/trail.hpp"
 
@@ -68,8 +69,9 @@ std::string describe(const Apart& photon, const reference::PhotonTraces& traces,
 
 }  // namespace
 
-JudgedPhotons judge_photons(const Scene& scene, executors::Executor& twin,
-                            executors::Executor& reference_executor, const reference::Renderer& renderer) {
+JudgedPhotons judge_photons(const Scene& scene,
+                            const std::function<std::vector<PhotonWay>(uint32_t index)>& ways,
+                            const reference::Renderer& renderer) {
   JudgedPhotons judged;
   compare::PhotonTally& tally = judged.tally;
   tally.sent = int64_t{scene.render.photons} * scene.image.samples;
@@ -77,7 +79,7 @@ JudgedPhotons judge_photons(const Scene& scene, executors::Executor& twin,
   const reference::PhotonTraces traces(renderer.tracer());
   for (uint32_t index = 0; index < uint32_t(scene.image.samples); ++index) {
     // Compare ways and places.
-    const std::vector<PhotonWay> a = twin.photon_ways(index), b = reference_executor.photon_ways(index);
+    const std::vector<PhotonWay> a = ways(index), b = renderer.tracer().photons(index)->ways();
     CHECK_EQ(a.size(), b.size());
     const double aside = photon_aside * photon_radius(photon_settings(scene), index);
     std::vector<Apart> apart;
@@ -87,7 +89,7 @@ JudgedPhotons judge_photons(const Scene& scene, executors::Executor& twin,
       apart.push_back(photon);
       ++(photon.parted() ? tally.parted : tally.aside);
     }
-    std::vector<uint32_t>& left_out = judged.left_out.emplace_back();
+    std::vector<uint32_t>& left_out = judged.left_out.by_sample.emplace_back();
     for (const Apart& photon : apart) left_out.push_back(photon.number);
 
     // Ask the reference for each, until the gate has failed.

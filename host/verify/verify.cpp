@@ -2,6 +2,7 @@
 
 #include "host/core/stopwatch.hpp"
 #include "host/executors/executors.hpp"
+#include "host/executors/open_device.hpp"
 #include "host/executors/shader_files.hpp"
 #include "host/raster/witness.hpp"
 #include "host/reference/renderer.hpp"
@@ -58,7 +59,7 @@ compare::Frame render_frame(executors::Backend backend, executors::Executor& exe
   frame.flagged_pixels = rendering.flagged_pixels;
   frame.flags = rendering.flags;
   frame.samples = std::move(samples);
-  report.participants.push_back({std::string(executors::backend_name(backend)), executor.description(),
+  report.participants.push_back({std::string(executors::backend_name(backend)), executor.facts().description,
                                  rendering.seconds, rendering.rays, compare::inspect(frame)});
   return frame;
 }
@@ -121,13 +122,8 @@ void name_hits(const Scene& scene, compare::Report& report) {
 // Draws what gate R compares with, on the device that renders.
 std::optional<raster::Witness> draw(const Scene& scene, const Rect& area, const Options& options) {
   if (!options.raster) return std::nullopt;
-  gpu::DeviceOptions device;
-  device.select = options.executor.device;
-  device.validation = options.executor.validation;
-  device.sets_environment = options.executor.sets_environment;
-  device.timeout_seconds = options.executor.timeout_seconds;
-  device.compile_seconds = std::max(options.executor.timeout_seconds, options.executor.least_compile_seconds);
-  return std::make_optional<raster::Witness>(scene, area, device);
+  return std::make_optional<raster::Witness>(scene, area,
+                                             executors::device_options(options.executor.gpu, false));
 }
 
 // Gate R: every executor, the reference too.
@@ -150,7 +146,7 @@ compare::Report verify_scene(const Subject& subject, const Options& options) {
   report.scene = subject.file;
   report.options = subject.written_options;
   report.changed_shaders = executors::changed_shaders(options.executor.shader_folder);
-  report.twin_has_changed_shaders = options.executor.compile_twin;
+  report.twin_has_changed_shaders = options.executor.twin.compile;
   report.width = scene.image.width;
   report.height = scene.image.height;
   report.area = options.crop == Rect{} ? Rect{0, 0, scene.image.width, scene.image.height} : options.crop;
@@ -161,27 +157,28 @@ compare::Report verify_scene(const Subject& subject, const Options& options) {
 
   // Render, the reference last.
   std::vector<compare::Frame> frames;
-  std::unique_ptr<executors::Executor> twin;
-  const auto renderer =
-      std::make_shared<const reference::Renderer>(scene, options.executor.pack.acceleration);
+  std::unique_ptr<executors::Twin> twin;
+  executors::ExecutorOptions how = options.executor;
+  const auto renderer = std::make_shared<const reference::Renderer>(scene, how.pack.acceleration);
   const auto reference_executor = executors::make_reference_executor(renderer);
-  std::vector<std::vector<uint32_t>> left_out;
   if (sends_photons(scene.render.integrator)) {
+    const auto sender = executors::make_twin_executor(scene, how);
     JudgedPhotons judged =
-        judge_photons(scene, *executors::make_executor(executors::Backend::twin, scene, options.executor),
-                      *reference_executor, *renderer);
-    left_out = std::move(judged.left_out);
+        judge_photons(scene, [&](uint32_t index) { return sender->photon_ways(index); }, *renderer);
+    how.left_out = std::move(judged.left_out);
     report.photons = std::move(judged.tally);
-    reference_executor->leave_out(left_out);
+    renderer->tracer().leave_out(how.left_out);
   }
   const auto new_progress = [&] { return options.progress ? options.progress() : nullptr; };
   for (const executors::Backend backend : options.backends) {
     auto progress = new_progress();
-    std::unique_ptr<executors::Executor> executor =
-        executors::make_executor(backend, scene, options.executor);
-    executor->leave_out(left_out);
-    frames.push_back(render_frame(backend, *executor, scene, options, std::move(progress), report));
-    if (backend == executors::Backend::twin) twin = std::move(executor);
+    std::unique_ptr<executors::Executor> other;
+    if (backend == executors::Backend::twin)
+      twin = executors::make_twin_executor(scene, how);
+    else
+      other = executors::make_executor(backend, scene, how);
+    executors::Executor& executor = other ? *other : *twin;
+    frames.push_back(render_frame(backend, executor, scene, options, std::move(progress), report));
   }
   frames.push_back(render_frame(executors::Backend::reference, *reference_executor, scene, options,
                                 new_progress(), report));
@@ -191,7 +188,7 @@ compare::Report verify_scene(const Subject& subject, const Options& options) {
   const compare::Tolerances tolerances{.max_explained =
                                            options.max_explained.value_or(scene.verify.max_explained)};
   const bool by_samples = walks_at_random(scene.render.integrator);
-  if (by_samples && !twin) twin = executors::make_executor(executors::Backend::twin, scene, options.executor);
+  if (by_samples && !twin) twin = executors::make_twin_executor(scene, how);
   const compare::PathReference paths = path_neighbours(scene, *renderer, twin.get());
   const auto outcomes = compare_each_with_reference(frames, reference, by_samples ? &paths : nullptr,
                                                     tolerances, options, report);

@@ -7,8 +7,8 @@
 // asks for.
 Path eye_path(uint place) {
   uint row = quotient(place, dispatch.tile_width);
-  uint x = dispatch.tile_x + place - row * dispatch.tile_width;
-  uint y = dispatch.tile_y + row;
+  uint x = dispatch.tile_x + (place - row * dispatch.tile_width) * dispatch.stride;
+  uint y = dispatch.tile_y + row * dispatch.stride;
   Frame frame = load_frame();
   Ray ray;
   eye_ray(frame, x, y, dispatch.sample_index, ray);

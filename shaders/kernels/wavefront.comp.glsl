@@ -44,8 +44,8 @@ void main() {
   uvec2 pixel = pixel_of_block(group, gl_LocalInvocationIndex, dispatch.tile_width);
   if (pixel.x >= dispatch.tile_width || pixel.y >= dispatch.tile_height) return;
   uint place = pixel.y * dispatch.tile_width + pixel.x;
-  uint x = dispatch.tile_x + pixel.x;
-  uint y = dispatch.tile_y + pixel.y;
+  uint x = dispatch.tile_x + pixel.x * dispatch.stride;
+  uint y = dispatch.tile_y + pixel.y * dispatch.stride;
   Ray first;
   if (!eye_ray(frame, x, y, dispatch.sample_index, first)) {
     results[place] = sample_result(color, counts, trail);

@@ -80,8 +80,8 @@ Specialised specialised(const Scene& scene) {
 
 std::vector<PixelSample> samples(const Scene& scene, Backend backend, bool formula_numbers) {
   ExecutorOptions options;
-  options.constants = false;
-  options.formula_numbers = formula_numbers;
+  options.gpu.constants = false;
+  options.gpu.formula_numbers = formula_numbers;
   const Rect all{0, 0, scene.image.width, scene.image.height};
   std::vector<PixelSample> samples(size_t(all.pixels()));
   REQUIRE(make_executor(backend, scene, options)->sample(all, 1, samples));

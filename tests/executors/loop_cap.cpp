@@ -74,7 +74,7 @@ void check_right_or_flagged(const Scene& scene, Executor& gpu, Executor& twin) {
     else
       CHECK(ours[i].color == theirs[i].color);
   }
-  MESSAGE(fmt::format("{} of {} pixels flagged on {}", flagged, ours.size(), gpu.description()));
+  MESSAGE(fmt::format("{} of {} pixels flagged on {}", flagged, ours.size(), gpu.facts().description));
 }
 
 }  // namespace

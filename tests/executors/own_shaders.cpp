@@ -13,8 +13,9 @@ namespace {
 Error error_of(ShaderFiles files) {
   const auto device = open_device({});
   StageTimes times;
+  ExecutorFacts facts;
   UploadedScene scene(device->device(), false);
-  SceneKernels kernels({*device, times, {}, nullptr, 1, false}, scene, std::move(files));
+  SceneKernels kernels({*device, times, facts, {}, nullptr, 1, false}, scene, std::move(files));
   try {
     const auto kernel = kernels.make("kernels/render.comp.glsl");
   } catch (const Error& error) {

@@ -286,7 +286,7 @@ void check_verified(uint64_t seed) {
     scene.render.photon_radius = 0.3;
   }
   verify::Options options;
-  options.executor.constants = row.level[storage] == 0;
+  options.executor.gpu.constants = row.level[storage] == 0;
   options.max_explained = 0.05;
   const compare::Report report = verify::verify_scene({scene, fmt::format("seed {}", seed), "", ""}, options);
   INFO(text);

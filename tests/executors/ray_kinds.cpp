@@ -57,7 +57,7 @@ std::string things(const std::string& material) {
 std::vector<PixelSample> samples(const Scene& scene, Backend backend, const char* rays) {
   ExecutorOptions options;
   options.ray_kinds = true;
-  options.profile.rays = rays;
+  options.gpu.profile.rays = rays;
   const Rect all{0, 0, scene.image.width, scene.image.height};
   std::vector<PixelSample> out(size_t(all.pixels()));
   REQUIRE(make_executor(backend, scene, options)->sample(all, 0, out));

@@ -60,7 +60,7 @@ void check_pixels(const std::string& file, int count) {
     CAPTURE(y);
     const Probed a = gpu->probe(x, y, 0), b = twin->probe(x, y, 0);
     PixelSample sample;
-    REQUIRE(gpu->sample({x, y, 1, 1}, 0, std::span(&sample, 1)));
+    REQUIRE(gpu->sample(Rect{x, y, 1, 1}, 0, std::span(&sample, 1)));
     CHECK(a.sample.color == sample.color);
     CHECK(b.sample.color == sample.color);
     CHECK(a.rays.lost == 0);

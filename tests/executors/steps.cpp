@@ -68,8 +68,8 @@ TEST_CASE("iteration limits: each way to trace flags the same rays, and all othe
                            {"together", "lanes", true}}) {
       ExecutorOptions options;
       options.shader_folder = shaders;
-      options.profile.incoherent = way.incoherent;
-      options.profile.profile = "cpu";
+      options.gpu.profile.incoherent = way.incoherent;
+      options.gpu.profile.profile = "cpu";
       const auto gpu = make_executor(Backend::gpu, scene, options);
       const std::vector<QueryHit> found = ask(*gpu, rays, kind, way.coherent);
       if (first.empty()) first = found;

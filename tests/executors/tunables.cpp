@@ -24,7 +24,10 @@ TEST_CASE("a constant with a control is read from the buffer, in its own line") 
   CHECK(tunables.records()[3][0] == 1);
 
   // Another value, and the places stay when the texts are read anew, in another order too.
-  tunables.chosen["shapes/sphere.glsl:WIDTH"] = {1.5};
+  CHECK(tunables.choose({{"shapes/sphere.glsl:WIDTH", {1.5}}}));
+  CHECK(tunables.choice() == 1);
+  CHECK_FALSE(tunables.choose({{"shapes/sphere.glsl:WIDTH", {1.5}}}));
+  CHECK(tunables.choice() == 1);
   tunables.begin();
   CHECK(tunables.found().empty());
   CHECK(tunables.apply("a.glsl", "const float NEW = 1; // @slider 0 1\n") == "#define NEW tunables[4].x\n");
@@ -35,8 +38,7 @@ TEST_CASE("a constant with a control is read from the buffer, in its own line") 
 TEST_CASE("as constants they have the values that were chosen") {
   Tunables tunables;
   tunables.as_constants = true;
-  tunables.chosen["a:N"] = {7};
-  tunables.chosen["a:C"] = {0, 1, 0.5};
+  tunables.choose({{"a:N", {7}}, {"a:C", {0, 1, 0.5}}});
   CHECK(tunables.apply("a",
                        "const int N = 3;  // @slider 1 9\nconst vec3 C = vec3(1);  // @color\n"
                        "const bool B = false;  // @checkbox\nconst float F = 2.5;  // @slider 0 9\n") ==

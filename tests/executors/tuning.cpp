@@ -19,10 +19,10 @@ namespace {
 std::string chosen(const std::string& setting) {
   ExecutorOptions options;
   tune(options, setting);
-  const ProfileOptions& profile = options.profile;
+  const ProfileOptions& profile = options.gpu.profile;
   return fmt::format("{} {} {} {} {} {} {} {} {}", int(options.pack.acceleration), options.pack.split,
                      profile.profile, profile.loads, profile.rays, profile.incoherent, profile.stack,
-                     options.constants, options.optimise);
+                     options.gpu.constants, options.gpu.optimise);
 }
 
 }  // namespace

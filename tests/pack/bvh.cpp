@@ -195,8 +195,8 @@ TEST_CASE("the validation layers have nothing to say of BVHs, instances and eith
   for (const char* layer : {"core", "sync"}) {
     for (const char* loads : {"texels", "storage"}) {
       ExecutorOptions options;
-      options.validation = layer;
-      options.profile.loads = loads;
+      options.gpu.validation = layer;
+      options.gpu.profile.loads = loads;
       // A message is an error.
       const auto gpu = make_executor(Backend::gpu, scene, options);
       const Rendering ours = render::render(scene, *gpu, {.crop = {}, .first_hits = true, .progress = {}});

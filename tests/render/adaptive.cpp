@@ -21,8 +21,9 @@ class NoisyExecutor final : public FakeExecutor {
  public:
   using FakeExecutor::FakeExecutor;
 
-  bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out,
+  bool sample(const Grid& grid, uint32_t index, std::span<PixelSample> out,
               std::span<AuxiliarySample> auxiliaries) override {
+    const Rect& tile = grid.area;
     if (!FakeExecutor::sample(tile, index, out, auxiliaries)) return false;
     for (int i = 0; i < tile.pixels(); ++i) {
       const int x = tile.x + i % tile.width, y = tile.y + i / tile.width;

@@ -16,8 +16,9 @@ class FakeExecutor : public executors::Executor {
   // `before_call(n)` is asked before the n-th call of sample, from 0; false interrupts, and it may throw.
   explicit FakeExecutor(std::function<bool(int)> before_call = {}) : before_call_(std::move(before_call)) {}
 
-  bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out,
+  bool sample(const Grid& grid, uint32_t index, std::span<PixelSample> out,
               std::span<AuxiliarySample> auxiliaries) override {
+    const Rect& tile = grid.area;
     if (before_call_ && !before_call_(calls++)) {
       // What lies in `out` now is not to be used.
       for (PixelSample& sample : out) sample = {Vec3(1e9), 1000, 1000, loop_budget};
@@ -44,7 +45,6 @@ class FakeExecutor : public executors::Executor {
       out[i].primitive = tile.y + int(i / size_t(tile.width));
     }
   }
-  std::string description() const override { return "fake"; }
 
   int calls = 0;
 

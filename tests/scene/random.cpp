@@ -197,7 +197,7 @@ TEST_CASE("extreme scenes: the GPU and the twin, bit by bit") {
       if (std::ranges::none_of(twin.first_hits, [](const FirstHit& hit) { return hit.primitive >= 0; }))
         continue;
       ExecutorOptions options;
-      options.constants = compared % 2 == 0;
+      options.gpu.constants = compared % 2 == 0;
       const ExactComparison bits = compare_exactly(render_frame(scene, Backend::gpu, options), twin);
       INFO(i, ": ", text);
       CHECK(bits.different_pixels == 0);
@@ -241,7 +241,7 @@ TEST_CASE("scenes at random: the twin agrees with the reference, the GPU with th
     if (compared % 10 != 0) continue;
     ++on_gpu;
     ExecutorOptions options;
-    options.constants = on_gpu % 2 == 0;
+    options.gpu.constants = on_gpu % 2 == 0;
     const ExactComparison bits = compare_exactly(render_frame(scene, Backend::gpu, options), twin);
     if (!bits.passes(0))
       failures.add(fmt::format("{}: {} pixels differ in their bits", i, bits.different_pixels), text);

@@ -25,8 +25,9 @@ class StoppingExecutor final : public Executor {
  public:
   explicit StoppingExecutor(int calls) : calls_left_(calls) {}
 
-  bool sample(const Rect& tile, uint32_t index, std::span<PixelSample> out,
+  bool sample(const Grid& grid, uint32_t index, std::span<PixelSample> out,
               std::span<AuxiliarySample>) override {
+    const Rect& tile = grid.area;
     // Slow enough that the driver does not ask for more at a time.
     std::this_thread::sleep_for(std::chrono::milliseconds(110));
     if (calls_left_-- == 0) {
@@ -46,7 +47,6 @@ class StoppingExecutor final : public Executor {
     FAIL("a picture asks for samples");
     return 0;
   }
-  std::string description() const override { return "stops"; }
 
   bool asked_first_hits = false;
 

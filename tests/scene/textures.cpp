@@ -94,8 +94,8 @@ TEST_CASE("images at random: the GPU is the twin, bit by bit, and the reference 
         CAPTURE(constants);
         CAPTURE(loads);
         ExecutorOptions options;
-        options.constants = constants;
-        options.profile.loads = loads;
+        options.gpu.constants = constants;
+        options.gpu.profile.loads = loads;
         const ExactComparison bits = compare_exactly(render_frame(scene, Backend::gpu, options), twin);
         CHECK(bits.different_pixels == 0);
         CHECK(bits.passes(0));
@@ -123,7 +123,7 @@ TEST_CASE("more texels than a storage buffer shows are read as texel buffers, or
   for (const std::string loads : {"texels", "storage"}) {
     CAPTURE(loads);
     ExecutorOptions options;
-    options.profile.loads = loads;
+    options.gpu.profile.loads = loads;
     try {
       const Frame gpu = render_frame(scene, Backend::gpu, options);
       CHECK(compare_exactly(gpu, twin).different_pixels == 0);

@@ -64,26 +64,28 @@ Caustic caustic(uint32_t seed) {
                                                                              {"render.photons=4096"},
                                                                              {"render.photon_radius=0.05"}});
   scene.render.seed = seed;
-  const auto renderer = std::make_shared<const reference::Renderer>(scene);
-  const auto exact = executors::make_reference_executor(renderer);
-  const auto twin = executors::make_executor(Backend::twin, scene, {});
-  const auto left_out = verify::judge_photons(scene, *twin, *exact, *renderer).left_out;
-  const auto traced_by = [&](executors::Executor& executor) {
-    executor.leave_out(left_out);
+  const auto twin = executors::make_twin_executor(scene, {});
+  executors::ExecutorOptions how;
+  how.left_out =
+      verify::judge_photons(
+          scene, [&](uint32_t index) { return twin->photon_ways(index); }, reference::Renderer(scene))
+          .left_out;
+  const auto traced_by = [&](Backend backend) {
+    const auto executor = executors::make_executor(backend, scene, how);
     compare::Frame frame;
     frame.area = {0, 0, 48, 48};
     const size_t pixels = size_t(frame.area.pixels());
     frame.samples.resize(4 * pixels);
     frame.first_hits.resize(pixels);
-    executor.first_hits(frame.area, frame.first_hits);
+    executor->first_hits(frame.area, frame.first_hits);
     std::vector<PixelSample> samples(pixels);
     for (uint32_t i = 0; i < 4; ++i) {
-      executor.sample(frame.area, i, samples);
+      executor->sample(frame.area, i, samples);
       for (size_t p = 0; p < pixels; ++p) frame.samples[4 * p + i].color = glm::vec3(samples[p].color);
     }
     return frame;
   };
-  return {traced_by(*twin), traced_by(*exact), photon_radius(photon_settings(scene), 0)};
+  return {traced_by(Backend::twin), traced_by(Backend::reference), photon_radius(photon_settings(scene), 0)};
 }
 
 struct PhotonFailures {

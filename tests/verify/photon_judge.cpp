@@ -22,36 +22,15 @@ Scene scene_of(const std::string& file) {
                                                                 {"image.height=18"}});
 }
 
-// The twin's photons, some of them changed; it is asked for nothing else.
-class ChangedTwin final : public executors::Executor {
- public:
-  using Change = std::function<void(std::vector<PhotonWay>&)>;
-  ChangedTwin(const Scene& scene, Change change)
-      : twin_(executors::make_executor(executors::Backend::twin, scene, {})), change_(std::move(change)) {}
-
-  std::vector<PhotonWay> photon_ways(uint32_t index) override {
-    std::vector<PhotonWay> ways = twin_->photon_ways(index);
-    change_(ways);
+// Of the twin's photons, some of them changed.
+verify::JudgedPhotons judge(const Scene& scene, const std::function<void(std::vector<PhotonWay>&)>& change) {
+  const auto twin = executors::make_twin_executor(scene, {});
+  const auto changed = [&](uint32_t index) {
+    std::vector<PhotonWay> ways = twin->photon_ways(index);
+    change(ways);
     return ways;
-  }
-  bool sample(const Rect&, uint32_t, std::span<PixelSample>, std::span<AuxiliarySample>) override {
-    return false;
-  }
-  void first_hits(const Rect&, std::span<FirstHit>) override {}
-  executors::Probed probe(int, int, uint32_t) override { return {}; }
-  double query(const QueryBatch&, std::span<QueryHit>) override { return 0; }
-  std::string description() const override { return "changed"; }
-
- private:
-  std::unique_ptr<Executor> twin_;
-  Change change_;
-};
-
-verify::JudgedPhotons judge(const Scene& scene, ChangedTwin::Change change) {
-  ChangedTwin twin(scene, std::move(change));
-  const auto renderer = std::make_shared<const reference::Renderer>(scene);
-  const auto exact = executors::make_reference_executor(renderer);
-  return verify::judge_photons(scene, twin, *exact, *renderer);
+  };
+  return verify::judge_photons(scene, changed, reference::Renderer(scene));
 }
 
 const Scene& box() {
@@ -69,7 +48,7 @@ TEST_CASE("a photon that no rounding explains fails, though many may part") {
 
   // Found where rounding parts none.
   uint32_t number = 7;
-  while (std::ranges::binary_search(sound.left_out.at(0), number)) ++number;
+  while (std::ranges::binary_search(sound.left_out.of(0), number)) ++number;
   const verify::JudgedPhotons parted = judge(box(), [&](auto& ways) { ways[number].trail ^= 1; });
   CHECK(parted.tally.parted == sound.tally.parted + 1);
   CHECK(parted.tally.may_part() > parted.tally.parted);
@@ -77,7 +56,7 @@ TEST_CASE("a photon that no rounding explains fails, though many may part") {
   CHECK(
       parted.tally.worst.starts_with("photon " + std::to_string(number) + " of sample 0; the reference's "));
   CHECK_FALSE(parted.tally.passes());
-  CHECK(std::ranges::binary_search(parted.left_out.at(0), number));
+  CHECK(std::ranges::binary_search(parted.left_out.of(0), number));
 
   const verify::JudgedPhotons aside = judge(box(), [&](auto& ways) { ways[number].places.x += 0.01; });
   CHECK(aside.tally.aside == sound.tally.aside + 1);

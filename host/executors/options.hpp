@@ -1,0 +1,56 @@
+// How executors are made.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "host/executors/profile_options.hpp"
+#include "host/pack/options.hpp"
+#include "host/scene/photons.hpp"
+
+namespace eyeray::executors {
+
+class OpenDevice;
+class Tunables;
+
+struct GpuOptions {
+  std::string device = "auto";              // auto | cpu | gpu | INDEX | part of a NAME
+  std::shared_ptr<OpenDevice> open_device;  // taken as it is, and left open; null: one of its own
+  std::string validation;                   // "", "core" or "sync"
+  double timeout_seconds = 60;              // the longest wait for one dispatch
+  double least_compile_seconds = 0;         // if that is more, the longest that a kernel may compile
+  bool sets_environment = true;             // DeviceOptions::sets_environment
+  bool wide_vectors = true;                 // where the picture wants them (trace_plan.hpp)
+  ProfileOptions profile;
+  bool fast_math = false;              // let the driver contract and re-associate
+  bool validate_spirv = false;         // what a kernel was compiled to, before the driver gets it
+  bool constants = true;               // compile the primitives of a small scene into the kernel
+  bool formula_numbers = false;        // kernels load the numbers of formulas, and suit others too
+  bool optimise = true;                // give the driver an optimised kernel
+  std::shared_ptr<Tunables> tunables;  // constants of shaders that move; null: none do
+};
+
+struct TwinOptions {
+  bool compile = false;    // compile ExecutorOptions::shader_folder's files as C++ (twin_module.hpp)
+  std::string sanitizers;  // of what is compiled, as -fsanitize takes them
+};
+
+struct ExecutorOptions {
+  std::filesystem::path shader_folder;  // laid over the embedded shaders, file by file; empty: none
+  pack::PackOptions pack;
+  bool ray_kinds = false;    // reflected and refracted rays are wanted: who counts them only then
+  bool search_cost = false;  // the same of FirstHit::cost, which the reference has not
+  LeftOutPhotons left_out;   // where the scene's integrator sends out photons
+  GpuOptions gpu;
+  TwinOptions twin;
+};
+
+// Whether so many samples repay kernels that have the scene inside, where kernels without it would do for
+// the next scene too.
+bool repay_kernels(int64_t samples);
+// For scenes that come one after the other and differ in what moved, each a picture of so many samples:
+// their BVHs are refitted where that will do, and they share kernels where samples do not repay others.
+ExecutorOptions for_frames(ExecutorOptions options, int64_t samples);
+
+}  // namespace eyeray::executors
