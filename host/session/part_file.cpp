@@ -16,7 +16,7 @@ shards::PartHeader header_of(const Plan& plan, const std::string& scene) {
   header.tone = plan.scene.image.tone;
   header.clamp = plan.request.clamp;
   header.random_paths = walks_at_random(plan.scene.render.integrator);
-  header.device = plan.executor.description();
+  header.device = plan.executor.facts().description;
   header.build = build::sum_of_sources();
   header.aovs = plan.channels;
   header.identity = identity_of_part(plan);

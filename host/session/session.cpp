@@ -130,7 +130,7 @@ class Rendering {
     result_.crop = plan_.crop;
     result_.shard = request_.shard;
     result_.samples = plan_.scene.image.samples;
-    result_.device = executor_.description();
+    result_.device = executor_.facts().description;
     if (checkpoint_ && result_.interrupted() && checkpoint_->on_disk())
       result_.checkpoint = checkpoint_->file();
     // A checkpoint has no kinds of rays: those that were counted before it are lost.
@@ -174,10 +174,10 @@ std::unique_ptr<executors::Executor> Session::executor_for(const Scene& scene, c
                                                            const film::Channels& channels) {
   executors::ExecutorOptions options = counting(options_, channels);
   options.ray_kinds |= request.ray_kinds;
-  if (!options.shader_folder.empty()) options.compile_twin = true;
-  if (request.next_is_alike) options.constants = executors::repay_kernels(scene.image.all_samples());
+  if (!options.shader_folder.empty()) options.twin.compile = true;
+  if (request.next_is_alike) options.gpu.constants = executors::repay_kernels(scene.image.all_samples());
   auto executor = render::make_picture_executor(request.backend, scene, options);
-  if (executor->device()) options_.open_device = executor->device();
+  if (executor->facts().device) options_.gpu.open_device = executor->facts().device;
   return executor;
 }
 
@@ -190,7 +190,8 @@ Result Session::render(const Scene& scene, const Request& request, Output& outpu
   if (request.shard) tiles.emplace(crop, *request.shard);
   if (request.progress) request.progress({});
   const auto executor = executor_for(scene, request, channels);
-  const Plan plan{request, scene, *executor, crop, channels, options_.fast_math, tiles ? &*tiles : nullptr};
+  const Plan plan{
+      request, scene, *executor, crop, channels, options_.gpu.fast_math, tiles ? &*tiles : nullptr};
   Result result = Rendering(plan, *executor, output).run();
   result.seconds = watch.seconds();
   return result;
