@@ -21,19 +21,11 @@ std::vector<render::IdentityPart> identity_of_picture(const Plan& plan) {
       {"samples a pixel", std::to_string(scene.image.samples)},
       {"backend", std::string(executors::backend_name(request.backend))},
       {"scene", hash_of_files(scene.files), false},
-<<<<<<< HEAD:host/session/identity.cpp
       {"options laid over the scene", ContentHash().add(request.overrides).hex(), false},
       {"shaders of --shaders", hash_of_files(plan.executor.facts().source_files), false},
       {"--fast-math", plan.fast_math ? "on" : "off"},
       {"version of eyeray", std::string(build::version())},
       {"sources of eyeray", std::string(build::sum_of_sources()), false},
-=======
-      {"options laid over the scene", ContentHash().add(request.scene.as_written()).hex(), false},
-      {"shaders of --shaders", hash_of_files(executor.facts().source_files), false},
-      {"--fast-math", request.executor.gpu.fast_math ? "on" : "off"},
-      {"version of eyeray", EYERAY_VERSION},
-      {"sources of eyeray", std::string(sum_of_sources()), false},
->>>>>>> e3776199 (Name facts and options of executors where pictures are made):host/cli/identity.cpp
   };
 }
 
@@ -51,30 +43,17 @@ std::vector<render::IdentityPart> identity_of_checkpoint(const Plan& plan) {
       {"AOVs of samples", film::channel_names(summed)},
       {"--noise", std::to_string(request.noise)},
       // The processors' executors compute the same wherever the same program runs.
-<<<<<<< HEAD:host/session/identity.cpp
       {"device", gpu ? plan.executor.facts().description : "none"},
       {"--band-memory", std::to_string(request.band_bytes >> 20)},
-=======
-      {"device", gpu ? executor.facts().description : "none"},
-      {"--band-memory", std::to_string(request.long_render.band_mebibytes)},
->>>>>>> e3776199 (Name facts and options of executors where pictures are made):host/cli/identity.cpp
   };
   identity.insert(identity.end(), more.begin(), more.end());
   return identity;
 }
 
-<<<<<<< HEAD:host/session/identity.cpp
 std::vector<render::IdentityPart> identity_of_part(const Plan& plan) {
   std::vector<render::IdentityPart> identity = identity_of_picture(plan);
   identity.push_back({"AOVs", film::channel_names(plan.channels)});
   identity.push_back({"arithmetic of the device", plan.executor.facts().arithmetic});
-=======
-std::vector<render::IdentityPart> identity_of_parts(const PictureRequest& request, const Scene& scene,
-                                                    const executors::Executor& executor) {
-  std::vector<render::IdentityPart> identity = identity_of_picture(request, scene, executor);
-  identity.push_back({"AOVs", film::channel_names(request.aovs)});
-  identity.push_back({"arithmetic of the device", executor.facts().arithmetic});
->>>>>>> e3776199 (Name facts and options of executors where pictures are made):host/cli/identity.cpp
   identity.push_back({"arithmetic of the C library", host_arithmetic(), false});
   return identity;
 }
