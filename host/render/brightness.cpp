@@ -10,7 +10,8 @@ namespace eyeray::render {
 namespace {
 
 size_t place_of(double luminance) {
-  return std::bit_cast<uint32_t>(float(std::max(luminance, 0.0))) >> 20;
+  // A NaN may have a sign, and is no brightness.
+  return std::bit_cast<uint32_t>(luminance > 0 ? float(luminance) : 0.0f) >> 20;
 }
 
 }  // namespace

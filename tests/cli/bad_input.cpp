@@ -298,8 +298,8 @@ TEST_CASE("Ctrl-C keeps what was rendered") {
 TEST_CASE("Ctrl-C before every pixel has a sample keeps nothing") {
   const SceneFolder folder;
   const ProcessResult result = run_eyeray(
-      {"render", folder.scene(), "-s", "2800x2800", "--backend", "reference", "-o", folder / "a.pfm"}, {},
-      120, 300);
+      {"render", folder.scene(), "-s", "2800x2800", "--backend", "reference", "-o", folder / "a.pfm", "-q"},
+      {}, 120, 300);
   CHECK(result.code == 130);
   CHECK(result.err.starts_with("eyeray: error: interrupted"));
   CHECK(folder.names() == only_the_scene);

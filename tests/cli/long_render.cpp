@@ -205,7 +205,9 @@ TEST_CASE("what is no checkpoint is an error of that file") {
 
 TEST_CASE("Ctrl-C in a picture of several bands keeps nothing, and says what would have") {
   const SceneFolder folder;
-  const ProcessResult result = run_eyeray(long_render(folder, "a", "1"), {}, 120, 300);
+  Arguments command = long_render(folder, "a", "1");
+  command.emplace_back("--quiet");
+  const ProcessResult result = run_eyeray(command, {}, 120, 300);
   CHECK(result.code == 130);
   // Early on, or with pixels to lose.
   CHECK(
