@@ -1,8 +1,13 @@
 // Constants of shaders that move.
 #include "host/executors/tunables.hpp"
 
+#include "host/executors/executor.hpp"
+#include "host/loader/scene_file.hpp"
+#include "tests/support/shader_overlay.hpp"
+//
 #include "tests/support/doctest.hpp"
 
+using namespace eyeray;
 using namespace eyeray::executors;
 
 TEST_CASE("a constant with a control is read from the buffer, in its own line") {
@@ -57,4 +62,37 @@ TEST_CASE("what is no such constant stays as it is") {
     CHECK(tunables.apply("a.glsl", line) == line);
   }
   CHECK(tunables.found().empty());
+}
+
+TEST_CASE("an executor's next sample is by the values chosen now, its photons too") {
+  const Scene scene = loader::load_scene(
+      "scenes/sppm/points.toml",
+      std::vector<loader::Override>{{"image.width=24"}, {"image.height=18"}, {"render.photons=4096"}});
+  const test::TemporaryFolder folder;
+  const std::string file = "integrators/photon.glsl",
+                    declared = "const float BRIGHTER = 1.0f;  // @slider 0 2\n";
+  test::lay_shader(folder.path(), file,
+                   declared + test::replaced(test::own_shader(file), "photon.flux = sent",
+                                             "photon.flux = BRIGHTER * sent"));
+  ExecutorOptions options;
+  options.shader_folder = folder.path();
+  options.gpu.tunables = std::make_shared<Tunables>();
+  const auto executor = make_executor(Backend::gpu, scene, options);
+  const auto light = [&] {
+    const Rect all{0, 0, 24, 18};
+    std::vector<PixelSample> samples(size_t(all.pixels()));
+    REQUIRE(executor->sample(all, 0, samples));
+    Vec3 sum(0);
+    for (const PixelSample& sample : samples) sum += sample.color;
+    return sum;
+  };
+  const auto light_by = [&](double share) {
+    options.gpu.tunables->choose({{file + ":BRIGHTER", {share}}});
+    return light();
+  };
+  const Vec3 written = light();
+  const Vec3 none = light_by(0), twice = light_by(2);
+  CHECK(none.x < written.x);
+  CHECK(written.x < twice.x);
+  CHECK(light_by(1) == written);
 }
