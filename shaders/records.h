@@ -331,7 +331,7 @@ struct Dispatch {
   uint sample_index;
   uint depth;  // of a wavefront: the reflections before it
   uint count;   // pixels of the tile, or rays of a query
-  uint stride;  // of a picture by the loop: of so many pixels along each axis one, the first of the tile's
+  uint stride;  // of so many pixels of the picture along each axis the tile has one
 };
 
 SHADER_END
