@@ -2,6 +2,7 @@
 // surface of alpha_mode "blend" with a probability of its alpha (Enderton et al., "Stochastic Transparency", I3D 2010).
 #ifndef ALPHA_TEST_GLSL
 #define ALPHA_TEST_GLSL
+#include "geometry/corners.glsl"
 #include "geometry/instance.glsl"
 #include "geometry/ray.glsl"
 #include "math/rng.glsl"
@@ -31,8 +32,7 @@ float alpha_test(Primitive primitive, uint id, uint instance, Ray ray, float t, 
   Material material = load_material(index);
 #endif
 #if HAS_FRONT_ONLY
-  vec3 outside = vec3(primitive.a.w, primitive.b.w, primitive.c.w);
-  if ((material.flags & MATERIAL_FRONT_ONLY) != 0u && kind_of(primitive) == KIND_triangle && dot3(outside, ray.d) >= 0.0f) return -1.0f;
+  if ((material.flags & MATERIAL_FRONT_ONLY) != 0u && kind_of(primitive) == KIND_triangle && dot3(corner_normal(primitive), ray.d) >= 0.0f) return -1.0f;
 #endif
 #if HAS_ALPHA_TEST
   if (material.alpha_cutoff > 0.0f && t > 0.0f) {

@@ -1,18 +1,21 @@
-// a = the centre, inner²    b, c = the half axes of the ellipse that it is; inner: the radius of its hole, theirs being 1
+// The centre and the half axes of the ellipse that it is (emitters/emitter_sample.glsl).
 #ifndef EMITTER_DISK_GLSL
 #define EMITTER_DISK_GLSL
 #include "emitters/emitter_sample.glsl"
 
 SHADER_BEGIN
 
+float disk_hole(Emitter e) { return e.a.w; }  // the square of its radius, the half axes being 1
+
 EmitterSample disk_emitter_sample(Emitter e, vec3 from, vec2 u) {
   vec2 at = on_disk(u);
   // Out of the hole, by which each ring keeps its share of the area.
   float squared = at.x * at.x + at.y * at.y;
-  float grow = squared == 0.0f ? 1.0f : sqrt((e.a.w + squared * (1.0f - e.a.w)) / squared);
+  float hole = disk_hole(e);
+  float grow = squared == 0.0f ? 1.0f : sqrt((hole + squared * (1.0f - hole)) / squared);
   EmitterSample place;
-  place.p = vec3(e.a) + (vec3(e.b) * (at.x * grow) + vec3(e.c) * (at.y * grow));
-  place.normal = normalize3(cross3(vec3(e.b), vec3(e.c)));
+  place.p = emitter_origin(e) + (emitter_edge_u(e) * (at.x * grow) + emitter_edge_v(e) * (at.y * grow));
+  place.normal = flat_normal(e);
   place.uv = vec2(0.5f + 0.5f * (at.x * grow), 0.5f - 0.5f * (at.y * grow));
   return place;
 }

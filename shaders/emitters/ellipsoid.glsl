@@ -7,17 +7,13 @@
 SHADER_BEGIN
 
 // There, a sphere.
-Emitter unit_sphere_emitter(Emitter e) {
-  Emitter sphere = e;
-  sphere.a = vec4(0.0f, 0.0f, 0.0f, 1.0f);
-  sphere.b = vec4(0.0f, 1.0f, 0.0f, 0.0f);
-  sphere.c = vec4(1.0f, 0.0f, 0.0f, 1.0f);
-  return sphere;
+Primitive unit_sphere() {
+  return primitive_of(uvec4(0u, 0u, 0u, 0u), vec4(0.0f, 0.0f, 0.0f, 1.0f), vec4(0.0f, 1.0f, 0.0f, 0.0f), vec4(1.0f, 0.0f, 0.0f, 1.0f));
 }
 
 EmitterSample ellipsoid_emitter_sample(Emitter e, vec3 from, vec2 u) {
   ObjectMap map = object_map(e);
-  EmitterSample own = sphere_emitter_sample(unit_sphere_emitter(e), map_into_object(map, from - map.center), u);
+  EmitterSample own = sample_sphere(unit_sphere(), map_into_object(map, from - map.center), u);
   EmitterSample place;
   place.p = map_out_of_object(map, own.p);
   place.normal = normalize3(map_normal(map, own.normal));
@@ -37,7 +33,7 @@ float ellipsoid_emitter_density(Emitter e, vec3 from, EmitterSample place) {
   // Inside, areas.
   vec3 image = map_normal(map, normal_in_object(map, place.normal));
   float by_area = density_of_area(4.0f * PI * sqrt(dot3(image, image)), from, place);
-  return sphere_is_seen_from_outside(unit_sphere_emitter(e), from_there) ? by_angle : by_area;
+  return sphere_is_seen_from_outside(unit_sphere(), from_there) ? by_angle : by_area;
 }
 
 SHADER_END

@@ -10,7 +10,7 @@ SHADER_BEGIN
 
 EmitterSample sample_emitter(Emitter e, vec3 from, vec2 u) {
   EmitterSample place;
-  place.p = vec3(e.a);
+  place.p = emitter_origin(e);
   place.normal = vec3(0.0f, 0.0f, 0.0f);
   place.uv = vec2(0.0f, 0.0f);
 #define SAMPLE_OF_EMITTER(name, number, itself) \

@@ -6,6 +6,12 @@
 
 SHADER_BEGIN
 
+// What flat kinds hold: the centre or a corner, and from there half axes or edges.
+vec3 emitter_origin(Emitter e) { return vec3(e.a); }
+vec3 emitter_edge_u(Emitter e) { return vec3(e.b); }
+vec3 emitter_edge_v(Emitter e) { return vec3(e.c); }
+vec3 flat_normal(Emitter e) { return normalize3(cross3(emitter_edge_u(e), emitter_edge_v(e))); }
+
 struct EmitterSample {
   vec3 p;
   vec3 normal;  // unit, of either side; of what is closed outward

@@ -1,9 +1,14 @@
-// The map of an emitter that is a plain shape in a space of its own: a, b, c are its rows, from there into the world, their w's the centre.
+// The map of an emitter that is a plain shape in a space of its own, from there into the world.
 #ifndef OBJECT_MAP_GLSL
 #define OBJECT_MAP_GLSL
 #include "emitters/emitter_sample.glsl"
 
 SHADER_BEGIN
+
+vec3 emitter_axis_x(Emitter e) { return vec3(e.a.x, e.b.x, e.c.x); }  // the images of the axes
+vec3 emitter_axis_y(Emitter e) { return vec3(e.a.y, e.b.y, e.c.y); }
+vec3 emitter_axis_z(Emitter e) { return vec3(e.a.z, e.b.z, e.c.z); }
+vec3 emitter_center(Emitter e) { return vec3(e.a.w, e.b.w, e.c.w); }
 
 struct ObjectMap {
   vec3 x;  // the images of the axes, …
@@ -18,14 +23,14 @@ struct ObjectMap {
 
 ObjectMap object_map(Emitter e) {
   ObjectMap map;
-  map.x = vec3(e.a.x, e.b.x, e.c.x);
-  map.y = vec3(e.a.y, e.b.y, e.c.y);
-  map.z = vec3(e.a.z, e.b.z, e.c.z);
+  map.x = emitter_axis_x(e);
+  map.y = emitter_axis_y(e);
+  map.z = emitter_axis_z(e);
   map.across_x = cross3(map.y, map.z);
   map.across_y = cross3(map.z, map.x);
   map.across_z = cross3(map.x, map.y);
   map.volume = dot3(map.x, map.across_x);
-  map.center = vec3(e.a.w, e.b.w, e.c.w);
+  map.center = emitter_center(e);
   return map;
 }
 

@@ -1,4 +1,4 @@
-// a = a corner    b, c = the edges from there, at no right angle: emitters/rectangle.glsl
+// A corner and the edges from there (emitters/emitter_sample.glsl), at no right angle: emitters/rectangle.glsl
 #ifndef EMITTER_PARALLELOGRAM_GLSL
 #define EMITTER_PARALLELOGRAM_GLSL
 #include "emitters/spherical_triangle.glsl"
@@ -12,11 +12,11 @@ struct SphericalParallelogram {
 };
 
 SphericalParallelogram spherical_parallelogram(Emitter e, vec3 from) {
-  vec3 b = vec3(e.b);
-  vec3 c = vec3(e.c);
+  vec3 b = emitter_edge_u(e);
+  vec3 c = emitter_edge_v(e);
   SphericalParallelogram seen;
-  seen.low = spherical_triangle(vec3(e.a) - from, b, b + c);
-  seen.high = spherical_triangle(vec3(e.a) - from, b + c, c);
+  seen.low = spherical_triangle(emitter_origin(e) - from, b, b + c);
+  seen.high = spherical_triangle(emitter_origin(e) - from, b + c, c);
   return seen;
 }
 
@@ -41,8 +41,8 @@ EmitterSample parallelogram_emitter_sample(Emitter e, vec3 from, vec2 u) {
   vec2 at = u;
   if (is_by_solid_angle(seen)) at = spherical;
   EmitterSample place;
-  place.p = vec3(e.a) + (vec3(e.b) * at.x + vec3(e.c) * at.y);
-  place.normal = normalize3(cross3(vec3(e.b), vec3(e.c)));
+  place.p = emitter_origin(e) + (emitter_edge_u(e) * at.x + emitter_edge_v(e) * at.y);
+  place.normal = flat_normal(e);
   place.uv = at;
   return place;
 }

@@ -1,4 +1,4 @@
-// a = a corner    b, c = the edges from there, at a right angle; their lengths
+// A corner and the edges from there (emitters/emitter_sample.glsl), at a right angle.
 //
 // Places that are even by solid angle, row by row: Ureña, Fajardo and King, "An Area-Preserving Parametrization for Spherical Rectangles"
 // (EGSR 2013). Here without its angles and arc cosines, of which float32 keeps three digits of what is seen edge-on. In the rectangle's own
@@ -11,6 +11,9 @@
 #include "emitters/spherical_triangle.glsl"
 
 SHADER_BEGIN
+
+float rectangle_width(Emitter e) { return e.b.w; }  // the lengths of the edges
+float rectangle_height(Emitter e) { return e.c.w; }
 
 // Seen under less, it is chosen by area, which is then as even: a small one far aside would lose digits to its distance.
 #define LEAST_SPHERICAL_RECTANGLE 0.01f
@@ -25,16 +28,16 @@ struct SphericalRectangle {
 };
 
 SphericalRectangle spherical_rectangle(Emitter e, vec3 from) {
-  vec3 a = vec3(e.a) - from;
-  vec3 b = vec3(e.b);
-  vec3 c = vec3(e.c);
+  vec3 a = emitter_origin(e) - from;
+  vec3 b = emitter_edge_u(e);
+  vec3 c = emitter_edge_v(e);
   float volume = abs(dot3(a, cross3(b, c)));
   SphericalRectangle seen;
-  seen.x0 = dot3(a, b) / e.b.w;
-  seen.y0 = dot3(a, c) / e.c.w;
-  seen.x1 = seen.x0 + e.b.w;
-  seen.y1 = seen.y0 + e.c.w;
-  seen.z = volume / (e.b.w * e.c.w);
+  seen.x0 = dot3(a, b) / rectangle_width(e);
+  seen.y0 = dot3(a, c) / rectangle_height(e);
+  seen.x1 = seen.x0 + rectangle_width(e);
+  seen.y1 = seen.y0 + rectangle_height(e);
+  seen.z = volume / (rectangle_width(e) * rectangle_height(e));
   // Its two triangles have the same volume; by van Oosterom and Strackee each has the half angle of volume / d.
   vec3 ab = a + b;
   vec3 ac = a + c;
@@ -99,10 +102,10 @@ EmitterSample rectangle_emitter_sample(Emitter e, vec3 from, vec2 u) {
   float x = rectangle_x(seen, u.x);
   float y = rectangle_y(seen, x, u.y);
   vec2 at = u;
-  if (is_by_solid_angle(seen)) at = vec2((x - seen.x0) / e.b.w, (y - seen.y0) / e.c.w);
+  if (is_by_solid_angle(seen)) at = vec2((x - seen.x0) / rectangle_width(e), (y - seen.y0) / rectangle_height(e));
   EmitterSample place;
-  place.p = vec3(e.a) + (vec3(e.b) * at.x + vec3(e.c) * at.y);
-  place.normal = normalize3(cross3(vec3(e.b), vec3(e.c)));
+  place.p = emitter_origin(e) + (emitter_edge_u(e) * at.x + emitter_edge_v(e) * at.y);
+  place.normal = flat_normal(e);
   place.uv = at;
   return place;
 }

@@ -3,15 +3,16 @@
 #define CLEAR_OF_PLANES_GLSL
 #include "geometry/edges.glsl"
 #include "records.h"
+#include "shapes/plane.glsl"
 
 SHADER_BEGIN
 
 // `inward` of a surface in the world that `ray` has hit, with what plane `s` adds where it is that near.
 vec3 inward_of_plane(Primitive s, Surface surface, Ray ray) {
-  vec3 n = vec3(s.a);
-  float room = edge_room(ray, 3.0f * max_component(abs3(surface.p)) + abs(s.a.w));
-  float value = dot3(n, surface.p) - s.a.w;
-  bool below = dot3(n, ray.o) < s.a.w;
+  vec3 n = plane_normal(s);
+  float room = edge_room(ray, 3.0f * max_component(abs3(surface.p)) + abs(plane_distance(s)));
+  float value = dot3(n, surface.p) - plane_distance(s);
+  bool below = dot3(n, ray.o) < plane_distance(s);
   if (abs(value) >= room) return surface.inward;
   return inward_of_face(surface.inward, surface.normal_geometric, below ? value : -value, below ? n : -n, room);
 }

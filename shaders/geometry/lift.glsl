@@ -2,6 +2,7 @@
 // shadow ray from the flat triangle would hit the mesh that only looks curved, and whole facets would be black near the terminator.
 #ifndef LIFT_GLSL
 #define LIFT_GLSL
+#include "geometry/corners.glsl"
 #include "geometry/instance.glsl"
 #include "records.h"
 
@@ -20,8 +21,8 @@ vec2 lift_of(Primitive s, vec2 uv) {
   vec3 n0 = vec3(bits_to_floats(load_vertex(corners.x)));
   vec3 n1 = vec3(bits_to_floats(load_vertex(corners.y)));
   vec3 n2 = vec3(bits_to_floats(load_vertex(corners.z)));
-  vec3 to_b = vec3(s.b) - vec3(s.a);
-  vec3 to_c = vec3(s.c) - vec3(s.a);
+  vec3 to_b = corner_b(s) - corner_a(s);
+  vec3 to_c = corner_c(s) - corner_a(s);
   float wa = (1.0f - uv.x) - uv.y;
   vec3 from_a = to_b * uv.x + to_c * uv.y;
   float a = wa * dot3(from_a, n0);
@@ -36,8 +37,8 @@ vec2 lift_of(Primitive s, vec2 uv) {
 
 // The bound keeps rays of triangles with wild normals near them. An icosahedron needs less.
 vec2 bounded_lift(vec2 lift, Primitive s, uint instance) {
-  vec3 to_b = vec3(s.b) - vec3(s.a);
-  vec3 to_c = vec3(s.c) - vec3(s.a);
+  vec3 to_b = corner_b(s) - corner_a(s);
+  vec3 to_c = corner_c(s) - corner_a(s);
 #if HAS_INSTANCES
   if (instance != NONE) {
     Instance map = load_instance(instance);

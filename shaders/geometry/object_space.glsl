@@ -1,6 +1,5 @@
 // Shapes that are a plain one, such as the unit sphere, in a space of their own.
-//   a, b, c = the rows of the linear map from the world into object space; their w's are the centre, its origin, in the world
-//   extra   = the first of its vertices: three with the rows of the map back, then the shape's own parameters
+// extra: the first of its vertices: three with the rows of the map back, then the shape's own parameters
 #ifndef OBJECT_SPACE_GLSL
 #define OBJECT_SPACE_GLSL
 #include "geometry/edges.glsl"
@@ -8,6 +7,11 @@
 #include "records.h"
 
 SHADER_BEGIN
+
+vec3 object_x(Primitive s) { return vec3(s.a); }  // the rows of the linear map from the world into object space
+vec3 object_y(Primitive s) { return vec3(s.b); }
+vec3 object_z(Primitive s) { return vec3(s.c); }
+vec3 object_center(Primitive s) { return vec3(s.a.w, s.b.w, s.c.w); }  // its origin, in the world
 
 #define OBJECT_PARAMETERS 3u  // where those begin
 
@@ -18,7 +22,7 @@ struct ObjectRay {
   float t;
 };
 
-vec3 into_object(Primitive s, vec3 v) { return vec3(dot3(vec3(s.a), v), dot3(vec3(s.b), v), dot3(vec3(s.c), v)); }
+vec3 into_object(Primitive s, vec3 v) { return vec3(dot3(object_x(s), v), dot3(object_y(s), v), dot3(object_z(s), v)); }
 
 // Where along itself a ray comes nearest to the centre; and the same ray from there.
 float nearest_at(ObjectRay ray) { return -dot3(ray.o, ray.d) / dot3(ray.d, ray.d); }
@@ -35,7 +39,7 @@ ObjectRay from_nearest(ObjectRay ray) {
 // rounding does not count on the long way then. `reach`: the farthest that the shape's points are from its centre. Without branches, so that compilers
 // share what is the same for all who ask: another kind of leaf of a CSG object, or the same for its next crossing.
 ObjectRay object_ray(Primitive s, Ray ray, float reach) {
-  vec3 from_center = ray.o - vec3(s.a.w, s.b.w, s.c.w);
+  vec3 from_center = ray.o - object_center(s);
   ObjectRay r;
   r.o = into_object(s, from_center);
   r.d = into_object(s, ray.d);
@@ -73,7 +77,7 @@ vec4 object_parameters(Primitive s) { return bits_to_floats(load_vertex(s.extra 
 
 // Gradients map by the transpose.
 vec3 gradient_out_of_object(Primitive s, vec3 gradient) {
-  return vec3(s.a) * gradient.x + vec3(s.b) * gradient.y + vec3(s.c) * gradient.z;
+  return object_x(s) * gradient.x + object_y(s) * gradient.y + object_z(s) * gradient.z;
 }
 
 // The world's surface. `p`: on the shape. `gradient`: points outward there, of about the length 1 where the map is extreme.
@@ -95,14 +99,14 @@ Surface object_surface(Primitive s, vec3 p, vec3 gradient, UvField field) {
   vec3 size = abs3(p);
   vec3 here = vec3(dot3(abs3(vec3(x)), size) + abs(x.w), dot3(abs3(vec3(y)), size) + abs(y.w),
                    dot3(abs3(vec3(z)), size) + abs(z.w));
-  size = abs3(surface.p) + abs3(vec3(s.a.w, s.b.w, s.c.w));
-  vec3 back = vec3(dot3(abs3(vec3(s.a)), size), dot3(abs3(vec3(s.b)), size), dot3(abs3(vec3(s.c)), size));
+  size = abs3(surface.p) + abs3(object_center(s));
+  vec3 back = vec3(dot3(abs3(object_x(s)), size), dot3(abs3(object_y(s)), size), dot3(abs3(object_z(s)), size));
   surface.offset = 4.0f * EPSILON * (dot3(abs3(surface.normal_geometric), here) + dot3(abs3(gradient), back) / slope);
   return surface;
 }
 
 // A point of the world in object space.
-vec3 point_into_object(Primitive s, vec3 p) { return into_object(s, p - vec3(s.a.w, s.b.w, s.c.w)); }
+vec3 point_into_object(Primitive s, vec3 p) { return into_object(s, p - object_center(s)); }
 
 // How far inside of edges rays start in the world from the point p of object space (geometry/edges.glsl).
 float object_room(Primitive s, Ray ray, vec3 p) {
@@ -111,7 +115,7 @@ float object_room(Primitive s, Ray ray, vec3 p) {
   vec4 z = bits_to_floats(load_vertex(s.extra + 2u));
   vec3 size = abs3(p);
   vec3 reach = vec3(dot3(abs3(vec3(x)), size), dot3(abs3(vec3(y)), size), dot3(abs3(vec3(z)), size));
-  return edge_room(ray, max_component(reach) + 2.0f * max_component(abs3(vec3(s.a.w, s.b.w, s.c.w))));
+  return edge_room(ray, max_component(reach) + 2.0f * max_component(abs3(object_center(s))));
 }
 
 // What a step of 1 in the world, along the gradient of a function of object space, adds to that.
@@ -122,7 +126,7 @@ float steepness(Primitive s, vec3 gradient) {
 
 // The same for the three coordinates.
 vec3 coordinate_steepness(Primitive s) {
-  return vec3(sqrt(dot3(vec3(s.a), vec3(s.a))), sqrt(dot3(vec3(s.b), vec3(s.b))), sqrt(dot3(vec3(s.c), vec3(s.c))));
+  return vec3(sqrt(dot3(object_x(s), object_x(s))), sqrt(dot3(object_y(s), object_y(s))), sqrt(dot3(object_z(s), object_z(s))));
 }
 
 // A level, the gradient and the value of a function that is below 0 inside of a shape, brought from object space into the world.

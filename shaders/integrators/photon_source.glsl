@@ -23,14 +23,14 @@ struct PhotonSource {
 };
 
 // A point for which places are chosen by area: within what is closed, on what is flat.
-#define MIDDLE_sphere(e) vec3(e.a)
-#define MIDDLE_disk(e) vec3(e.a)
-#define MIDDLE_triangle(e) vec3(e.a)
-#define MIDDLE_parallelogram(e) vec3(e.a)
-#define MIDDLE_rectangle(e) vec3(e.a)
-#define MIDDLE_box(e) vec3(e.a.w, e.b.w, e.c.w)
-#define MIDDLE_ellipsoid(e) vec3(e.a.w, e.b.w, e.c.w)
-#define MIDDLE_cylinder(e) vec3(e.a.w, e.b.w, e.c.w)
+#define MIDDLE_sphere(e) emitter_origin(e)
+#define MIDDLE_disk(e) emitter_origin(e)
+#define MIDDLE_triangle(e) emitter_origin(e)
+#define MIDDLE_parallelogram(e) emitter_origin(e)
+#define MIDDLE_rectangle(e) emitter_origin(e)
+#define MIDDLE_box(e) emitter_center(e)
+#define MIDDLE_ellipsoid(e) emitter_center(e)
+#define MIDDLE_cylinder(e) emitter_center(e)
 vec3 middle_of(Emitter e) {
   vec3 middle = vec3(0.0f, 0.0f, 0.0f);
 #define MIDDLE_OF(name, number, itself) \

@@ -1,5 +1,5 @@
 // Glass and liquids: a surface between two media, unpolarised Fresnel reflectance; or a pane, which has no inside: light between its two
-// faces adds up to R' = 2R / (1 + R). material.a: the index of a pane, and R' at right angles.
+// faces adds up to R' = 2R / (1 + R).
 #ifndef DIELECTRIC_GLSL
 #define DIELECTRIC_GLSL
 #include "bsdf/fresnel.glsl"
@@ -7,13 +7,16 @@
 
 SHADER_BEGIN
 
+float pane_ior(Material material) { return material.a.x; }
+float pane_reflectance(Material material) { return material.a.y; }  // R' at right angles
+
 Scattering dielectric_scattering(Material material, ScatteringContext context) {
   Scattering s = no_scattering();
   bool one_medium = context.ior_from == context.ior_to;
   float reflected = one_medium ? 0.0f : fresnel_reflectance(context.cos_view, context.ior_from, context.ior_to);
 #if HAS_MEDIA
   if ((material.flags & MATERIAL_PANE) != 0u) {
-    reflected = fresnel_reflectance(context.cos_view, context.ior_from, material.a.x);
+    reflected = fresnel_reflectance(context.cos_view, context.ior_from, pane_ior(material));
     reflected = 2.0f * reflected / (1.0f + reflected);
   }
 #endif
@@ -69,7 +72,7 @@ Bsdf dielectric_bsdf(Material material, ScatteringContext context, Scattering sc
   if (pane && bsdf.roughness > 0.0f) {
     bsdf.mirror = vec3(0.0f, 0.0f, 0.0f);
     bsdf.passed = bsdf.mirror;
-    bsdf.layer = schlick(white * material.a.y, white);
+    bsdf.layer = schlick(white * pane_reflectance(material), white);
     bsdf.albedo = ggx_albedo(viewed_cosine(context), bsdf.roughness);
     bsdf.thin = white;
   }

@@ -1,5 +1,4 @@
-// glTF 2.0's metallic-roughness, with KHR_materials_ior, _specular, _clearcoat, _sheen, _transmission and _volume. material.b: F0 of what is
-// no metal, and F90, where their textures are white.
+// glTF 2.0's metallic-roughness, with KHR_materials_ior, _specular, _clearcoat, _sheen, _transmission and _volume.
 #ifndef PRINCIPLED_GLSL
 #define PRINCIPLED_GLSL
 #if RANDOM_WALK
@@ -9,6 +8,9 @@
 #include "materials/phong.glsl"
 
 SHADER_BEGIN
+
+vec3 principled_f0(Material material) { return vec3(material.b); }  // of what is no metal, where its texture is white; and …
+float principled_f90(Material material) { return material.b.w; }  // … so seen edge-on
 
 Scattering principled_scattering(Material material, ScatteringContext context) {
   Scattering s = phong_scattering(material, context);
@@ -37,12 +39,13 @@ Bsdf principled_surface(Material material, ScatteringContext context, vec3 color
   bsdf.diffuse = color * (1.0f - metallic);
 #if HAS_GLOSSY
   vec3 white = vec3(1.0f, 1.0f, 1.0f);
-  vec3 f0 = vec3(material.b);
-  vec3 edge = white * material.b.w;
+  vec3 f0 = principled_f0(material);
+  float f90 = principled_f90(material);
+  vec3 edge = white * f90;
 #if HAS_SPECULAR_TEXTURES
   vec3 tint = specular_color_of(material, context.place);
   float level = specular_level_of(material, context.place).x;
-  f0 = vec3(minimum(f0.x * tint.x, material.b.w), minimum(f0.y * tint.y, material.b.w), minimum(f0.z * tint.z, material.b.w)) * level;
+  f0 = vec3(minimum(f0.x * tint.x, f90), minimum(f0.y * tint.y, f90), minimum(f0.z * tint.z, f90)) * level;
   edge = edge * level;
 #endif
   bsdf.layer = schlick(f0, edge);

@@ -1,9 +1,5 @@
 // A piece of the bicubic patch Σ B_i(v)·B_j(u)·p_ij, 0 ≤ u, v ≤ 1; render/ lays out as many as host/shapes/bezier_net.cpp makes.
-//   a = the piece's u from, to, v from, to
-//   b = its middle, the radius of a ball around it
-//   c = its normal there, by which share of its size the search goes beyond its borders, BEZIER_SPECK: there is no search; below 0 where the
-//       patch's normal is the other one
-//   extra = the first of 13 vertices: p_00 … p_33, three floats each, u running faster; then the patch's middle, the radius of a ball around it
+// extra: the first of 13 vertices: p_00 … p_33, three floats each, u running faster; then the patch's middle, the radius of a ball around it
 #ifndef BEZIER_GLSL
 #define BEZIER_GLSL
 #include "shapes/bezier/section.glsl"
@@ -11,6 +7,13 @@
 #include "records.h"
 
 SHADER_BEGIN
+
+vec4 bezier_span(Primitive s) { return s.a; }  // the piece's u from, to, v from, to
+vec3 bezier_middle(Primitive s) { return vec3(s.b); }
+float bezier_radius(Primitive s) { return s.b.w; }  // of a ball around it
+vec3 bezier_normal(Primitive s) { return vec3(s.c); }  // in the middle
+float bezier_beyond(Primitive s) { return abs(s.c.w); }  // by which share of its size the search goes beyond its borders; BEZIER_SPECK: none
+bool bezier_is_turned(Primitive s) { return s.c.w < 0.0f; }  // the patch's normal is the other one
 
 // Arcs and roots at most (host/shapes/bezier.cpp counts with them), and how short an arc may be, of the whole section.
 #define BEZIER_ARCS 24u
@@ -48,21 +51,22 @@ BezierRow bezier_row_along(BezierRow r, vec3 o, vec3 x, vec3 y, vec3 z) {
 
 // Whether the ray comes near the piece.
 bool bezier_reject(Primitive s, Ray ray) {
-  vec3 to_middle = vec3(s.b) - ray.o;
+  vec3 to_middle = bezier_middle(s) - ray.o;
   vec3 off = to_middle - ray.d * (dot3(to_middle, ray.d) / dot3(ray.d, ray.d));
-  float reach = 1.001f * s.b.w + 16.0f * EPSILON * (max_component(abs3(to_middle)) + max_component(abs3(ray.o)));
+  float reach = 1.001f * bezier_radius(s) + 16.0f * EPSILON * (max_component(abs3(to_middle)) + max_component(abs3(ray.o)));
   return !(dot3(off, off) <= reach * reach);
 }
 
 void bezier_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) {
-  vec3 reach = vec3(s.b.w, s.b.w, s.b.w);
-  lower = vec3(s.b) - reach;
-  upper = vec3(s.b) + reach;
+  float r = bezier_radius(s);
+  vec3 reach = vec3(r, r, r);
+  lower = bezier_middle(s) - reach;
+  upper = bezier_middle(s) + reach;
 }
 
 // t where the piece is within `hair` of the ray near (u, v), else −1; then (u, v) is in the piece.
 float bezier_confirm(Primitive s, BezierNet net, BezierRoot root, float hair, OUT(vec2) uv) {
-  uv = bezier_within(s.a, root.uv);
+  uv = bezier_within(bezier_span(s), root.uv);
   vec3 p = bezier_at(net, uv.x, uv.y).p;
   return root.found && abs(p.y) <= hair && abs(p.z) <= hair ? p.x : -T_MISS;
 }
@@ -80,7 +84,7 @@ float bezier_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   float hair = 4.0f * grain + 4.0f * EPSILON * (abs(start) + max_component(abs3(o)));
 
   // Axes along the section.
-  vec3 normal = vec3(s.c);
+  vec3 normal = bezier_normal(s);
   vec3 y = cross3(normal, d);
   float sine = sqrt(dot3(y, y));
   float cosine = dot3(normal, d);
@@ -94,26 +98,27 @@ float bezier_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   net.r3 = bezier_row_along(bezier_row(s.extra + 9u), o, d, y, z);
 
   // Where the section comes into the piece and goes out of it, about, as seen from the middle.
-  float beyond = 1.0f + abs(s.c.w);
-  vec2 middle = vec2(0.5f * (s.a.x + s.a.y), 0.5f * (s.a.z + s.a.w));
-  vec2 size = vec2(0.5f * (s.a.y - s.a.x) * beyond, 0.5f * (s.a.w - s.a.z) * beyond);
-  vec3 p = bezier_along(vec3(s.b), o, d, y, z);
+  vec4 span = bezier_span(s);
+  float beyond = 1.0f + bezier_beyond(s);
+  vec2 middle = vec2(0.5f * (span.x + span.y), 0.5f * (span.z + span.w));
+  vec2 size = vec2(0.5f * (span.y - span.x) * beyond, 0.5f * (span.w - span.z) * beyond);
+  vec3 p = bezier_along(bezier_middle(s), o, d, y, z);
   vec3 tilt = vec3(sine, cosine, sine * p.x - cosine * p.z);
-  BezierSection at = bezier_section(net, s.a, tilt, 0.0f, middle);
+  BezierSection at = bezier_section(net, span, tilt, 0.0f, middle);
   float from_u = (at.uv.x - middle.x) / at.uv_slope.x;
   float from_v = (at.uv.y - middle.y) / at.uv_slope.y;
   float half_u = abs(size.x / at.uv_slope.x);
   float half_v = abs(size.y / at.uv_slope.y);
   float from = maximum(-half_u - from_u, -half_v - from_v);
   float to = minimum(half_u - from_u, half_v - from_v);
-  bool speck = abs(s.c.w) >= BEZIER_SPECK;
+  bool speck = bezier_beyond(s) >= BEZIER_SPECK;
 
   // Go along it in arcs as short as it takes for their cubics to tell where z has roots, up to the first root that is of this piece and not behind the
   // ray's start.
   bool search = from <= to && !speck && !bezier_reject(s, ray);
-  float fine = grain * s.b.w;
-  BezierSection near = bezier_settle(net, s.a, tilt, from, at.uv + at.uv_slope * from, fine, search);
-  BezierSection end = bezier_settle(net, s.a, tilt, to, at.uv + at.uv_slope * to, fine, search);
+  float fine = grain * bezier_radius(s);
+  BezierSection near = bezier_settle(net, span, tilt, from, at.uv + at.uv_slope * from, fine, search);
+  BezierSection end = bezier_settle(net, span, tilt, to, at.uv + at.uv_slope * to, fine, search);
   BezierSection far = end;
   float least = BEZIER_LEAST_ARC * (to - from);
   float t = -1.0f;
@@ -121,9 +126,9 @@ float bezier_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   uint roots = 0u;
   for (uint i = 0u; i < BEZIER_ARCS && search && roots < BEZIER_ROOTS; i++) {
     float length = far.w - near.w;
-    BezierSection half_way = bezier_settle(net, s.a, tilt, 0.5f * (near.w + far.w), bezier_between(near, far, 0.5f), fine, true);
+    BezierSection half_way = bezier_settle(net, span, tilt, 0.5f * (near.w + far.w), bezier_between(near, far, 0.5f), fine, true);
     BezierArc arc = bezier_arc(near, far, half_way, grain);
-    bool outside = bezier_outside(s.a, near.uv, half_way.uv, far.uv);
+    bool outside = bezier_outside(span, near.uv, half_way.uv, far.uv);
     bool halve = arc.doubted && length > least && !outside;
 
     float z_0 = bezier_arc_z(arc, arc.turns.x);
@@ -137,7 +142,7 @@ float bezier_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
     bool look = !halve && !outside && (change_0 || change_1 || change_2);
     roots += look ? 1u : 0u;
     vec2 bracket = vec2(near.w + length * ends.x, near.w + length * ends.y);
-    BezierRoot root = bezier_root(net, s.a, tilt, bezier_between(near, far, begin), near.w + length * begin, bracket, z_ends, look, grain, s.b.w);
+    BezierRoot root = bezier_root(net, span, tilt, bezier_between(near, far, begin), near.w + length * begin, bracket, z_ends, look, grain, bezier_radius(s));
     vec2 there = vec2(0.0f, 0.0f);
     t = start + bezier_confirm(s, net, root, hair, there);
     search = !(t > 0.0f);
@@ -151,7 +156,7 @@ float bezier_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
     float share = minimum(2.0f * maximum(length, least) / (end.w - far.w), 1.0f);
     bool ahead = search && !halve && !within;
     bool part = share < 1.0f;
-    BezierSection next = bezier_settle(net, s.a, tilt, far.w + share * (end.w - far.w), bezier_between(far, end, share), fine, ahead && part);
+    BezierSection next = bezier_settle(net, span, tilt, far.w + share * (end.w - far.w), bezier_between(far, end, share), fine, ahead && part);
     if (within)
       near = behind;
     else if (!halve)
@@ -167,13 +172,13 @@ float bezier_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
 
   // A speck of 2^-12 of the patch, where it comes to a point, is flat, and round.
   if (speck) {
-    float along = dot3(normal, vec3(s.b) - o) / cosine;
-    vec3 off = (o + d * along) - vec3(s.b);
-    t = dot3(off, off) <= s.b.w * s.b.w ? start + along : -1.0f;
+    float along = dot3(normal, bezier_middle(s) - o) / cosine;
+    vec3 off = (o + d * along) - bezier_middle(s);
+    t = dot3(off, off) <= bezier_radius(s) * bezier_radius(s) ? start + along : -1.0f;
     uv = middle;
   }
 
-  if (gave_up && !(t > 0.0f)) uv = vec2(maximum(start + p.x - s.b.w, 0.0f) / speed, 0.0f);
+  if (gave_up && !(t > 0.0f)) uv = vec2(maximum(start + p.x - bezier_radius(s), 0.0f) / speed, 0.0f);
   return t > 0.0f ? t / speed : gave_up ? T_ITERATION_LIMIT : -1.0f;
 }
 
@@ -193,10 +198,10 @@ Surface bezier_surface(Primitive s, Ray ray, Hit hit) {
   // Where the derivatives are parallel, or one is 0, as where an edge is one point, the piece's normal is as near as can be.
   vec3 n = cross3(at.du, at.dv);
   float size = dot3(at.du, at.du) + dot3(at.dv, at.dv);
-  n = dot3(n, n) > 1.0e-14f * (size * size) ? normalize3(n) : vec3(s.c);
+  n = dot3(n, n) > 1.0e-14f * (size * size) ? normalize3(n) : bezier_normal(s);
   Surface surface;
   surface.p = o + at.p;
-  surface.normal_geometric = s.c.w < 0.0f ? -n : n;
+  surface.normal_geometric = bezier_is_turned(s) ? -n : n;
   surface.normal = surface.normal_geometric;
   surface.uv = inner_uv(hit.uv);
   set_tangents(surface, at.du, at.dv);

@@ -1,11 +1,15 @@
-// (1 − u)(1 − v)·p00 + u(1 − v)·p10 + (1 − u)v·p01 + uv·p11, 0 ≤ u, v ≤ 1.   a = p00, b = p10, c = p01, their w = p11   extra: 1 where the
-// normal is the other one
+// (1 − u)(1 − v)·p00 + u(1 − v)·p10 + (1 − u)v·p01 + uv·p11, 0 ≤ u, v ≤ 1.   extra: 1 where the normal is the other one
 #ifndef BILINEAR_GLSL
 #define BILINEAR_GLSL
 #include "geometry/edges.glsl"
 #include "records.h"
 
 SHADER_BEGIN
+
+vec3 bilinear_p00(Primitive s) { return vec3(s.a); }
+vec3 bilinear_p10(Primitive s) { return vec3(s.b); }
+vec3 bilinear_p01(Primitive s) { return vec3(s.c); }
+vec3 bilinear_p11(Primitive s) { return vec3(s.a.w, s.b.w, s.c.w); }
 
 // Where the line v ↦ p + v·edge comes nearest to the ray o = 0, d: t, or −1 if it is not between the line's ends; and v.
 vec2 intersect_ruling(vec3 p, vec3 edge, vec3 d) {
@@ -18,10 +22,10 @@ vec2 intersect_ruling(vec3 p, vec3 edge, vec3 d) {
 }
 
 float bilinear_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
-  vec3 p11 = vec3(s.a.w, s.b.w, s.c.w);
-  vec3 p00 = vec3(s.a);
-  vec3 p10 = vec3(s.b);
-  vec3 p01 = vec3(s.c);
+  vec3 p11 = bilinear_p11(s);
+  vec3 p00 = bilinear_p00(s);
+  vec3 p10 = bilinear_p10(s);
+  vec3 p01 = bilinear_p01(s);
 
   // From afar start near the middle, so that nothing cancels (geometry/object_space.glsl).
   vec3 middle = ((p00 + p11) + (p10 + p01)) * 0.25f;
@@ -62,17 +66,21 @@ float bilinear_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
 bool bilinear_reject(Primitive s, Ray ray) { return false; }
 
 void bilinear_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) {
-  lower = vec3(minimum(minimum(s.a.x, s.b.x), minimum(s.c.x, s.a.w)), minimum(minimum(s.a.y, s.b.y), minimum(s.c.y, s.b.w)),
-               minimum(minimum(s.a.z, s.b.z), minimum(s.c.z, s.c.w)));
-  upper = vec3(maximum(maximum(s.a.x, s.b.x), maximum(s.c.x, s.a.w)), maximum(maximum(s.a.y, s.b.y), maximum(s.c.y, s.b.w)),
-               maximum(maximum(s.a.z, s.b.z), maximum(s.c.z, s.c.w)));
+  vec3 a = bilinear_p00(s);
+  vec3 b = bilinear_p10(s);
+  vec3 c = bilinear_p01(s);
+  vec3 d = bilinear_p11(s);
+  lower = vec3(minimum(minimum(a.x, b.x), minimum(c.x, d.x)), minimum(minimum(a.y, b.y), minimum(c.y, d.y)),
+               minimum(minimum(a.z, b.z), minimum(c.z, d.z)));
+  upper = vec3(maximum(maximum(a.x, b.x), maximum(c.x, d.x)), maximum(maximum(a.y, b.y), maximum(c.y, d.y)),
+               maximum(maximum(a.z, b.z), maximum(c.z, d.z)));
 }
 
 Surface bilinear_surface(Primitive s, Ray ray, Hit hit) {
-  vec3 p00 = vec3(s.a);
-  vec3 along_u = vec3(s.b) - p00;
-  vec3 left = vec3(s.c) - p00;
-  vec3 right = vec3(s.a.w, s.b.w, s.c.w) - vec3(s.b);
+  vec3 p00 = bilinear_p00(s);
+  vec3 along_u = bilinear_p10(s) - p00;
+  vec3 left = bilinear_p01(s) - p00;
+  vec3 right = bilinear_p11(s) - bilinear_p10(s);
   vec3 along_v = left + (right - left) * hit.uv.x;
   vec3 across_v = along_u + (right - left) * hit.uv.y;
   vec3 n = cross3(across_v, along_v);
@@ -82,7 +90,7 @@ Surface bilinear_surface(Primitive s, Ray ray, Hit hit) {
   surface.normal_geometric = normalize3(s.extra == 1u ? -n : n);
   surface.normal = surface.normal_geometric;
   surface.uv = inner_uv(hit.uv);
-  vec3 reach = (abs3(p00) + abs3(vec3(s.b))) + (abs3(vec3(s.c)) + abs3(vec3(s.a.w, s.b.w, s.c.w)));
+  vec3 reach = (abs3(p00) + abs3(bilinear_p10(s))) + (abs3(bilinear_p01(s)) + abs3(bilinear_p11(s)));
   set_tangents(surface, across_v, along_v);
   surface.offset = 48.0f * EPSILON * dot3(abs3(surface.normal_geometric), reach);
   vec2 inner = inner_step(surface, hit.uv, edge_room(ray, 6.0f * max_component(reach)));

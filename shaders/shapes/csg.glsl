@@ -1,4 +1,4 @@
-// Union, intersection and difference of closed shapes, its leaves.   a = centre of its bounds    b = half of their size
+// Union, intersection and difference of closed shapes, its leaves.
 // extra: how many nodes, as bits the leaves that are taken away, how many leaves, as bits those of deferred kinds; the nodes; the leaves by kind in
 // registry order, each a Primitive, the centre of its bounds and half of their size.
 // A node: its operands as bits, leaves and nodes before it, and whether it is within all of them or within any. Within what is taken away is
@@ -11,6 +11,9 @@
 SHADER_BEGIN
 
 #if HAS_CSG
+vec3 csg_center(Primitive s) { return vec3(s.a); }  // of its bounds
+vec3 csg_half_size(Primitive s) { return vec3(s.b); }
+
 #define LEAF_WORDS 6u
 #define MOST_LEAVES 32
 
@@ -145,7 +148,7 @@ CsgHit csg_traverse(Primitive s, Ray ray, float t_max, uint enough) {
   // As bits, the leaves that the ray comes near to.
   uint near = 0u;
   uint bit = 1u;
-  uint end = passes_box(ray, vec3(s.a), vec3(s.b)) ? leaves + LEAF_WORDS * head.z : leaves;
+  uint end = passes_box(ray, csg_center(s), csg_half_size(s)) ? leaves + LEAF_WORDS * head.z : leaves;
   for (uint at = leaves; at < end; at += LEAF_WORDS) {
     near = passes_box(ray, vec3(bits_to_floats(load_outline(at + 4u))), vec3(bits_to_floats(load_outline(at + 5u)))) ? near | bit : near;
     bit = bit << 1u;
@@ -246,11 +249,11 @@ float csg_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
 // The optical depth of a shadow ray before t_max: that of the densest surface on its way.
 uint csg_optical_depth(Primitive s, Ray ray, float t_max) { return csg_traverse(s, ray, t_max, s.optical_depth).optical_depth; }
 
-bool csg_reject(Primitive s, Ray ray) { return !passes_box(ray, vec3(s.a), vec3(s.b)); }
+bool csg_reject(Primitive s, Ray ray) { return !passes_box(ray, csg_center(s), csg_half_size(s)); }
 
 void csg_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) {
-  lower = vec3(s.a) - vec3(s.b);
-  upper = vec3(s.a) + vec3(s.b);
+  lower = csg_center(s) - csg_half_size(s);
+  upper = csg_center(s) + csg_half_size(s);
 }
 
 // The leaf whose surface was hit.
@@ -276,7 +279,7 @@ Surface clear_of_leaves(Primitive s, Surface surface, Ray ray, uint own) {
   uvec4 head = load_outline(s.extra);
   uint leaves = s.extra + 1u + head.x;
   vec3 p = surface.p;
-  float room = edge_room(ray, 2.0f * max_component(abs3(p)) + max_component(abs3(vec3(s.a)) + vec3(s.b)));
+  float room = edge_room(ray, 2.0f * max_component(abs3(p)) + max_component(abs3(csg_center(s)) + csg_half_size(s)));
 
   // The leaves that p is within, and those whose surface is near.
   uint within = 0u;

@@ -1,25 +1,28 @@
-// a, b, c = the origin and the ends of the edges along u and v; their w's are the unit geometric normal.   extra: the fourth corner
+// Three corners (geometry/corners.glsl): the origin and the ends of the edges along u and v.   extra: the fourth
 #ifndef PARALLELOGRAM_GLSL
 #define PARALLELOGRAM_GLSL
+#include "geometry/corners.glsl"
 #include "geometry/outline.glsl"
 
 SHADER_BEGIN
 
+vec3 corner_d(Primitive s) { return vec3(bits_to_floats(load_vertex(s.extra))); }
+
 float parallelogram_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   uv = vec2(0.0f, 0.0f);
-  vec3 a = seen_along(ray, vec3(s.a));
-  vec3 b = seen_along(ray, vec3(s.b));
-  vec3 c = seen_along(ray, vec3(s.c));
-  vec3 opposite = vec3(bits_to_floats(load_vertex(s.extra)));
+  vec3 a = seen_along(ray, corner_a(s));
+  vec3 b = seen_along(ray, corner_b(s));
+  vec3 c = seen_along(ray, corner_c(s));
+  vec3 opposite = corner_d(s);
   vec3 d = seen_along(ray, opposite);
   bool inside = (crosses(a, b) != crosses(b, d)) != (crosses(d, c) != crosses(c, a));
 
   // Far from the eye rounded corners make no parallelogram: the bounds have room for the fourth.
-  vec3 n = vec3(s.a.w, s.b.w, s.c.w);
-  vec3 from_start = vec3(s.a) - ray.o;
-  vec3 along_u = (vec3(s.b) - vec3(s.a)) * 0.5f;
-  vec3 along_v = (vec3(s.c) - vec3(s.a)) * 0.5f;
-  vec3 skew = abs3((opposite - vec3(s.b)) - (vec3(s.c) - vec3(s.a)));
+  vec3 n = corner_normal(s);
+  vec3 from_start = corner_a(s) - ray.o;
+  vec3 along_u = (corner_b(s) - corner_a(s)) * 0.5f;
+  vec3 along_v = (corner_c(s) - corner_a(s)) * 0.5f;
+  vec3 skew = abs3((opposite - corner_b(s)) - (corner_c(s) - corner_a(s)));
   float t = t_within(ray, dot3(n, from_start) / dot3(n, ray.d), from_start + (along_u + along_v),
                      abs3(along_u) + abs3(along_v) + skew);
   return inside ? t : -1.0f;
@@ -28,25 +31,28 @@ float parallelogram_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
 bool parallelogram_reject(Primitive s, Ray ray) { return false; }
 
 void parallelogram_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) {
-  vec3 d = vec3(bits_to_floats(load_vertex(s.extra)));
-  lower = vec3(minimum(minimum(s.a.x, s.b.x), minimum(s.c.x, d.x)), minimum(minimum(s.a.y, s.b.y), minimum(s.c.y, d.y)),
-               minimum(minimum(s.a.z, s.b.z), minimum(s.c.z, d.z)));
-  upper = vec3(maximum(maximum(s.a.x, s.b.x), maximum(s.c.x, d.x)), maximum(maximum(s.a.y, s.b.y), maximum(s.c.y, d.y)),
-               maximum(maximum(s.a.z, s.b.z), maximum(s.c.z, d.z)));
+  vec3 a = corner_a(s);
+  vec3 b = corner_b(s);
+  vec3 c = corner_c(s);
+  vec3 d = corner_d(s);
+  lower = vec3(minimum(minimum(a.x, b.x), minimum(c.x, d.x)), minimum(minimum(a.y, b.y), minimum(c.y, d.y)),
+               minimum(minimum(a.z, b.z), minimum(c.z, d.z)));
+  upper = vec3(maximum(maximum(a.x, b.x), maximum(c.x, d.x)), maximum(maximum(a.y, b.y), maximum(c.y, d.y)),
+               maximum(maximum(a.z, b.z), maximum(c.z, d.z)));
 }
 
 Surface parallelogram_surface(Primitive s, Ray ray, Hit hit) {
-  vec3 n = vec3(s.a.w, s.b.w, s.c.w);
+  vec3 n = corner_normal(s);
   vec3 p = ray.o + ray.d * hit.t;
-  p = p - n * dot3(n, p - vec3(s.a));
+  p = p - n * dot3(n, p - corner_a(s));
 
   // The edges' dual in the plane.
-  vec3 along_u = vec3(s.b) - vec3(s.a);
-  vec3 along_v = vec3(s.c) - vec3(s.a);
+  vec3 along_u = corner_b(s) - corner_a(s);
+  vec3 along_v = corner_c(s) - corner_a(s);
   vec3 across_v = cross3(along_v, n);
   vec3 across_u = cross3(along_u, n);
-  float u = dot3(across_v, p - vec3(s.a)) / dot3(across_v, along_u);
-  float v = dot3(across_u, p - vec3(s.a)) / dot3(across_u, along_v);
+  float u = dot3(across_v, p - corner_a(s)) / dot3(across_v, along_u);
+  float v = dot3(across_u, p - corner_a(s)) / dot3(across_u, along_v);
 
   // The hit of a ray that grazes the plane may be far beyond an edge.
   p = p + (along_u * (minimum(maximum(u, 0.0f), 1.0f) - u) + along_v * (minimum(maximum(v, 0.0f), 1.0f) - v));
@@ -57,7 +63,7 @@ Surface parallelogram_surface(Primitive s, Ray ray, Hit hit) {
   surface.normal = n;
   surface.uv = inner_uv(vec2(u, v));
   set_gradients(surface, across_v / dot3(across_v, along_u), across_u / dot3(across_u, along_v));
-  vec3 reach = abs3(p) + abs3(vec3(s.a));
+  vec3 reach = abs3(p) + abs3(corner_a(s));
   surface.offset = 8.0f * EPSILON * dot3(abs3(n), reach);
   vec2 inner = inner_step(surface, vec2(u, v), edge_room(ray, max_component(reach)));
   surface.inward = along_u * inner.x + along_v * inner.y;

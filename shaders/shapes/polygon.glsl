@@ -1,4 +1,3 @@
-// a = unit normal, turns of the loop below    b = centre of the bounds, on the plane    c = half of their size
 // extra: U, U0 and V, V0 (u = U·x + U0, v = V·x + V0), then a path: a vertex, and four more a turn.
 // The path runs round the outline, then for each hole over to it, round it, and back. It comes back on the way that it went over, so
 // that the two cancel to the last bit. Where it is done it stays. The polygon is to the left of its edges, seen from where the normal points. A
@@ -9,12 +8,17 @@
 
 SHADER_BEGIN
 
+vec3 polygon_normal(Primitive s) { return vec3(s.a); }
+uint polygon_turns(Primitive s) { return uint(s.a.w); }  // of the loop below
+vec3 polygon_center(Primitive s) { return vec3(s.b); }  // of the bounds, on the plane
+vec3 polygon_half_size(Primitive s) { return vec3(s.c); }
+
 vec3 path_vertex(Ray ray, uint i) { return seen_along(ray, vec3(bits_to_floats(load_outline(i)))); }
 
 // t, brought to the polygon's nearest edge if no part of the polygon is there. The polygon is cut, as in shapes/triangle.glsl, by the plane through
 // the ray and the sheared x or y axis, whichever is less along the polygon's plane: the ray is within where it has passed an odd number of edges.
 float t_between_edges(Primitive s, Ray ray, float t, uint at, uint end) {
-  vec3 steep = permute(abs3(vec3(s.a)), ray.major);
+  vec3 steep = permute(abs3(polygon_normal(s)), ray.major);
   bool across_x = steep.x < steep.y;
   float inverse = permute(ray.inverse, ray.major).z;
   bool within = false;
@@ -41,11 +45,11 @@ float t_between_edges(Primitive s, Ray ray, float t, uint at, uint end) {
 // Only a ray that passes the bounds goes round: what is beside the polygon costs no turn.
 float polygon_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   uv = vec2(0.0f, 0.0f);
-  vec3 n = vec3(s.a);
-  vec3 centre = vec3(s.b) - ray.o;
-  float t = t_within(ray, dot3(n, centre) / dot3(n, ray.d), centre, vec3(s.c));
+  vec3 n = polygon_normal(s);
+  vec3 centre = polygon_center(s) - ray.o;
+  float t = t_within(ray, dot3(n, centre) / dot3(n, ray.d), centre, polygon_half_size(s));
   uint at = s.extra + 2u;
-  uint end = t > 0.0f ? at + 4u * uint(s.a.w) : at;
+  uint end = t > 0.0f ? at + 4u * polygon_turns(s) : at;
   vec3 a = path_vertex(ray, at);
   bool inside = false;
   // Tested at the bottom, which saves a turn with all lanes idle: a choice around loads keeps what came out for the rays that are done
@@ -71,36 +75,36 @@ float polygon_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
 bool polygon_reject(Primitive s, Ray ray) { return false; }
 
 void polygon_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) {
-  lower = vec3(s.b) - vec3(s.c);
-  upper = vec3(s.b) + vec3(s.c);
+  lower = polygon_center(s) - polygon_half_size(s);
+  upper = polygon_center(s) + polygon_half_size(s);
 }
 
 // From p to the inside of the edges.
 vec3 polygon_inward(Primitive s, vec3 p, float room) {
   vec3 inward = vec3(0.0f, 0.0f, 0.0f);
   uint at = s.extra + 2u;
-  uint end = at + 4u * uint(s.a.w);
+  uint end = at + 4u * polygon_turns(s);
   vec3 a = vec3(bits_to_floats(load_outline(at)));
   for (; at < end; at++) {
     vec4 next = bits_to_floats(load_outline(at + 1u));
     vec3 b = vec3(next);
     vec3 along = b - a;
     float squared = dot3(along, along);
-    vec3 outward = cross3(along, vec3(s.a));
+    vec3 outward = cross3(along, polygon_normal(s));
     float share = dot3(along, p + inward - a);
     float beyond = room * sqrt(squared);
     float value = dot3(outward, p - a);
     if (next.w != 0.0f && abs(value) < 2.0f * beyond && share > -beyond && share < squared + beyond)
-      inward = inward_of_face(inward, vec3(s.a), value, outward, room);
+      inward = inward_of_face(inward, polygon_normal(s), value, outward, room);
     a = b;
   }
   return inward;
 }
 
 Surface polygon_surface(Primitive s, Ray ray, Hit hit) {
-  vec3 n = vec3(s.a);
+  vec3 n = polygon_normal(s);
   vec3 p = ray.o + ray.d * hit.t;
-  p = p - n * dot3(n, p - vec3(s.b));
+  p = p - n * dot3(n, p - polygon_center(s));
   vec4 u = bits_to_floats(load_vertex(s.extra));
   vec4 v = bits_to_floats(load_vertex(s.extra + 1u));
 
@@ -110,9 +114,9 @@ Surface polygon_surface(Primitive s, Ray ray, Hit hit) {
   surface.normal = n;
   surface.uv = vec2(dot3(vec3(u), p) + u.w, dot3(vec3(v), p) + v.w);
   set_gradients(surface, vec3(u), vec3(v));
-  vec3 reach = abs3(p) + abs3(vec3(s.b));
+  vec3 reach = abs3(p) + abs3(polygon_center(s));
   surface.offset = 8.0f * EPSILON * dot3(abs3(n), reach);
-  surface.inward = polygon_inward(s, p, edge_room(ray, max_component(reach + vec3(s.c))));
+  surface.inward = polygon_inward(s, p, edge_room(ray, max_component(reach + polygon_half_size(s))));
   return surface;
 }
 

@@ -1,7 +1,8 @@
-// a, b, c = the vertices; their w's are the unit geometric normal, from float64. extra = its corners (records.h), or NONE.
+// Three corners (geometry/corners.glsl). extra = its corners' normals and so on (records.h), or NONE.
 // Parameters of a hit: the weights of the second and third vertex.
 #ifndef TRIANGLE_GLSL
 #define TRIANGLE_GLSL
+#include "geometry/corners.glsl"
 #include "geometry/edges.glsl"
 #include "records.h"
 
@@ -21,9 +22,9 @@ struct TriangleEdges {
 TriangleEdges triangle_edges(Primitive s, Ray ray) {
   // Vertex and start are permuted apart, so that it is done once for rays that run together.
   vec3 o = permute(ray.o, ray.major);
-  vec3 a = permute(vec3(s.a), ray.major) - o;
-  vec3 b = permute(vec3(s.b), ray.major) - o;
-  vec3 c = permute(vec3(s.c), ray.major) - o;
+  vec3 a = permute(corner_a(s), ray.major) - o;
+  vec3 b = permute(corner_b(s), ray.major) - o;
+  vec3 c = permute(corner_c(s), ray.major) - o;
   TriangleEdges edges;
   edges.x = vec3(a.x - ray.shear.x * a.z, b.x - ray.shear.x * b.z, c.x - ray.shear.x * c.z);
   edges.y = vec3(a.y - ray.shear.y * a.z, b.y - ray.shear.y * b.z, c.y - ray.shear.y * c.z);
@@ -48,8 +49,8 @@ bool triangle_inside(TriangleEdges edges) {
 // into. Of the two planes it is the one less along the triangle's own. The other one parts the vertices too: were they all on one side,
 // two edge functions would be sums of what has one sign, a different one each.
 float triangle_t(Primitive s, Ray ray, TriangleEdges edges) {
-  vec3 n = vec3(s.a.w, s.b.w, s.c.w);
-  float t = dot3(n, vec3(s.a) - ray.o) / dot3(n, ray.d);
+  vec3 n = corner_normal(s);
+  float t = dot3(n, corner_a(s) - ray.o) / dot3(n, ray.d);
   vec3 steep = permute(abs3(n), ray.major);
   vec3 side = steep.x < steep.y ? edges.x : edges.y;
 
@@ -82,11 +83,11 @@ float triangle_intersect_woop(Primitive s, Ray ray, OUT(vec2) uv) {
 // Möller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection" (1997), without its epsilon. Not watertight: kept for
 // comparison, `--triangle moller-trumbore`.
 float triangle_intersect_moller_trumbore(Primitive s, Ray ray, OUT(vec2) uv) {
-  vec3 e1 = vec3(s.b) - vec3(s.a);
-  vec3 e2 = vec3(s.c) - vec3(s.a);
+  vec3 e1 = corner_b(s) - corner_a(s);
+  vec3 e2 = corner_c(s) - corner_a(s);
   vec3 p = cross3(ray.d, e2);
   float det = dot3(e1, p);
-  vec3 f = ray.o - vec3(s.a);
+  vec3 f = ray.o - corner_a(s);
   uv = vec2(dot3(f, p) / det, dot3(ray.d, cross3(f, e1)) / det);
   bool inside = uv.x >= 0.0f && uv.y >= 0.0f && uv.x + uv.y <= 1.0f;
   TriangleEdges edges = triangle_edges(s, ray);
@@ -103,15 +104,18 @@ bool triangle_reject(Primitive s, Ray ray) {
 }
 
 void triangle_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) {
-  lower = vec3(minimum(s.a.x, minimum(s.b.x, s.c.x)), minimum(s.a.y, minimum(s.b.y, s.c.y)), minimum(s.a.z, minimum(s.b.z, s.c.z)));
-  upper = vec3(maximum(s.a.x, maximum(s.b.x, s.c.x)), maximum(s.a.y, maximum(s.b.y, s.c.y)), maximum(s.a.z, maximum(s.b.z, s.c.z)));
+  vec3 a = corner_a(s);
+  vec3 b = corner_b(s);
+  vec3 c = corner_c(s);
+  lower = vec3(minimum(a.x, minimum(b.x, c.x)), minimum(a.y, minimum(b.y, c.y)), minimum(a.z, minimum(b.z, c.z)));
+  upper = vec3(maximum(a.x, maximum(b.x, c.x)), maximum(a.y, maximum(b.y, c.y)), maximum(a.z, maximum(b.z, c.z)));
 }
 
 // From the point with those weights to the inside of the edges. A weight is 0 at its edge and grows by 1 over the triangle's height there.
 vec3 triangle_inward(Primitive s, vec3 weights, float room) {
-  vec3 ab = vec3(s.b) - vec3(s.a);
-  vec3 bc = vec3(s.c) - vec3(s.b);
-  vec3 ca = vec3(s.a) - vec3(s.c);
+  vec3 ab = corner_b(s) - corner_a(s);
+  vec3 bc = corner_c(s) - corner_b(s);
+  vec3 ca = corner_a(s) - corner_c(s);
   vec3 across = cross3(ab, ca);
   float per_height = room / sqrt(dot3(across, across));
   vec3 edges = vec3(sqrt(dot3(bc, bc)), sqrt(dot3(ca, ca)), sqrt(dot3(ab, ab)));
@@ -135,13 +139,13 @@ uint beside_normal(uvec4 corners) { return (corners.w & CORNERS_COLORS) != 0u ? 
 
 Surface triangle_surface(Primitive s, Ray ray, Hit hit) {
   float wa = (1.0f - hit.uv.x) - hit.uv.y;
-  vec3 a = vec3(s.a) * wa;
-  vec3 b = vec3(s.b) * hit.uv.x;
-  vec3 c = vec3(s.c) * hit.uv.y;
+  vec3 a = corner_a(s) * wa;
+  vec3 b = corner_b(s) * hit.uv.x;
+  vec3 c = corner_c(s) * hit.uv.y;
 
   Surface surface;
   surface.p = (a + b) + c;
-  surface.normal_geometric = vec3(s.a.w, s.b.w, s.c.w);
+  surface.normal_geometric = corner_normal(s);
   surface.normal = surface.normal_geometric;
   surface.uv = hit.uv;
   set_gradients(surface, vec3(0.0f, 0.0f, 0.0f), vec3(0.0f, 0.0f, 0.0f));
@@ -185,7 +189,7 @@ Surface triangle_surface(Primitive s, Ray ray, Hit hit) {
     }
 #endif
   }
-  vec3 reach = abs3(vec3(s.a)) + abs3(vec3(s.b)) + abs3(vec3(s.c));
+  vec3 reach = abs3(corner_a(s)) + abs3(corner_b(s)) + abs3(corner_c(s));
   surface.offset = 8.0f * EPSILON * dot3(abs3(surface.normal_geometric), reach);
   surface.inward = triangle_inward(s, vec3(wa, hit.uv.x, hit.uv.y), edge_room(ray, max_component(reach)));
   return surface;

@@ -1,4 +1,4 @@
-// A checkerboard. color = the even checks'; a.xyz = the odd ones'; b.xy = 1 / the size of a check.
+// A checkerboard. color = the even checks'.
 #ifndef CHECKER_GLSL
 #define CHECKER_GLSL
 #include "records.h"
@@ -6,11 +6,15 @@
 
 SHADER_BEGIN
 
+vec3 checker_odd_color(Texture texture) { return vec3(texture.a); }
+vec2 checker_checks(Texture texture) { return vec2(texture.b); }  // per unit of u and of v
+
 vec3 checker_color(Texture texture, TextureContext place) {
+  vec2 checks = checker_checks(texture);
   // The parity is taken in floats, where an int could overflow.
-  float check = floor(place.uv.x * texture.b.x) + floor(place.uv.y * texture.b.y);
+  float check = floor(place.uv.x * checks.x) + floor(place.uv.y * checks.y);
   bool odd = check - 2.0f * floor(0.5f * check) != 0.0f;
-  return odd ? vec3(texture.a) : texture.color;
+  return odd ? checker_odd_color(texture) : texture.color;
 }
 
 float checker_alpha(Texture texture, TextureContext place) { return checker_color(texture, place).x; }

@@ -1,4 +1,4 @@
-// A function of the scene's. color = what it is multiplied by; c.x = its number among the scene's formulas.
+// A function of the scene's. color = what it is multiplied by.
 #ifndef TEXTURES_FORMULA_GLSL
 #define TEXTURES_FORMULA_GLSL
 #include "math/math.glsl"
@@ -7,11 +7,13 @@
 
 SHADER_BEGIN
 
+uint texture_formula(Texture texture) { return texture.c.x; }  // its number among the scene's
+
 // Nobody knows what a function says: what is no number is 0.
 float formula_share(float x) { return x > 0.0f ? minimum(x, 1.0f) : 0.0f; }
 
 vec3 formula_color(Texture texture, TextureContext place) {
-  vec3 color = FORMULA_COLOR(texture.c.x, place.uv);
+  vec3 color = FORMULA_COLOR(texture_formula(texture), place.uv);
   return texture.color * vec3(formula_share(color.x), formula_share(color.y), formula_share(color.z));
 }
 

@@ -1,4 +1,4 @@
-// A picture. color = what it is multiplied by; b.xy = 1 / the size of the whole picture; c: see below.
+// A picture. color = what it is multiplied by.
 #ifndef IMAGE_GLSL
 #define IMAGE_GLSL
 #include "math/math.glsl"
@@ -7,6 +7,7 @@
 
 SHADER_BEGIN
 
+vec2 image_copies(Texture texture) { return vec2(texture.b); }  // per unit of u and of v
 uint image_width(Texture texture) { return texture.c.x; }
 uint image_height(Texture texture) { return texture.c.y; }
 uint image_first_texel(Texture texture) { return texture.c.z; }
@@ -59,8 +60,9 @@ struct TexelQuad {
 };
 
 TexelQuad texels_at(Texture texture, vec2 uv) {
-  float u = uv.x * texture.b.x;
-  float v = uv.y * texture.b.y;
+  vec2 copies = image_copies(texture);
+  float u = uv.x * copies.x;
+  float v = uv.y * copies.y;
   uint wrap_u = (image_flags(texture) >> IMAGE_WRAP_U_SHIFT) & IMAGE_WRAP_MASK;
   uint wrap_v = (image_flags(texture) >> IMAGE_WRAP_V_SHIFT) & IMAGE_WRAP_MASK;
   bool nearest = (image_flags(texture) & IMAGE_NEAREST) != 0u;

@@ -1,5 +1,5 @@
-// Patterns in space: a share of [0, 1] at each place, and a colour for each share. c.x = in vertices: three rows of the map from the eye's
-// space to the pattern's; what the pattern's .glsl says; then c.y colours, each with the share that it is for.
+// Patterns in space: a share of [0, 1] at each place, and a colour for each share. In vertices: three rows of the map from the eye's space
+// to the pattern's; what the pattern's .glsl says; then the colours, each with the share that it is for.
 #ifndef PATTERN_GLSL
 #define PATTERN_GLSL
 #include "math/math.glsl"
@@ -9,7 +9,10 @@
 
 SHADER_BEGIN
 
-vec4 pattern_word(Texture texture, uint i) { return bits_to_floats(load_vertex(texture.c.x + i)); }
+uint pattern_first_word(Texture texture) { return texture.c.x; }  // in vertices
+uint pattern_colors(Texture texture) { return texture.c.y; }  // how many
+
+vec4 pattern_word(Texture texture, uint i) { return bits_to_floats(load_vertex(pattern_first_word(texture) + i)); }
 vec4 pattern_parameters(Texture texture) { return pattern_word(texture, 3u); }
 
 vec3 pattern_place(Texture texture, vec3 p) {
@@ -23,7 +26,7 @@ vec3 pattern_place(Texture texture, vec3 p) {
 vec3 pattern_color(Texture texture, float share) {
   vec4 before = pattern_word(texture, 4u);
   vec3 color = vec3(before);
-  for (uint i = 1u; i < texture.c.y; i++) {
+  for (uint i = 1u; i < pattern_colors(texture); i++) {
     vec4 next = pattern_word(texture, 4u + i);
     float width = next.w - before.w;
     float s = width > 0.0f ? minimum(maximum((share - before.w) / width, 0.0f), 1.0f) : (share < next.w ? 0.0f : 1.0f);

@@ -75,6 +75,23 @@ TEST_CASE("neither double nor half, nor swizzles: what both languages read alike
   CHECK(find_code(std::regex(R"((^|[^\w.])(\d+\.\d*|\.\d+)(e[-+]?\d+)?(?![\w.]))"), pictures) == "");
 }
 
+TEST_CASE("a, b and c of records are read by one-line functions that name what they hold, and nowhere else") {
+  const std::regex unnamed(R"(\b\w+\.[abc]\b)");
+  const std::regex named(
+      R"(^(INLINE )?\w+ \w+\((Primitive|Material|Texture|Light|Emitter) \w+\) \{ return [^;]*; \}\s*$)");
+  const std::regex whole(R"(\bprimitive_of\(|^  primitive\.([abc]) = \1;|^\s*#\s*include\b)");
+  std::string found;
+  for (const SourceFile& file : source_files("shaders")) {
+    for (size_t i = 0; i < file.lines.size(); ++i) {
+      const std::string line = code(file.lines[i]);
+      if (std::regex_search(line, unnamed) && !std::regex_match(line, named) &&
+          !std::regex_search(line, whole))
+        found += file.at(i) + ": " + line + "\n";
+    }
+  }
+  CHECK(found == "");
+}
+
 TEST_CASE("includes are written from the shaders' root, and files guard themselves") {
   for (const SourceFile& file : source_files("shaders")) {
     CAPTURE(file.path);

@@ -65,12 +65,11 @@ TEST_CASE(
         const shader::Primitive& piece =
             packer.scene.primitives[size_t(random.below(int(packer.scene.primitives.size())))];
         const BezierNet& patch = nets[size_t(piece.extra) / 13];
-        Vec2 uv(random.uniform(double(piece.a.x), double(piece.a.y)),
-                random.uniform(double(piece.a.z), double(piece.a.w)));
-        if (aim == Aim::corners || random.below(2) == 0)
-          uv.x = double(random.below(2) ? piece.a.x : piece.a.y);
-        if (aim == Aim::corners || uv.x != double(piece.a.x))
-          uv.y = double(random.below(2) ? piece.a.z : piece.a.w);
+        const shader::vec4 span = shader::bezier_span(piece);
+        Vec2 uv(random.uniform(double(span.x), double(span.y)),
+                random.uniform(double(span.z), double(span.w)));
+        if (aim == Aim::corners || random.below(2) == 0) uv.x = double(random.below(2) ? span.x : span.y);
+        if (aim == Aim::corners || uv.x != double(span.x)) uv.y = double(random.below(2) ? span.z : span.w);
         if (aim == Aim::poles) uv.y = 1 - random.log_uniform(1e-9, 1e-2) * random.below(2);
         const glm::vec3 target(bezier_point(patch, uv.x, uv.y).position);
         const glm::vec3 from(center + random.point(0.4) * size);

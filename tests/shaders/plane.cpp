@@ -42,11 +42,12 @@ TEST_CASE(
       if (!(hit.t > 0) || hit.t > 1e6f * float(scale)) continue;
       ++left;
       const shader::Surface surface = shader::plane_surface(plane, ray, hit);
-      const double height = glm::dot(Vec3(plane.a), Vec3(surface.p)) - double(plane.a.w);
+      const double height = glm::dot(Vec3(shader::plane_normal(plane)), Vec3(surface.p)) -
+                            double(shader::plane_distance(plane));
       off += !(std::fabs(height) <= double(surface.offset));
       shader::vec2 uv{};
       const glm::vec3 away(random.direction());
-      const double cosine = glm::dot(Vec3(away), Vec3(plane.a));
+      const double cosine = glm::dot(Vec3(away), Vec3(shader::plane_normal(plane)));
       if (std::fabs(cosine) < 1e-6) continue;  // the sign of n·d itself is lost in float32
       rehits += shader::plane_intersect(plane, shader::spawn_ray(surface, away), uv) > 0;
     }

@@ -34,12 +34,12 @@ struct Exact {
   double t;
 };
 Exact exact_hit(const shader::Primitive& sphere, const shader::Ray& ray) {
-  const Vec3 f = Vec3(ray.o) - Vec3(sphere.a);
+  const Vec3 f = Vec3(ray.o) - Vec3(shader::sphere_center(sphere));
   const Vec3 d(ray.d);
   const double a = glm::dot(d, d);
   const double b = -glm::dot(f, d);
   const Vec3 nearest = f + d * (b / a);
-  const double r = double(sphere.a.w);
+  const double r = double(shader::sphere_radius(sphere));
   const double square = glm::dot(nearest, nearest);
   const double root = std::sqrt(std::max(0.0, a * (r * r - square)));
   const double q = b < 0 ? b - root : b + root;
@@ -79,7 +79,7 @@ TEST_CASE("rays at a unit sphere: no wrong answer but at the very rim, whatever 
         shader::Hit record{};
         record.t = t;
         const shader::Surface surface = shader::sphere_surface(sphere, ray, record);
-        sum += std::fabs(glm::length(Vec3(surface.p) - Vec3(sphere.a)) - 1);
+        sum += std::fabs(glm::length(Vec3(surface.p) - Vec3(shader::sphere_center(sphere))) - 1);
       }
       error_sum += sum;
     });

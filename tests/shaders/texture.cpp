@@ -256,10 +256,10 @@ TEST_CASE("images of the same texels share them; equal textures are one") {
   packer.write_texels();
   REQUIRE(packer.scene.texels.size() == TEXELS_FIRST + 4);
   CHECK(packer.scene.texels[TEXELS_FIRST + 3] == 0x09070605u);
-  CHECK(packer.scene.textures[2].c.x == 2);
-  CHECK(packer.scene.textures[2].c.y == 1);
-  CHECK(packer.scene.textures[2].c.z == TEXELS_FIRST + 2);
-  CHECK(packer.scene.textures[2].c.w == packer.scene.textures[0].c.w);
+  CHECK(shader::image_width(packer.scene.textures[2]) == 2);
+  CHECK(shader::image_height(packer.scene.textures[2]) == 1);
+  CHECK(shader::image_first_texel(packer.scene.textures[2]) == TEXELS_FIRST + 2);
+  CHECK(shader::image_flags(packer.scene.textures[2]) == shader::image_flags(packer.scene.textures[0]));
 }
 
 TEST_CASE(

@@ -179,7 +179,8 @@ TEST_CASE("a ray along an edge of a sliver hits the sliver, or nothing, by both 
   sliver.c = {0.636856377F, -1.32419074F, 0.396149218F, 0.656011283F};
   const shader::Ray ray =
       shader::make_ray({39.0139923F, -1.32419038F, 19.5847187F}, {-0.89442718F, 0, -0.44721362F});
-  const float nearest = (sliver.a.x - ray.o.x) / ray.d.x, farthest = (sliver.b.x - ray.o.x) / ray.d.x;
+  const float nearest = (shader::corner_a(sliver).x - ray.o.x) / ray.d.x,
+              farthest = (shader::corner_b(sliver).x - ray.o.x) / ray.d.x;
   for (const Intersect intersect :
        {shader::triangle_intersect_woop, shader::triangle_intersect_moller_trumbore}) {
     shader::vec2 uv{};

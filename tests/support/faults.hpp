@@ -53,7 +53,7 @@ inline constexpr Fault faults[] = {
      "(1.99f * at.context.cos_view)"},
     {"depth", "integrators/whitted.glsl", "path.depth < frame.max_depth",
      "path.depth + 1u < frame.max_depth"},
-    {"checker", "textures/checker.glsl", "floor(place.uv.x * texture.b.x)", "ceil(place.uv.x * texture.b.x)"},
+    {"checker", "textures/checker.glsl", "floor(place.uv.x * checks.x)", "ceil(place.uv.x * checks.x)"},
     {"noise", "textures/pattern.glsl", "t * (t * 6.0f - 15.0f) + 10.0f", "t * (t * 6.0f - 15.0f) + 10.1f"},
     {"normal_map", "materials/bent_normal.glsl", "t * x + b * y", "t * x - b * y"},
     {"coat_normal", "materials/bent_normal.glsl", "bent.coat_normal = surface.normal;",
@@ -128,10 +128,11 @@ inline constexpr Fault faults[] = {
     {"light", "lights/light.glsl", "LIGHTS(SAMPLE_OF)",
      "LIGHTS(SAMPLE_OF)\n  s.color = vec3(0.0f, 0.0f, 0.0f);"},
     // Along the line to the eye, which is the origin.
-    {"near_light", "lights/point.glsl", "vec3 way = vec3(light.a) - p;",
-     "vec3 way = 0.999f * vec3(light.a) - p;"},
-    {"bit", "lights/point.glsl", "vec3 way = vec3(light.a) - p;",
-     "light.a.x = uintBitsToFloat(floatBitsToUint(light.a.x) ^ 1u);\n  vec3 way = vec3(light.a) - p;"},
+    {"near_light", "lights/point.glsl", "vec3 way = point_position(light) - p;",
+     "vec3 way = 0.999f * point_position(light) - p;"},
+    {"bit", "lights/point.glsl", "vec3 way = point_position(light) - p;",
+     "light.a.x = uintBitsToFloat(floatBitsToUint(light.a.x) ^ 1u);\n  vec3 way = point_position(light) - "
+     "p;"},
     {"materials", "geometry/surface.glsl", "  return primitive;",
      "  if (material_of(primitive) == 1u) primitive.material_and_kind -= 1u;\n  return primitive;"},
     // What becomes of a pixel.
