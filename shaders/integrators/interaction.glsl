@@ -25,6 +25,14 @@ struct Interaction {
 #endif
 };
 
+bool in_medium(Interaction at) {
+#if HAS_SCATTERING
+  return at.in_medium;
+#else
+  return false;
+#endif
+}
+
 // What does not depend on what the material says. `hit`: that of `ray`, which came through `media`. Adds to `flags` where those are too many.
 Interaction struck_at(Ray ray, Hit hit, uint media, INOUT(uint) flags) {
   Primitive primitive = primitive_at(hit);

@@ -226,97 +226,134 @@ bool path_shadow_ray(Frame frame, Path path, Interaction at, uint i, OUT(Ray) ra
   return shadow_ray_to(frame, path, at, arriving, i_local, lobes, ray, distance, contribution, light);
 }
 
-// By one of the lobes that have shares. The vertex behind the last is there for its light alone.
-Continuations scatter_by(Frame frame, Path path, Interaction at, LobeShares shares) {
-  Continuations all = no_continuation(path);
-  LocalFrame local = local_frame(at);
-  vec3 o = towards_viewer(local, at);
-  vec2 choice = path_pair(frame, path, PAIR_SCATTER);
-  BsdfSample s = sample_bsdf(at.bsdf, shares, o, choice.x, path_pair(frame, path, PAIR_DIRECTION));
+// How a vertex sends the path on.
+struct ScatterEvent {
+  vec3 d;
+  vec3 weight;       // of the light from there
+  float density;     // by solid angle, of d; 0 where there was no choice
+  bool refracted;    // to the other side
+  bool straight_on;  // seen through the surface: a lift would move it
+  bool lost;         // the surface itself stands in the way
+};
 
-  Path next = path;
-  next.d = out_of_frame(local, s.i);
-  next.d = next.d / sqrt(maximum(dot3(next.d, next.d), 1.0e-30f));
-  bool before = is_before(at, next.d);
-  LobeValue lobes = bsdf_value(at.bsdf, shares, o, s.i, before);
-  next.density = lobes.density;
-#if HAS_LIGHT_BVH
-  next.normal = normal_for_lights(at);
-#endif
-  bool lost = !(lobes.density > 0.0f) || !on_its_side(at, next.d, s.i);
-  vec3 weight = lobes.value / maximum(lobes.density, 1.0e-30f);
-  bool refracted = !before;
-  bool straight_on = s.refracted;
-  if (s.mirrored || s.refracted) {
-    next.density = 0.0f;
-    next.d = reflected_direction(at);
-    weight = at.bsdf.mirror / shares.mirror;
-    refracted = s.refracted;
-    lost = false;
-  }
+// `i`, in the point's own frame: the direction that one of the lobes chose.
+ScatterEvent lobe_event(Interaction at, LobeShares shares, LocalFrame local, vec3 i) {
+  ScatterEvent event;
+  event.d = out_of_frame(local, i);
+  event.d = event.d / sqrt(maximum(dot3(event.d, event.d), 1.0e-30f));
+  bool before = is_before(at, event.d);
+  LobeValue lobes = bsdf_value(at.bsdf, shares, towards_viewer(local, at), i, before);
+  event.weight = lobes.value / maximum(lobes.density, 1.0e-30f);
+  event.density = lobes.density;
+  event.refracted = !before;
+  event.straight_on = false;
+  event.lost = !(lobes.density > 0.0f) || !on_its_side(at, event.d, i);
+  return event;
+}
+
+// In the one direction that is mirrored, or refracted.
+ScatterEvent specular_event(Interaction at, LobeShares shares, LocalFrame local, bool refracted) {
+  ScatterEvent event;
+  event.d = reflected_direction(at);
+  event.weight = at.bsdf.mirror / shares.mirror;
 #if HAS_MEDIA
-  if (s.refracted) {
-    next.d = refracted_direction(at);
-    weight = at.bsdf.transmitted / shares.transmitted;
+  if (refracted) {
+    event.d = refracted_direction(at);
+    event.weight = at.bsdf.transmitted / shares.transmitted;
   }
-  if (refracted) next.media = at.media_behind;
 #endif
-  if (s.mirrored || s.refracted) weight = weight * under_layers(layers_between(at.bsdf, into_frame(local, next.d)), 2u);
+  event.weight = event.weight * under_layers(layers_between(at.bsdf, into_frame(local, event.d)), 2u);
+  event.density = 0.0f;
+  event.refracted = refracted;
+  event.straight_on = refracted;
+  event.lost = false;
+  return event;
+}
+
+#if HAS_PANES
+// Straight through a pane. As long as these are not too many, it is no vertex: `density` is that of the direction so far.
+ScatterEvent passing_event(Interaction at, LobeShares shares, float density) {
+  ScatterEvent event;
+  event.d = at.d;
+  event.weight = at.bsdf.passed / shares.passed;
+  event.density = density;
+  event.refracted = true;
+  event.straight_on = true;
+  event.lost = false;
+  return event;
+}
+#endif
+
 #if HAS_SCATTERING
-  if (at.in_medium) {
-    next.d = normalize3(out_of_frame(local, phase_direction(at.anisotropy, path_pair(frame, path, PAIR_DIRECTION))));
-    next.density = phase_value(at.anisotropy, at.d, next.d);
-    weight = vec3(1.0f, 1.0f, 1.0f);
-    refracted = false;
-    lost = false;
-  }
+ScatterEvent medium_event(Interaction at, LocalFrame local, vec2 u) {
+  ScatterEvent event;
+  event.d = normalize3(out_of_frame(local, phase_direction(at.anisotropy, u)));
+  event.weight = vec3(1.0f, 1.0f, 1.0f);
+  event.density = phase_value(at.anisotropy, at.d, event.d);
+  event.refracted = false;
+  event.straight_on = false;
+  event.lost = false;
+  return event;
+}
 #endif
-  next.depth = path.depth + 1u;
-  bool goes_on = path.depth <= frame.max_depth;
-#if HAS_PANES
-  next.past_panes = path.past_panes + path.panes;
-  next.panes = 0u;
-  bool straight = s.passed && path.panes < MOST_PANES;
-  if (s.passed) {
-    next.d = path.d;
-    weight = at.bsdf.passed / shares.passed;
-    lost = false;
-    refracted = true;
-    straight_on = true;
-    next.media = at.media_behind;
-  }
-  if (straight) {
-    next.density = path.density;
-    next.normal = path.normal;
-    next.depth = path.depth;
-    next.past_panes = path.past_panes;
-    next.panes = path.panes + 1u;
-    goes_on = true;
-  }
-  if (s.passed && !straight) next.density = 0.0f;
-#endif
+
+// The path after that; `straight`: past a pane that is no vertex. The vertex behind the last is there for its light alone.
+Path path_after(Path path, Interaction at, ScatterEvent event, bool straight) {
+  Path next = path;
+  next.d = event.d;
+  next.o = event.straight_on ? spawn_ray(at.surface, event.d).o : scattered_origin(at, event.d, !event.refracted);
+  next.throughput = path.throughput * event.weight;
+  next.density = event.density;
+  if (event.refracted) next.media = at.media_behind;
 #if RAY_KINDS
-  next.refracted = refracted;
+  next.refracted = event.refracted;
 #endif
-  // A lift would move what is seen through a surface.
-  next.o = straight_on ? spawn_ray(at.surface, next.d).o : scattered_origin(at, next.d, !refracted);
-  next.throughput = path.throughput * weight;
+  if (!straight) {
+    next.depth = path.depth + 1u;
+#if HAS_LIGHT_BVH
+    next.normal = normal_for_lights(at);
+#endif
+  }
 #if HAS_PANES
-  if (!straight) next.from = next.o;
+  next.panes = straight ? path.panes + 1u : 0u;
+  if (!straight) {
+    next.past_panes = path.past_panes + path.panes;
+    next.from = next.o;
+  }
 #endif
+  return next;
+}
+
+// By one of the lobes that have shares.
+Continuations scatter_by(Frame frame, Path path, Interaction at, LobeShares shares) {
+  LocalFrame local = local_frame(at);
+  vec2 choice = path_pair(frame, path, PAIR_SCATTER);
+  vec2 u = path_pair(frame, path, PAIR_DIRECTION);
+  BsdfSample s = sample_bsdf(at.bsdf, shares, towards_viewer(local, at), choice.x, u);
+  ScatterEvent event = lobe_event(at, shares, local, s.i);
+  if (s.mirrored || s.refracted) event = specular_event(at, shares, local, s.refracted);
+  bool straight = false;
+#if HAS_PANES
+  straight = s.passed && path.panes < MOST_PANES;
+  if (s.passed) event = passing_event(at, shares, straight ? path.density : 0.0f);
+#endif
+#if HAS_SCATTERING
+  if (at.in_medium) event = medium_event(at, local, u);
+#endif
+  Path next = path_after(path, at, event, straight);
 
   // Roulette.
   float survival = path.depth < FIRST_ROULETTE ? 1.0f : minimum(maximum(max_component(next.throughput), LEAST_SURVIVAL), 1.0f);
   next.throughput = next.throughput / survival;
+  bool survives = !event.lost && choice.y < survival;
+  bool goes_on = straight || path.depth <= frame.max_depth;
+  Continuations all = no_continuation(path);
   all.next = next;
-  all.count = !lost && choice.y < survival && goes_on ? 1u : 0u;
+  all.count = survives && goes_on ? 1u : 0u;
 #if RAY_KINDS
-  all.cut_off = !lost && choice.y < survival && !goes_on;
+  all.cut_off = survives && !goes_on;
 #endif
-  all.way = s.lobe | (refracted ? THROUGH : 0u);
-#if HAS_SCATTERING
-  if (at.in_medium) all.way = WAY_IN_MEDIUM;
-#endif
+  all.way = in_medium(at) ? WAY_IN_MEDIUM : s.lobe | (event.refracted ? THROUGH : 0u);
   PROBE(survival, survival);
   return all;
 }

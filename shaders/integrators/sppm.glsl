@@ -55,14 +55,6 @@ vec3 gathered(Frame frame, Path path, Interaction at) {
 vec3 gathered(Frame frame, Path path, Interaction at) { return vec3(0.0f, 0.0f, 0.0f); }
 #endif
 
-bool in_medium(Interaction at) {
-#if HAS_SCATTERING
-  return at.in_medium;
-#else
-  return false;
-#endif
-}
-
 // A point of a medium is no surface to gather on: there paths go on as those that are traced alone.
 vec3 sppm_emitted(Frame frame, Path path, Interaction at) {
   vec3 light = path_emitted(frame, path, at);
