@@ -11,12 +11,10 @@ SHADER_BEGIN
 Ray perspective_ray(Frame frame, vec3 across, vec2 lens) {
   vec3 start = vec3(0.0f, 0.0f, 0.0f);
   vec3 way = across + frame.forward;
-#if HAS_LENS
-  if (frame.aperture > 0.0f) {
+  if (HAS_LENS == 1 && frame.aperture > 0.0f) {
     start = normalize3(frame.right) * lens.x + normalize3(frame.up) * lens.y;
     way = way - start * frame.sharpness;
   }
-#endif
   return make_ray(start, normalize3(way));
 }
 

@@ -71,12 +71,12 @@ Interaction struck_at(Ray ray, Hit hit, uint media, INOUT(uint) flags) {
   at.in_medium = false;
   at.anisotropy = 0.0f;
 #endif
-#if HAS_MEDIA
-  if (at.material.medium != 0u)
-    at.media_behind = front ? enter_medium(media, at.material.medium, flags) : leave_medium(media, at.material.medium);
-  at.context.ior_from = load_medium(innermost_medium(media)).ior;
-  at.context.ior_to = load_medium(innermost_medium(at.media_behind)).ior;
-#endif
+  if (HAS_MEDIA == 1) {
+    if (at.material.medium != 0u)
+      at.media_behind = front ? enter_medium(media, at.material.medium, flags) : leave_medium(media, at.material.medium);
+    at.context.ior_from = load_medium(innermost_medium(media)).ior;
+    at.context.ior_to = load_medium(innermost_medium(at.media_behind)).ior;
+  }
   PROBE(ior, vec2(at.context.ior_from, at.context.ior_to));
   return at;
 }
@@ -85,10 +85,9 @@ Interaction interaction_at(Ray ray, Hit hit, uint media, INOUT(uint) flags) {
   uint material = material_of(primitive_at(hit));
   Interaction at = struck_at(ray, hit, media, flags);
   at.scattering = scattering_of(material, at.material, at.context);
-#if HAS_ONE_SIDED_EMISSION
-  bool front = dot3(ray.d, at.surface.normal_geometric) < 0.0f;
-  if (!front && (at.material.flags & MATERIAL_EMITS_IN_FRONT) != 0u) at.scattering.emitted = vec3(0.0f, 0.0f, 0.0f);
-#endif
+  bool behind = !(dot3(ray.d, at.surface.normal_geometric) < 0.0f);
+  if (HAS_ONE_SIDED_EMISSION == 1 && behind && (at.material.flags & MATERIAL_EMITS_IN_FRONT) != 0u)
+    at.scattering.emitted = vec3(0.0f, 0.0f, 0.0f);
 #if RANDOM_WALK
   at.bsdf = bsdf_of(material, at.material, at.context, at.scattering);
 #endif

@@ -22,20 +22,15 @@ float bent_both_ways(Interaction at, vec3 d) {
   float out_bent = abs(dot3(d, at.seen.normal));
   float in_true = abs(dot3(at.d, at.seen.normal_geometric));
   float out_true = abs(dot3(d, at.seen.normal_geometric));
-#if HAS_SMOOTH
-  if (dot3(d, at.seen.normal_geometric) * dot3(d, side_normal(at.seen)) < 0.0f) return 0.0f;
-#endif
+  if (HAS_SMOOTH == 1 && dot3(d, at.seen.normal_geometric) * dot3(d, side_normal(at.seen)) < 0.0f) return 0.0f;
   return (out_true / maximum(out_bent, 1.0e-6f)) * (in_bent / maximum(in_true, 1.0e-6f));
 }
 
 // Flux is radiance times area times solid angle. So in a medium that is index² times what radiance / index² makes of it.
 float squared_index(uint media) {
-#if HAS_MEDIA
+  if (HAS_MEDIA == 0) return 1.0f;
   float ior = load_medium(innermost_medium(media)).ior;
   return ior * ior;
-#else
-  return 1.0f;
-#endif
 }
 
 PhotonResult photon_way(Frame frame, uint index, uint number) {

@@ -47,7 +47,6 @@ float density_by_area(Emitter e, vec3 middle, EmitterSample place) {
   return may_light(e, e.primitive) ? closed : 1.0f / e.area;
 }
 
-#if HAS_EMISSION
 PhotonSource from_surface(PhotonPass pass, Emitter e, vec2 start, vec2 heading, vec2 side) {
   vec3 middle = middle_of(e);
   EmitterSample place = sample_emitter(e, middle, start);
@@ -67,7 +66,6 @@ PhotonSource from_surface(PhotonPass pass, Emitter e, vec2 start, vec2 heading, 
   source.flux = emitter_radiance(e, place, -source.d) * (sides * PI / density_by_area(e, middle, place) * aimed_weight(way, dot3(n, way.at) / PI));
   return source;
 }
-#endif
 
 #if HAS_ENVIRONMENT
 PhotonSource from_around(Frame frame, PhotonPass pass, vec2 start, vec2 heading, float aim) {
@@ -83,7 +81,6 @@ PhotonSource from_around(Frame frame, PhotonPass pass, vec2 start, vec2 heading,
 }
 #endif
 
-#if HAS_MEDIUM_EXTENT && HAS_ABSORPTION
 // Light from infinitely far away has come through the medium around all before its photon starts. A photon of which
 // that leaves little is rare instead: it starts with the probability `survival`, by a random number.
 vec3 after_upstream(Frame frame, PhotonSource source, float chance) {
@@ -91,7 +88,6 @@ vec3 after_upstream(Frame frame, PhotonSource source, float chance) {
   float survival = max_component(left);
   return chance < survival ? source.flux * left / survival : vec3(0.0f, 0.0f, 0.0f);
 }
-#endif
 
 PhotonSource photon_source(Frame frame, PhotonPass pass, uint pixel, uint number) {
   vec2 choice = sample_pair(frame, pixel, number, PAIR_SOURCE);
@@ -124,18 +120,16 @@ PhotonSource photon_source(Frame frame, PhotonPass pass, uint pixel, uint number
       source.flux = emission.flux;
       source.aim = emission.aim;
     }
-#if HAS_EMISSION
-    if (light >= LIGHT_COUNT) source = from_surface(pass, load_emitter(light), start, heading, side);
-#endif
+    if (HAS_EMISSION == 1 && light >= LIGHT_COUNT) source = from_surface(pass, load_emitter(light), start, heading, side);
   }
   source.light = light;
   source.media = light == NONE ? 0u : load_emitter_media(2u * light + (source.below ? 1u : 0u));
   source.flux = source.flux / share;
-#if HAS_MEDIUM_EXTENT && HAS_ABSORPTION
-  bool afar = light == NONE;
-  if (light < LIGHT_COUNT) afar = sample_light(load_light(light), source.o).distance == T_MISS;
-  if (afar && frame.has_medium_extent != 0u) source.flux = after_upstream(frame, source, side.x);
-#endif
+  if (HAS_MEDIUM_EXTENT == 1 && HAS_ABSORPTION == 1) {
+    bool afar = light == NONE;
+    if (light < LIGHT_COUNT) afar = sample_light(load_light(light), source.o).distance == T_MISS;
+    if (afar && frame.has_medium_extent != 0u) source.flux = after_upstream(frame, source, side.x);
+  }
   return source;
 }
 

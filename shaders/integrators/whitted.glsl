@@ -14,9 +14,7 @@ vec3 whitted_missed(Frame frame, Path path) { return surroundings(frame, path.d)
 // The ambient light, and the surface's own.
 vec3 whitted_emitted(Frame frame, Path path, Interaction at) {
   vec3 color = at.scattering.ambient * frame.ambient;
-#if HAS_EMISSION
-  color = color + at.scattering.emitted;
-#endif
+  if (HAS_EMISSION == 1) color = color + at.scattering.emitted;
   return color;
 }
 

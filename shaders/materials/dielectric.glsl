@@ -14,12 +14,10 @@ Scattering dielectric_scattering(Material material, ScatteringContext context) {
   Scattering s = no_scattering();
   bool one_medium = context.ior_from == context.ior_to;
   float reflected = one_medium ? 0.0f : fresnel_reflectance(context.cos_view, context.ior_from, context.ior_to);
-#if HAS_MEDIA
-  if ((material.flags & MATERIAL_PANE) != 0u) {
+  if (HAS_MEDIA == 1 && (material.flags & MATERIAL_PANE) != 0u) {
     reflected = fresnel_reflectance(context.cos_view, context.ior_from, pane_ior(material));
     reflected = 2.0f * reflected / (1.0f + reflected);
   }
-#endif
   s.specular = specular_of(material, context.place);
   s.reflected = vec3(reflected, reflected, reflected);
   s.transmitted = vec3(1.0f - reflected, 1.0f - reflected, 1.0f - reflected);
@@ -28,7 +26,6 @@ Scattering dielectric_scattering(Material material, ScatteringContext context) {
 
 #if RANDOM_WALK
 // Of a surface that lets through `weight` of the light that comes, in `color`: single directions if it is polished, else lobes.
-#if HAS_MEDIA
 void add_glass(INOUT(Bsdf) bsdf, Scattering surface, float roughness, float weight, vec3 color, ScatteringContext context) {
   bsdf.mirror = bsdf.mirror + surface.reflected * weight;
   bsdf.transmitted = bsdf.transmitted + surface.transmitted * (color * weight);
@@ -44,14 +41,11 @@ void add_glass(INOUT(Bsdf) bsdf, Scattering surface, float roughness, float weig
   }
 #endif
 }
-#endif
 
 #if HAS_PANES
 vec3 dielectric_passed(Material material, ScatteringContext context) {
   vec3 passed = dielectric_scattering(material, context).transmitted;
-#if HAS_THIN
-  if (!is_interface(material, context) && roughness_of(material, context.place).y > 0.0f) passed = vec3(0.0f, 0.0f, 0.0f);
-#endif
+  if (HAS_THIN == 1 && !is_interface(material, context) && roughness_of(material, context.place).y > 0.0f) passed = vec3(0.0f, 0.0f, 0.0f);
   return passed;
 }
 #endif
@@ -59,9 +53,7 @@ vec3 dielectric_passed(Material material, ScatteringContext context) {
 Bsdf dielectric_bsdf(Material material, ScatteringContext context, Scattering scattering) {
   Bsdf bsdf = black_bsdf();
   vec3 white = vec3(1.0f, 1.0f, 1.0f);
-#if HAS_ROUGH_GLASS || HAS_THIN
-  bsdf.roughness = roughness_of(material, context.place).y;
-#endif
+  if (HAS_ROUGH_GLASS == 1 || HAS_THIN == 1) bsdf.roughness = roughness_of(material, context.place).y;
   bool pane = (material.flags & MATERIAL_PANE) != 0u;
 #if HAS_PANES
   if (pane) {
@@ -77,16 +69,12 @@ Bsdf dielectric_bsdf(Material material, ScatteringContext context, Scattering sc
     bsdf.thin = white;
   }
 #endif
-#endif
-#if HAS_PANES
   if (is_interface(material, context)) {
     bsdf.passed = scattering.transmitted;
     return bsdf;
   }
 #endif
-#if HAS_MEDIA
-  if (!pane) add_glass(bsdf, scattering, bsdf.roughness, 1.0f, white, context);
-#endif
+  if (HAS_MEDIA == 1 && !pane) add_glass(bsdf, scattering, bsdf.roughness, 1.0f, white, context);
   return bsdf;
 }
 #endif

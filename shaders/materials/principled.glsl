@@ -14,22 +14,18 @@ float principled_f90(Material material) { return material.b.w; }  // … so seen
 
 Scattering principled_scattering(Material material, ScatteringContext context) {
   Scattering s = phong_scattering(material, context);
-#if HAS_TRANSMISSION
-  if ((material.flags & MATERIAL_CLEAR) != 0u) {
+  if (HAS_TRANSMISSION == 1 && (material.flags & MATERIAL_CLEAR) != 0u) {
     vec3 emitted = s.emitted;
     s = dielectric_scattering(material, context);
     s.emitted = emitted;
   }
-#endif
   return s;
 }
 
 #if RANDOM_WALK
 vec3 principled_color(Material material, ScatteringContext context) {
   vec3 color = color_of(material, context.place);
-#if HAS_TRANSMISSION
-  if ((material.flags & MATERIAL_CLEAR) != 0u) color = base_of(material, context.place);
-#endif
+  if (HAS_TRANSMISSION == 1 && (material.flags & MATERIAL_CLEAR) != 0u) color = base_of(material, context.place);
   return color * context.color;
 }
 
@@ -42,12 +38,12 @@ Bsdf principled_surface(Material material, ScatteringContext context, vec3 color
   vec3 f0 = principled_f0(material);
   float f90 = principled_f90(material);
   vec3 edge = white * f90;
-#if HAS_SPECULAR_TEXTURES
-  vec3 tint = specular_color_of(material, context.place);
-  float level = specular_level_of(material, context.place).x;
-  f0 = vec3(minimum(f0.x * tint.x, f90), minimum(f0.y * tint.y, f90), minimum(f0.z * tint.z, f90)) * level;
-  edge = edge * level;
-#endif
+  if (HAS_SPECULAR_TEXTURES == 1) {
+    vec3 tint = specular_color_of(material, context.place);
+    float level = specular_level_of(material, context.place).x;
+    f0 = vec3(minimum(f0.x * tint.x, f90), minimum(f0.y * tint.y, f90), minimum(f0.z * tint.z, f90)) * level;
+    edge = edge * level;
+  }
   bsdf.layer = schlick(f0, edge);
   bsdf.layered = 1.0f - metallic;
   bsdf.metal = schlick(color, white);
@@ -79,9 +75,7 @@ float principled_through(Material material, ScatteringContext context, float met
 // Of a pane with that surface.
 vec3 passed_straight(Bsdf bsdf, vec3 color, float through) {
   vec3 passed = color * through * (vec3(1.0f, 1.0f, 1.0f) - layer_albedo(bsdf.layer, bsdf.albedo)) * under_layers(layers_towards_viewer(bsdf), 2u);
-#if HAS_THIN
-  if (bsdf.roughness > 0.0f) passed = vec3(0.0f, 0.0f, 0.0f);
-#endif
+  if (HAS_THIN == 1 && bsdf.roughness > 0.0f) passed = vec3(0.0f, 0.0f, 0.0f);
   return passed;
 }
 
@@ -109,8 +103,7 @@ Bsdf principled_bsdf(Material material, ScatteringContext context, Scattering sc
     if (pane && bsdf.roughness > 0.0f) bsdf.thin = color * through;
 #endif
 #endif
-#if HAS_MEDIA
-    if (!pane) {
+    if (HAS_MEDIA == 1 && !pane) {
       float mirrored = context.ior_from == context.ior_to ? 0.0f : fresnel_reflectance(context.cos_view, context.ior_from, context.ior_to);
       Scattering surface = no_scattering();
       surface.reflected = white * mirrored;
@@ -120,7 +113,6 @@ Bsdf principled_bsdf(Material material, ScatteringContext context, Scattering sc
       bsdf.layered = bsdf.layered - through;
 #endif
     }
-#endif
   }
 #endif
   return bsdf;
