@@ -54,7 +54,7 @@ int main(int argc, char** argv) try {
   // What is wrong is refused as in a file, by the line of builder.text().
   try {
     builder.add("sphere", Table().set("center", {0, 0, 0}).set("radius", -1).set("material", "glass"));
-    builder.scene();
+    static_cast<void>(builder.scene());
   } catch (const eyeray::Error& error) {
     const eyeray::Diagnostic& first = error.diagnostics().front();
     std::printf("refused at line %d: %s\n", first.line, first.message.c_str());

@@ -54,6 +54,23 @@ const std::vector<Diagnostic>& Picture::warnings() const noexcept {
   return data_->warnings;
 }
 
+std::vector<uint8_t> Picture::tonemapped() const {
+  return library::ask_engine([&] {
+    const image::Image shown = image::toned(data_->color, data_->tone);
+    std::vector<uint8_t> codes(shown.sample_count());
+    std::ranges::transform(shown.samples(), codes.begin(), image::srgb8);
+    return codes;
+  });
+}
+
+std::string Picture::png() const {
+  return library::ask_engine([&] {
+    if (data_->color.sample_count() == 0)
+      throw eyeray::Error(ExitCode::bad_input, "there is no .png: the picture was cancelled and is empty");
+    return image::encode_png(image::toned(data_->color, data_->tone));
+  });
+}
+
 void Picture::write(const std::filesystem::path& file) const {
   library::call_engine([&] {
     const bool shown = image::image_format(file) == image::ImageFormat::png;

@@ -14,19 +14,13 @@ std::vector<loader::Override> overrides_of(const v0::SceneOptions& options) {
   return overrides;
 }
 
-v0::Scene checked(Scene read) {
-  Scene scene = session::checked(std::move(read));
-  std::vector<v0::Diagnostic> warnings = to_public(scene.warnings);
-  return v0::Scene(
-      std::make_shared<const v0::Scene::Data>(v0::Scene::Data{std::move(scene), std::move(warnings)}));
-}
-
 }  // namespace
 
-v0::Scene parse(std::string_view toml, const std::string& name, const v0::SceneOptions& options,
+v0::Scene parse(std::string_view toml, std::string_view name, const v0::SceneOptions& options,
                 const loader::MemoryFiles& files) {
   return ask_engine([&] {
-    return checked(loader::parse_scene(toml, name, overrides_of(options), files, options.formulas));
+    return v0::Scene::Data::checked(
+        loader::parse_scene(toml, std::string(name), overrides_of(options), files, options.formulas));
   });
 }
 
@@ -34,14 +28,20 @@ v0::Scene parse(std::string_view toml, const std::string& name, const v0::SceneO
 
 namespace eyeray::v0 {
 
+Scene Scene::Data::checked(eyeray::Scene read) {
+  eyeray::Scene scene = session::checked(std::move(read));
+  std::vector<Diagnostic> warnings = library::to_public(scene.warnings);
+  return Scene(std::make_shared<const Data>(Data{std::move(scene), std::move(warnings)}));
+}
+
 Scene Scene::read(const std::filesystem::path& file, const SceneOptions& options) {
   return library::ask_engine([&] {
-    return library::checked(loader::load_scene(file, library::overrides_of(options),
-                                               {options.allowed_folders, options.formulas}));
+    return Data::checked(loader::load_scene(file, library::overrides_of(options),
+                                            {options.allowed_folders, options.formulas}));
   });
 }
 
-Scene Scene::parse(std::string_view toml, const std::string& name, const SceneOptions& options) {
+Scene Scene::parse(std::string_view toml, std::string_view name, const SceneOptions& options) {
   return library::parse(toml, name, options, {});
 }
 

@@ -15,6 +15,9 @@ namespace eyeray::v0 {
 struct Scene::Data {
   eyeray::Scene scene;
   std::vector<Diagnostic> warnings;
+
+  // Checks a scene that was read as the program does.
+  static Scene checked(eyeray::Scene scene);
 };
 
 }  // namespace eyeray::v0
@@ -22,7 +25,7 @@ struct Scene::Data {
 namespace eyeray::library {
 
 // v0::Error as v0::Scene::parse.
-v0::Scene parse(std::string_view toml, const std::string& name, const v0::SceneOptions& options,
+v0::Scene parse(std::string_view toml, std::string_view name, const v0::SceneOptions& options,
                 const loader::MemoryFiles& files);
 
 }  // namespace eyeray::library

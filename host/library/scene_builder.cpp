@@ -75,12 +75,12 @@ SceneBuilder::~SceneBuilder() = default;
 SceneBuilder::SceneBuilder(SceneBuilder&&) noexcept = default;
 SceneBuilder& SceneBuilder::operator=(SceneBuilder&&) noexcept = default;
 
-SceneBuilder& SceneBuilder::set(const std::string& section, const Table& table) {
+SceneBuilder& SceneBuilder::set(std::string_view section, const Table& table) {
   data_->text += fmt::format("[{}]\n{}\n", library::key_text(section), library::lines(table));
   return *this;
 }
 
-SceneBuilder& SceneBuilder::add(const std::string& section, const Table& table) {
+SceneBuilder& SceneBuilder::add(std::string_view section, const Table& table) {
   data_->text += fmt::format("[[{}]]\n{}\n", library::key_text(section), library::lines(table));
   return *this;
 }
@@ -99,7 +99,7 @@ std::string SceneBuilder::text() const {
   return data_->text;
 }
 
-Scene SceneBuilder::scene(const std::string& name, const SceneOptions& options) const {
+Scene SceneBuilder::scene(std::string_view name, const SceneOptions& options) const {
   return library::parse(data_->text, name, options, data_->meshes);
 }
 

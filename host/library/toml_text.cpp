@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "host/core/escaped_text.hpp"
@@ -12,16 +13,6 @@
 
 namespace eyeray::library {
 namespace {
-
-// to_chars writes the shortest that is read back the same; what has neither point nor exponent is read as an
-// integer, which every key that wants a number takes, and keys that want an integer take from 3.0.
-std::string number(double value) {
-  if (std::isnan(value)) return "nan";
-  if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
-  char text[32];
-  const auto [end, error] = std::to_chars(text, text + sizeof text, value);
-  return {text, end};
-}
 
 std::string list_of(const v0::Value* begin, const v0::Value* end) {
   std::string text = "[";
@@ -51,12 +42,31 @@ std::string lines(const v0::Table& table) {
 
 namespace eyeray::v0 {
 
-Value::Value(bool value) : toml_(value ? "true" : "false") {}
-Value::Value(int value) : toml_(std::to_string(value)) {}
-Value::Value(int64_t value) : toml_(std::to_string(value)) {}
-Value::Value(double value) : toml_(library::number(value)) {}
-Value::Value(const char* value) : toml_(toml_string(value)) {}
-Value::Value(const std::string& value) : toml_(toml_string(value)) {}
+// to_chars writes the shortest that is read back the same; what has neither point nor exponent is read as an
+// integer, which every key that wants a number takes, and keys that want an integer take from 3.0.
+std::string Value::of_floating(double value) {
+  if (std::isnan(value)) return "nan";
+  if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
+  char text[32];
+  const auto [end, error] = std::to_chars(text, text + sizeof text, value);
+  return {text, end};
+}
+
+std::string Value::of_signed(int64_t value) {
+  return std::to_string(value);
+}
+
+std::string Value::of_unsigned(uint64_t value) {
+  if (value > uint64_t(std::numeric_limits<int64_t>::max()))
+    throw Error(ErrorKind::bad_input,
+                fmt::format("{} is no value of a scene: its integers end at 9223372036854775807", value));
+  return std::to_string(value);
+}
+
+std::string Value::quoted(std::string_view text) {
+  return toml_string(text);
+}
+
 Value::Value(std::initializer_list<Value> list) : toml_(library::list_of(list.begin(), list.end())) {}
 Value::Value(const std::vector<Value>& list)
     : toml_(library::list_of(list.data(), list.data() + list.size())) {}
@@ -66,7 +76,7 @@ Value::Value(const Table& table) : toml_("{ ") {
   toml_ += " }";
 }
 
-Table& Table::set(const std::string& key, const Value& value) {
+Table& Table::set(std::string_view key, const Value& value) {
   entries_.emplace_back(key, value);
   return *this;
 }

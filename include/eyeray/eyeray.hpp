@@ -4,11 +4,14 @@
 //   const eyeray::Picture picture = renderer.render(eyeray::Scene::read("scene.toml"));
 //   picture.write("picture.png");
 //
-// Every function may be called from any thread. Each renders on all cores, so calls that work wait for each
-// other. Faults of the world are thrown as Error. The process is never ended, no signal is caught, and
-// nothing is printed; the environment stays as it is. A broken promise inside eyeray, a bug, calls abort().
+// Any thread may call any function. A call that renders uses all cores, so such calls wait for each other.
+// Functions throw Error for faults of the world: a file, a scene, a device. The library never ends the
+// process, catches no signal, prints nothing, and leaves the environment as it is. A broken promise inside
+// eyeray, which is a bug, calls abort().
 #pragma once
 
+#include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -18,29 +21,29 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "eyeray/version.hpp"
 
-#define EYERAY_API __attribute__((visibility("default")))
+#define EYERAY_API [[gnu::visibility("default")]]
 
-#ifndef EYERAY_ITSELF  // whose own files have an eyeray::Scene of theirs
-namespace eyeray {
-inline namespace v0 {}
-}  // namespace eyeray
+#ifdef EYERAY_ITSELF  // eyeray's own files have another eyeray::Scene
+namespace eyeray::v0 {
+#else
+namespace eyeray::inline v0 {
 #endif
 
-namespace eyeray::v0 {
-
-// "0.1.0", of the library that runs; EYERAY_VERSION is that of this header. By semver.org: while it begins
-// with 0, what differs before the second point may be incompatible.
-EYERAY_API std::string_view version() noexcept;
+// The version of the library that runs, as "0.1.0"; EYERAY_VERSION is the header's. Versions follow
+// semver.org: while the first number is 0, another second number may break programs.
+[[nodiscard]] EYERAY_API std::string_view version() noexcept;
 
 // ---- Errors
 
-// What is wrong, or doubtful, and where: scene.toml:12:5. Lines and columns count from 1; 0 where unknown.
+// An error or a warning, and its place: scene.toml:12:5. Lines and columns count from 1; 0 is unknown.
 struct Diagnostic {
-  bool is_error = true;  // else a warning
+  bool is_error = true;  // false: a warning
   std::string file;
   int line = 0;
   int column = 0;
@@ -48,20 +51,20 @@ struct Diagnostic {
 };
 
 enum class ErrorKind {
-  bad_input,  // a scene, a shader, an option
-  no_device,  // no usable Vulkan device, or it was lost; or no memory
-  file_io,
-  timed_out,  // the device, longer than RendererOptions::timeout_seconds
-  cancelled,  // by a Cancellation or by Progress
+  bad_input,  // a scene, a shader or an option is wrong
+  no_device,  // there is no usable Vulkan device, it was lost, or memory ran out
+  file_io,    // a file cannot be read or written
+  timed_out,  // the device took longer than RendererOptions::timeout_seconds
+  cancelled,  // a Cancellation or a progress function ended the call
 };
 
-// what() is for people: one sentence, or of a scene all its diagnostics, each with the line and a caret.
+// what() is text for people: one sentence, or all diagnostics of a scene, each with its line and a caret.
 class EYERAY_API Error : public std::runtime_error {
  public:
   Error(ErrorKind kind, const std::string& what, std::vector<Diagnostic> diagnostics = {});
   ~Error() override;
   ErrorKind kind() const noexcept { return kind_; }
-  // All that is wrong with a scene or a shader, in the order of the file; else empty.
+  // Every fault of a scene or a shader, in the order of the file. Other errors have none.
   const std::vector<Diagnostic>& diagnostics() const noexcept { return *diagnostics_; }
 
  private:
@@ -72,33 +75,33 @@ class EYERAY_API Error : public std::runtime_error {
 // ---- Scenes
 
 struct SceneOptions {
-  // "render.max_depth=3", "sphere.0.radius=2": laid over the scene, as -D of the command line.
+  // Values laid over the scene, as -D of the command line: "render.max_depth=3", "sphere.0.radius=2".
   std::vector<std::string> defines = {};
-  // Beside the folder of the scene's file, where it may read from; with all below.
+  // Folder trees that the scene may read from, beside that of its own file.
   std::vector<std::filesystem::path> allowed_folders = {};
-  // Whether it may bring functions of its own ([[implicit]] with `code` or `file`).
+  // Accept a scene with functions of its own ([[implicit]] with `code` or `file`).
   bool formulas = true;
 };
 
-// Triangles from memory. Each span must be as long as the others make it; an Error (bad_input) says where
-// not, and what is wrong with the values (NaN, an index out of range, no area …).
+// Triangles from memory. Spans whose lengths disagree are an Error (bad_input), as are values that no mesh
+// can have: NaN, an index out of range, a triangle without area.
 struct MeshArrays {
-  std::span<const float> positions;     // x, y, z a vertex
+  std::span<const float> positions;     // x, y, z of each vertex
   std::span<const uint32_t> triangles;  // three vertices each, counter-clockwise seen from outside
-  std::span<const float> normals = {};  // x, y, z a vertex, or none: smooth up to 40° between faces
-  std::span<const float> uv = {};       // two a vertex, or none
+  std::span<const float> normals = {};  // x, y, z of each vertex; empty: smooth up to 40° between faces
+  std::span<const float> uv = {};       // u, v of each vertex; empty: the mesh has none
 };
 
-class SceneBuilder;
+class Renderer;
 
-// A scene, checked. Copies share it: it never changes.
-class EYERAY_API Scene {
+// A checked scene. It never changes, and copies share it.
+class [[nodiscard]] EYERAY_API Scene {
  public:
-  // From a file: .toml, or a mesh (.obj .ply .gltf .glb). Error: file_io, or bad_input with every
+  // Reads a file: .toml, or a mesh (.obj .ply .gltf .glb). Error: file_io, or bad_input with every
   // diagnostic.
   static Scene read(const std::filesystem::path& file, const SceneOptions& options = {});
-  // From text, as a file holds it; `name` stands in diagnostics. It can name no files but include none.
-  static Scene parse(std::string_view toml, const std::string& name = "scene",
+  // Reads the text of a scene file; diagnostics call it `name`. Such a scene cannot name other files.
+  static Scene parse(std::string_view toml, std::string_view name = "scene",
                      const SceneOptions& options = {});
 
   int width() const noexcept;  // of the picture, in pixels
@@ -107,45 +110,72 @@ class EYERAY_API Scene {
   const std::vector<Diagnostic>& warnings() const noexcept;
 
   struct Data;  // the engine's
+
+ private:
+  friend class Renderer;
   explicit Scene(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
   const Data& data() const noexcept { return *data_; }
 
- private:
   std::shared_ptr<const Data> data_;
 };
 
 class Table;
 
-// What a key of a scene can be; kept as the TOML that it is.
+// An integer of up to 64 bits or a floating-point number. bool and the character types are none.
+template <typename T>
+concept SceneNumber = std::floating_point<T> ||
+                      (std::integral<T> && sizeof(T) <= 8 && !std::same_as<T, bool> &&
+                       !std::same_as<T, char> && !std::same_as<T, wchar_t> && !std::same_as<T, char8_t> &&
+                       !std::same_as<T, char16_t> && !std::same_as<T, char32_t>);
+
+// The value of a scene's key: a truth value, a number, a text, a list or a table. It converts from each,
+// as in `set("two_sided", true)`, and holds the TOML of it.
 class EYERAY_API Value {
  public:
-  Value(bool value);  // NOLINT: `set("two_sided", true)` is what this is for
-  Value(int value);
-  Value(int64_t value);
-  Value(double value);
-  Value(const char* value);
-  Value(const std::string& value);
+  // A template, since pointers would convert to bool.
+  template <std::same_as<bool> Bool>
+  Value(Bool value) : toml_(value ? "true" : "false") {}
+  // Error (bad_input) above 2^63 − 1, which TOML cannot hold.
+  template <SceneNumber T>
+  Value(T value) : toml_(number(value)) {}
+  template <std::convertible_to<std::string_view> Text>
+  Value(const Text& text) : toml_(quoted(text)) {}
+  Value(std::nullptr_t) = delete;
   Value(std::initializer_list<Value> list);  // {0, 1, 5}
   Value(const std::vector<Value>& list);
   Value(const Table& table);
   const std::string& toml() const noexcept { return toml_; }
 
  private:
+  template <SceneNumber T>
+  static std::string number(T value) {
+    if constexpr (std::floating_point<T>)
+      return of_floating(double(value));
+    else if constexpr (std::is_signed_v<T>)
+      return of_signed(value);
+    else
+      return of_unsigned(value);
+  }
+  static std::string of_floating(double value);
+  static std::string of_signed(int64_t value);
+  static std::string of_unsigned(uint64_t value);
+  static std::string quoted(std::string_view text);
+
   std::string toml_;
 };
 
-// A table of a scene: keys and values, in the order in which they were set. docs/scene-reference.md lists
-// them.
+// A table of a scene: keys and their values, in the order in which they were set. docs/scene-reference.md
+// lists all keys.
 class EYERAY_API Table {
  public:
-  Table& set(const std::string& key, const Value& value);  // *this
+  Table& set(std::string_view key, const Value& value);  // returns *this
   const std::vector<std::pair<std::string, Value>>& entries() const noexcept { return entries_; }
 
  private:
   std::vector<std::pair<std::string, Value>> entries_;
 };
 
-// A scene built in code, of the same tables as a file has:
+// Builds a scene in code, from the tables that a scene file has:
 //
 //   eyeray::SceneBuilder builder;
 //   builder.set("camera", eyeray::Table().set("eye", {0, 1, 5}).set("target", {0, 1, 0}));
@@ -158,16 +188,16 @@ class EYERAY_API SceneBuilder {
   SceneBuilder(SceneBuilder&&) noexcept;
   SceneBuilder& operator=(SceneBuilder&&) noexcept;
 
-  SceneBuilder& set(const std::string& section, const Table& table);  // [section], once
-  SceneBuilder& add(const std::string& section, const Table& table);  // another [[section]]
-  // Another [[mesh]] of these triangles, which are copied; `table` may have its other keys (material,
-  // transform, smooth, name). Error (bad_input) where the spans are of wrong length.
+  SceneBuilder& set(std::string_view section, const Table& table);  // [section], once
+  SceneBuilder& add(std::string_view section, const Table& table);  // another [[section]]
+  // Adds a [[mesh]] of these triangles, which it copies. `table` has the other keys: material, transform,
+  // smooth, name. Error (bad_input) for spans of wrong length.
   SceneBuilder& add_mesh(const MeshArrays& arrays, const Table& table = {});
 
-  // The TOML, whose lines diagnostics count; meshes stand in it as "mesh-0.ply", "mesh-1.ply" …
-  std::string text() const;
+  // The TOML whose lines diagnostics count. It names meshes "mesh-0.ply", "mesh-1.ply" …
+  [[nodiscard]] std::string text() const;
   // Error (bad_input) as Scene::parse.
-  Scene scene(const std::string& name = "scene built in code", const SceneOptions& options = {}) const;
+  Scene scene(std::string_view name = "scene built in code", const SceneOptions& options = {}) const;
 
  private:
   struct Data;
@@ -176,69 +206,75 @@ class EYERAY_API SceneBuilder {
 
 // ---- Pictures
 
-// A part of a picture in pixels, from its top left; without width all of it.
+// A part of a picture in pixels, from its top left. Without width and height it is the whole picture.
 struct Rect {
   int x = 0, y = 0, width = 0, height = 0;
 };
 
-// A picture's values: row by row from the top, in a row from the left, the channels of a pixel together:
-// values[(y * width + x) * channels + c].
-struct Plane {
+// A picture's values: rows from the top, pixels from the left, the channels of a pixel together. Channel c
+// of pixel x, y is values[(y * width + x) * channels + c].
+struct [[nodiscard]] Plane {
   std::span<const float> values;
   int width = 0, height = 0;
   int channels = 0;  // 1 or 3
 };
 
-// Copies share the pixels, which never change; spans are valid as long as one copy lives.
-class EYERAY_API Picture {
+// The pixels never change, and copies share them. A span is valid as long as a copy of the picture lives.
+class [[nodiscard]] EYERAY_API Picture {
  public:
-  // Linear RGB, unclipped: the mean of a pixel's samples. Of a render that was cancelled before every pixel
-  // had one it is empty.
+  // Linear RGB, unclipped: the mean of a pixel's samples. It is empty if the render was cancelled before
+  // every pixel had a sample.
   Plane color() const;
-  // What was asked for in RenderOptions::aovs: their names, and each. `depth` in units of the scene along
-  // the ray, infinity where nothing is hit; `position` and normals in the world; ids and counts as whole
-  // numbers, −1 where nothing is hit. docs/command-line.md says what each holds. Error (bad_input) for one
-  // that it has not, as after a cancellation.
-  std::vector<std::string> aovs() const;
+  // The names of the AOVs that RenderOptions::aovs requested, and the values of one. `depth` is the distance
+  // along the ray in units of the scene, infinity without a hit. `position` and normals are in the world's
+  // frame. Ids and counts are whole numbers, −1 without a hit. docs/command-line.md describes each. Error
+  // (bad_input) for an AOV that the picture lacks, as it may after a cancellation.
+  [[nodiscard]] std::vector<std::string> aovs() const;
   Plane aov(std::string_view name) const;
 
-  int samples_done() const noexcept;  // that every pixel has
-  bool complete() const noexcept;     // not cancelled
-  uint64_t rays() const noexcept;     // eye, reflected, refracted and shadow rays
-  double seconds() const noexcept;    // of all of render()
+  int samples_done() const noexcept;  // samples that every pixel has
+  bool complete() const noexcept;     // false: it was cancelled
+  uint64_t rays() const noexcept;     // camera, reflected, refracted and shadow rays
+  double seconds() const noexcept;    // the duration of render()
   double sampling_seconds() const noexcept;
-  // What `eyeray render` warns of: pixels that may be wrong, noise that is left, what clamp did, samples that
-  // are far brighter than others, a model that is hardly seen; and of a renderer's first picture, that a
-  // cache is not used since others could have changed it. They name no file.
+  // The warnings of `eyeray render`: pixels that may be wrong, noise that is left, what clamp cut, samples
+  // far brighter than others, a model that is hardly visible. A renderer's first picture also warns of a
+  // cache that is not used since others could have changed it. Warnings name no file.
   const std::vector<Diagnostic>& warnings() const noexcept;
 
-  // The colours as .png (sRGB, with the scene's exposure and tone curve), .pfm, .hdr or .exr (linear
-  // float). Error: bad_input for another ending or an empty picture, file_io. No half-written file bears
-  // the name.
+  // The colours for a screen: sRGB, 8 bits a channel, with the scene's exposure and tone curve. Rows, pixels
+  // and channels lie as in color().
+  [[nodiscard]] std::vector<uint8_t> tonemapped() const;
+  // The bytes of a .png of them. Error (bad_input) for an empty picture.
+  [[nodiscard]] std::string png() const;
+  // Writes that .png, or the linear colours as .pfm, .hdr or .exr. Error: bad_input for another ending or an
+  // empty picture, or file_io. A file under that name is always whole.
   void write(const std::filesystem::path& file) const;
 
-  struct Data;
-  explicit Picture(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
+  struct Data;  // the engine's
 
  private:
+  friend class Renderer;
+  explicit Picture(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
+
   std::shared_ptr<const Data> data_;
 };
 
 struct Progress {
-  double share = 0;    // of the samples, from 0 to 1
+  double share = 0;    // done of the samples, from 0 to 1
   uint64_t rays = 0;   // traced so far
   double seconds = 0;  // since sampling began
 };
 
-// Asks a call to end soon; from any thread. Copies are the same request. The device finishes what it has
-// been given, some 50 ms of work, and a kernel that its driver compiles, up to seconds.
+// Asks a call, from any thread, to end soon. Copies are the same request. The device first finishes the work
+// that it has, about 50 ms, and its driver a kernel that it compiles, up to seconds.
 class EYERAY_API Cancellation {
  public:
   Cancellation();
   void request() noexcept;
-  bool requested() const noexcept;
+  [[nodiscard]] bool requested() const noexcept;
 
-  struct Data;
+  struct Data;  // the engine's
   Data& data() const noexcept { return *data_; }
 
  private:
@@ -246,20 +282,22 @@ class EYERAY_API Cancellation {
 };
 
 enum class Backend {
-  gpu,        // the shaders, on a Vulkan device
-  twin,       // the same shaders, compiled as C++: the same bits, and no device
-  reference,  // float64, written independently
+  gpu,        // the shaders on a Vulkan device
+  twin,       // the same shaders compiled as C++: the same bits without a device
+  reference,  // a renderer in float64, written independently
 };
 
 struct RenderOptions {
   Backend backend = Backend::gpu;
   std::vector<std::string> aovs = {};  // "depth", "normal" …, or "all"
   Rect crop = {};
-  double noise = 0;  // above 0: samples are taken until pixels are off by no more than this share of their
-                     // brightness, and the scene's number is the most
-  double clamp = 0;  // above 0: samples are cut to it, which makes a darker picture without bright dots
-  // Called by the thread that called render(), a few times a second; false cancels. What it throws goes to
-  // render()'s caller.
+  // Above 0: a pixel takes samples until its error is at most this share of its brightness. The scene's
+  // number of samples is the maximum.
+  double noise = 0;
+  // Above 0: samples are cut to this value, which removes bright dots and makes the picture darker.
+  double clamp = 0;
+  // The thread that called render() calls this a few times a second. It cancels by returning false. Its
+  // exceptions reach the caller of render().
   std::function<bool(const Progress&)> progress = {};
   Cancellation cancellation = {};
 };
@@ -269,29 +307,29 @@ struct RenderOptions {
 struct VerifyOptions {
   std::vector<Backend> backends = {Backend::gpu, Backend::twin};  // compared with the reference
   Rect crop = {};
-  std::filesystem::path evidence = {};  // a folder for pictures when a gate fails; empty: none are kept
-  std::function<bool(const Progress&)> progress = {};  // as of render(), for each backend in turn
+  std::filesystem::path evidence = {};  // the folder for pictures of a failed gate; empty: keep none
+  std::function<bool(const Progress&)> progress = {};  // as render() calls it, for each backend in turn
   Cancellation cancellation = {};
 };
 
-// What `eyeray verify` finds (docs/verification.md).
-struct Report {
+// The findings of `eyeray verify` (docs/verification.md).
+struct [[nodiscard]] Report {
   bool passed = false;
   std::vector<std::string> failures;  // a sentence each
-  std::string text;                   // for people, lines
-  std::string json;                   // for programs
+  std::string text;                   // lines for people
+  std::string json;                   // the same for programs
 };
 
 // ---- The renderer
 
 struct RendererOptions {
   std::string device = "auto";         // auto, cpu, gpu, a number, or a part of a name (`eyeray devices`)
-  std::filesystem::path shaders = {};  // a folder laid over the shaders inside, file by file
+  std::filesystem::path shaders = {};  // a folder laid over the embedded shaders, file by file
   double timeout_seconds = 60;         // the longest wait for the device
 };
 
-// Keeps the device open and its last kernels built, so that a second picture starts at once. Opens it when
-// the backend gpu is first used.
+// Keeps the device open and its last kernels built, so that a second picture starts at once. The first use
+// of the backend gpu opens the device.
 class EYERAY_API Renderer {
  public:
   explicit Renderer(const RendererOptions& options = {});
@@ -299,11 +337,11 @@ class EYERAY_API Renderer {
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
 
-  // A cancelled render returns what it has, a whole picture with fewer samples, or an empty one. Error:
-  // bad_input for options that the scene or the picture does not go with, no_device, timed_out.
+  // A cancelled render returns a whole picture with fewer samples, or an empty one. Error: bad_input for
+  // options that do not suit the scene, no_device, timed_out.
   Picture render(const Scene& scene, const RenderOptions& options = {});
-  // Renders by each backend and the reference, and compares. Error (cancelled) when cancelled; else as
-  // render().
+  // Renders with each backend and the reference, and compares the pictures. Errors as render()'s, and
+  // cancelled.
   Report verify(const Scene& scene, const VerifyOptions& options = {});
 
   struct Data;

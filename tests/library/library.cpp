@@ -11,9 +11,12 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <thread>
+#include <type_traits>
 #include <vector>
 
 using namespace eyeray::v0;
@@ -51,7 +54,7 @@ Scene with(std::vector<std::string> defines) {
 template <typename Work>
 Error thrown_by(const Work& work) {
   try {
-    work();
+    static_cast<void>(work());
   } catch (const Error& error) {
     return error;
   }
@@ -74,7 +77,7 @@ TEST_CASE("a process that renders keeps its environment and its signals") {
   const auto handlers_before = handlers();
   // As large as pictures for which the program asks llvmpipe for vectors of 512 bits.
   const Scene scene = with({"image.width=1024", "image.height=1024"});
-  renderer().render(scene, {.crop = {0, 0, 64, 48}});
+  CHECK(renderer().render(scene, {.crop = {0, 0, 64, 48}}).complete());
   CHECK(environment() == before);
   CHECK((handlers() == handlers_before));
 }
@@ -134,7 +137,7 @@ TEST_CASE("a picture's planes have the shapes that the header says") {
   CHECK(normal.values[3 * middle + 2] == doctest::Approx(1).epsilon(1e-3));
   CHECK(depth.values[0] > 1e30f);
   CHECK(color.values[2] == 0.75f);
-  CHECK(thrown_by([&] { picture.aov("uv"); }).kind() == ErrorKind::bad_input);
+  CHECK(thrown_by([&] { return picture.aov("uv"); }).kind() == ErrorKind::bad_input);
 
   const Picture part = renderer().render(Scene::read(small), {.crop = {32, 24, 4, 2}});
   const Plane pixels = part.color();
@@ -188,35 +191,39 @@ TEST_CASE("a render that is cancelled returns what it has, and the renderer goes
     const Picture picture = renderer().render(scene, options);
     CHECK((picture.samples_done() == 0 && picture.color().values.empty() && picture.color().width == 0));
     CHECK(thrown_by([&] { picture.write("never.png"); }).kind() == ErrorKind::bad_input);
-    CHECK(thrown_by([&] { renderer().verify(scene, {.cancellation = options.cancellation}); }).kind() ==
-          ErrorKind::cancelled);
+    CHECK(thrown_by([&] { return picture.png(); }).kind() == ErrorKind::bad_input);
+    CHECK(picture.tonemapped().empty());
+    CHECK(thrown_by([&] {
+            return renderer().verify(scene, {.cancellation = options.cancellation});
+          }).kind() == ErrorKind::cancelled);
   }
   CHECK(renderer().render(Scene::read(small)).complete());
 }
 
 TEST_CASE("what progress throws goes to who called") {
   const auto progress = [](const Progress&) -> bool { throw std::string("enough"); };
-  CHECK_THROWS_AS(renderer().render(Scene::read(small), {.progress = progress}), std::string);
+  CHECK_THROWS_AS(static_cast<void>(renderer().render(Scene::read(small), {.progress = progress})),
+                  std::string);
   CHECK(renderer().render(Scene::read(small)).complete());
 }
 
 TEST_CASE("errors are of a kind, and a scene's have places") {
-  const Error missing = thrown_by([] { Scene::read("no-such.toml"); });
+  const Error missing = thrown_by([] { return Scene::read("no-such.toml"); });
   CHECK(missing.kind() == ErrorKind::file_io);
-  const Error wrong = thrown_by([] { Scene::parse("[[sphere]]\nradius = -1\nradios = 2\n", "mine"); });
+  const Error wrong = thrown_by([] { return Scene::parse("[[sphere]]\nradius = -1\nradios = 2\n", "mine"); });
   CHECK(wrong.kind() == ErrorKind::bad_input);
   REQUIRE(wrong.diagnostics().size() >= 2);
   CHECK(std::ranges::all_of(wrong.diagnostics(),
                             [](const Diagnostic& each) { return each.is_error && each.file == "mine"; }));
   CHECK(std::ranges::any_of(wrong.diagnostics(),
                             [](const Diagnostic& each) { return each.line == 2 && each.column == 10; }));
-  CHECK(thrown_by([] { Scene::parse("[[mesh]]\nfile = \"a.ply\"\n"); }).diagnostics().size() == 1);
-  CHECK(thrown_by([] { Renderer({.device = "no such device"}).render(Scene::read(small)); }).kind() ==
+  CHECK(thrown_by([] { return Scene::parse("[[mesh]]\nfile = \"a.ply\"\n"); }).diagnostics().size() == 1);
+  CHECK(thrown_by([] { return Renderer({.device = "no such device"}).render(Scene::read(small)); }).kind() ==
         ErrorKind::no_device);
   CHECK(thrown_by([] { Renderer({.shaders = "no-such-folder"}); }).kind() == ErrorKind::file_io);
-  CHECK(thrown_by([] { renderer().render(Scene::read(small), {.crop = {60, 0, 10, 10}}); }).kind() ==
+  CHECK(thrown_by([] { return renderer().render(Scene::read(small), {.crop = {60, 0, 10, 10}}); }).kind() ==
         ErrorKind::bad_input);
-  CHECK(thrown_by([] { renderer().render(Scene::read(small), {.aovs = {"deepth"}}); }).kind() ==
+  CHECK(thrown_by([] { return renderer().render(Scene::read(small), {.aovs = {"deepth"}}); }).kind() ==
         ErrorKind::bad_input);
 }
 
@@ -229,7 +236,7 @@ TEST_CASE("a loop of a renderer's shaders that does not end is an error that nam
   REQUIRE(text.find(end) != std::string::npos);
   text.insert(text.find(end), "  while (true) {}\n");
   std::ofstream(folder / "shapes/sphere.glsl") << text;
-  const Error error = thrown_by([&] { Renderer({.shaders = folder}).render(Scene::read(small)); });
+  const Error error = thrown_by([&] { return Renderer({.shaders = folder}).render(Scene::read(small)); });
   std::filesystem::remove_all(folder);
   CHECK(error.kind() == ErrorKind::timed_out);
   const std::string message = error.what();
@@ -259,7 +266,7 @@ TEST_CASE("a scene built in code is the same as one from a file") {
     return thrown_by([&] {
       SceneBuilder wrong;
       wrong.add_mesh(arrays);
-      wrong.scene();
+      return wrong.scene();
     });
   };
   const std::vector<uint32_t> beyond{0, 1, 3};
@@ -272,14 +279,52 @@ TEST_CASE("a scene built in code is the same as one from a file") {
   CHECK(refusal({nan, corners}).diagnostics().size() == 1);
 }
 
+TEST_CASE("a value takes every number and text, and nothing that only converts to one") {
+  CHECK(Value(true).toml() == "true");
+  CHECK(Value(-3).toml() == "-3");
+  CHECK(Value(3u).toml() == "3");
+  CHECK(Value(size_t(3)).toml() == "3");
+  CHECK(Value(uint8_t(200)).toml() == "200");
+  CHECK(Value(-3l).toml() == "-3");
+  CHECK(Value(std::numeric_limits<int64_t>::min()).toml() == "-9223372036854775808");
+  CHECK(Value(uint64_t(std::numeric_limits<int64_t>::max())).toml() == "9223372036854775807");
+  CHECK(Value(0.5f).toml() == "0.5");
+  CHECK(Value(0.1f).toml() == "0.10000000149011612");
+  CHECK(Value(0.1l).toml() == "0.1");
+  CHECK(Value("a").toml() == Value(std::string_view("a")).toml());
+  CHECK(Value("a").toml() == Value(std::string("a")).toml());
+  CHECK(Value({0, 1u, 2.5f, "a", true, Value{1, 2}}).toml() == "[0, 1, 2.5, \"a\", true, [1, 2]]");
+  CHECK(Table().set(std::string_view("a b"), 1).entries()[0].first == "a b");
+
+  const Error large = thrown_by([] { return Value(uint64_t(1) << 63); });
+  CHECK(large.kind() == ErrorKind::bad_input);
+  CHECK(std::string(large.what()).starts_with("9223372036854775808 is no value of a scene"));
+
+  static_assert(!std::is_constructible_v<Value, char>);
+  static_assert(!std::is_constructible_v<Value, wchar_t>);
+  static_assert(!std::is_constructible_v<Value, char8_t>);
+  static_assert(!std::is_constructible_v<Value, const int*>);
+  static_assert(!std::is_constructible_v<Value, void*>);
+  static_assert(!std::is_constructible_v<Value, const wchar_t*>);
+  static_assert(!std::is_constructible_v<Value, std::nullptr_t>);
+  static_assert(!std::is_constructible_v<Value, Backend>);
+  static_assert(std::is_convertible_v<std::string, Value> && std::is_convertible_v<size_t, Value>);
+}
+
+TEST_CASE("only the engine makes scenes and pictures of its data") {
+  static_assert(!std::is_constructible_v<Scene, std::shared_ptr<const Scene::Data>>);
+  static_assert(!std::is_constructible_v<Picture, std::shared_ptr<const Picture::Data>>);
+}
+
 TEST_CASE("verify reports what the program would") {
   const Report report = renderer().verify(Scene::read(small), {.crop = {0, 0, 32, 32}});
   CHECK(report.passed);
   CHECK(report.failures.empty());
   CHECK(report.text.starts_with("PASSED"));
   CHECK(report.json.find("\"passed\"") != std::string::npos);
-  CHECK(thrown_by([] { renderer().verify(Scene::read(small), {.backends = {Backend::reference}}); }).kind() ==
-        ErrorKind::bad_input);
+  CHECK(thrown_by([] {
+          return renderer().verify(Scene::read(small), {.backends = {Backend::reference}});
+        }).kind() == ErrorKind::bad_input);
 }
 
 TEST_CASE("what a picture writes is what the program writes") {
@@ -297,5 +342,11 @@ TEST_CASE("what a picture writes is what the program writes") {
     CHECK(bytes_of(ours).size() > 100);
     CHECK(bytes_of(ours) == bytes_of(theirs));
   }
+  const Picture picture = renderer().render(with({"image.exposure=1"}));
+  CHECK(picture.png() == bytes_of(made + "/theirs.png"));
+  const std::vector<uint8_t> shown = picture.tonemapped();
+  REQUIRE(shown.size() == picture.color().values.size());
+  // The background is 0.25, 0.5 and 0.75, twice as bright.
+  CHECK((shown[0] == 188 && shown[1] == 255 && shown[2] == 255));
   std::filesystem::remove_all(made);
 }
