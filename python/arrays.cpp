@@ -7,10 +7,6 @@
 namespace eyeray_python {
 namespace {
 
-std::string type_name(const py::handle& value) {
-  return py::str(py::type::of(value).attr("__name__"));
-}
-
 std::string shape_of(const py::array& array) {
   return py::str(array.attr("shape"));
 }
@@ -107,6 +103,30 @@ py::array array_of(const eyeray::Plane& plane, const py::handle& owner) {
   return array;
 }
 
+py::array color_array(const py::object& picture, const py::object& dtype, const py::object& copy) {
+  const py::array color = array_of(picture.cast<const eyeray::Picture&>().color(), picture);
+  const bool copies = !copy.is_none() && py::bool_(copy);
+  if (!copies && (dtype.is_none() || color.dtype().equal(py::dtype::from_args(dtype)))) return color;
+  if (!copy.is_none() && !copies)
+    throw py::value_error(
+        "a picture's colours are float32: another dtype is a copy, which copy=False forbids");
+  return color.attr("astype")(dtype.is_none() ? py::object(color.dtype()) : dtype);
+}
+
+py::array tonemapped_array(const eyeray::Picture& picture) {
+  std::vector<uint8_t> codes;
+  {
+    const py::gil_scoped_release released;
+    codes = picture.tonemapped();
+  }
+  const eyeray::Plane color = picture.color();
+  return py::array_t<uint8_t>({color.height, color.width, 3}, codes.data());
+}
+
+std::string type_name(const py::handle& value) {
+  return py::str(py::type::of(value).attr("__name__"));
+}
+
 bool is_mesh_of_arrays(const py::handle& table) {
   return py::isinstance<py::dict>(table) && py::reinterpret_borrow<py::dict>(table).contains("vertices");
 }
@@ -131,15 +151,18 @@ eyeray::Table table_of(const py::dict& dict, const std::string& where) {
 }
 
 std::vector<std::string> defines_of(const py::object& defines) {
-  std::vector<std::string> all;
-  if (py::isinstance<py::str>(defines)) throw py::type_error("defines is a list of \"key=value\", or a dict");
   if (py::isinstance<py::dict>(defines)) {
+    std::vector<std::string> all;
     for (const auto& [key, value] : py::reinterpret_borrow<py::dict>(defines))
       all.push_back(std::string(py::str(key)) + "=" + value_of(value, std::string(py::str(key)), 1).toml());
     return all;
   }
-  for (const py::handle each : defines) all.push_back(each.cast<std::string>());
-  return all;
+  return strings_of(defines, "defines is a list of \"key=value\", or a dict");
+}
+
+std::vector<std::string> strings_of(const py::object& list, const char* wanted) {
+  if (py::isinstance<py::str>(list)) throw py::type_error(std::string(wanted) + ", not str");
+  return cast_to<std::vector<std::string>>(list, wanted);
 }
 
 }  // namespace eyeray_python

@@ -49,16 +49,18 @@ void raise(std::exception_ptr thrown) {
   }
 }
 
-Backend backend_named(const std::string& name) {
+Backend backend_named(const py::object& value) {
+  const auto name = cast_to<std::string>(value, "a backend is 'gpu', 'twin' or 'reference'");
   if (name == "gpu") return Backend::gpu;
   if (name == "twin") return Backend::twin;
   if (name == "reference") return Backend::reference;
   throw py::value_error("a backend is 'gpu', 'twin' or 'reference', not '" + name + "'");
 }
 
-eyeray::Rect rect_of(const std::optional<std::array<int, 4>>& crop) {
-  if (!crop) return {};
-  const auto [x, y, width, height] = *crop;
+eyeray::Rect rect_of(const py::object& crop) {
+  if (crop.is_none()) return {};
+  const auto [x, y, width, height] =
+      cast_to<std::array<int, 4>>(crop, "a crop is (x, y, width, height) in whole pixels");
   if (width < 1 || height < 1) throw py::value_error("a crop is (x, y, width, height), of at least a pixel");
   return {x, y, width, height};
 }
@@ -77,11 +79,6 @@ std::function<bool(const eyeray::Progress&)> progress_of(const py::object& callb
     const py::object kept = callback;
     return !kept(now.share).is(py::bool_(false));
   };
-}
-
-std::vector<std::string> names(const py::object& list, const char* what) {
-  if (py::isinstance<py::str>(list)) throw py::type_error(std::string(what) + " is a list of names");
-  return list.cast<std::vector<std::string>>();
 }
 
 Scene read(const Path& file, const py::object& defines, const std::vector<Path>& allowed_folders,
@@ -122,26 +119,28 @@ Scene build(const py::dict& tables, const std::string& name, const py::object& d
   return in_background<Scene>({}, [builder, name, options] { return builder->scene(name, options); });
 }
 
-Picture render(const std::shared_ptr<Renderer>& renderer, const Scene& scene, const std::string& backend,
-               const py::object& aovs, const std::optional<std::array<int, 4>>& crop, double noise,
-               double clamp, const py::object& progress, const std::optional<Cancellation>& cancellation) {
+Picture render(const std::shared_ptr<Renderer>& renderer, const Scene& scene, const py::object& backend,
+               const py::object& aovs, const py::object& crop, const py::object& noise,
+               const py::object& clamp, const py::object& progress,
+               const std::optional<Cancellation>& cancellation) {
   eyeray::RenderOptions options;
   options.backend = backend_named(backend);
-  options.aovs = names(aovs, "aovs");
+  options.aovs = strings_of(aovs, "aovs is a list of names");
   options.crop = rect_of(crop);
-  options.noise = noise;
-  options.clamp = clamp;
+  options.noise = cast_to<double>(noise, "noise is a number");
+  options.clamp = cast_to<double>(clamp, "clamp is a number");
   if (cancellation) options.cancellation = *cancellation;
   options.progress = progress_of(progress, options.cancellation);
   return in_background<Picture>(options.cancellation, [=] { return renderer->render(scene, options); });
 }
 
 Report verify(const std::shared_ptr<Renderer>& renderer, const Scene& scene, const py::object& backends,
-              const std::optional<std::array<int, 4>>& crop, const std::optional<Path>& evidence,
-              const py::object& progress, const std::optional<Cancellation>& cancellation) {
+              const py::object& crop, const std::optional<Path>& evidence, const py::object& progress,
+              const std::optional<Cancellation>& cancellation) {
   eyeray::VerifyOptions options;
   options.backends.clear();
-  for (const std::string& each : names(backends, "backends")) options.backends.push_back(backend_named(each));
+  for (const std::string& each : strings_of(backends, "backends is a list of names"))
+    options.backends.push_back(backend_named(py::str(each)));
   options.crop = rect_of(crop);
   options.evidence = evidence.value_or(Path());
   if (cancellation) options.cancellation = *cancellation;
@@ -168,6 +167,15 @@ void add_scene(py::module_& module) {
       .def_property_readonly("warnings", [](const Scene& scene) { return diagnostics_of(scene.warnings()); });
 }
 
+py::bytes png_of(const Picture& picture) {
+  std::string bytes;
+  {
+    const py::gil_scoped_release released;
+    bytes = picture.png();
+  }
+  return bytes;
+}
+
 void add_picture(py::module_& module) {
   py::class_<Picture>(module, "Picture", "A picture. Its arrays are not copied, and cannot be written.")
       .def_property_readonly(
@@ -188,6 +196,16 @@ void add_picture(py::module_& module) {
       .def_property_readonly("sampling_seconds", &Picture::sampling_seconds)
       .def_property_readonly("warnings",
                              [](const Picture& picture) { return diagnostics_of(picture.warnings()); })
+      .def("tonemapped", &tonemapped_array,
+           "The colours for a screen, as a .png has them: sRGB, uint8 of (height, width, 3).")
+      .def("png", &png_of, "The bytes of a .png.")
+      .def("__array__", &color_array, py::arg("dtype") = py::none(), py::arg("copy") = py::none())
+      .def(
+          "_repr_png_",
+          [](const Picture& picture) {
+            return picture.samples_done() == 0 ? py::object(py::none()) : png_of(picture);
+          },
+          "The picture in a notebook.")
       .def("write", &Picture::write, py::arg("file"), py::call_guard<py::gil_scoped_release>(),
            "As .png, .pfm, .hdr or .exr.");
 }

@@ -1,6 +1,7 @@
 // Scenes of the library: read, parsed, built.
 #include "host/library/scene.hpp"
 
+#include "host/core/option_text.hpp"
 #include "host/library/engine_call.hpp"
 #include "host/loader/scene_file.hpp"
 #include "host/session/request.hpp"
@@ -10,7 +11,8 @@ namespace {
 
 std::vector<loader::Override> overrides_of(const v0::SceneOptions& options) {
   std::vector<loader::Override> overrides;
-  for (const std::string& define : options.defines) overrides.push_back({define});
+  for (const std::string& define : options.defines)
+    overrides.push_back({define, option_text("defines", define)});
   return overrides;
 }
 

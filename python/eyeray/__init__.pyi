@@ -1,5 +1,6 @@
 from collections.abc import Callable, Sequence
 from os import PathLike
+from typing import Any
 
 from eyeray._eyeray import (
     Backend, Cancellation as Cancellation, Picture as Picture, Renderer as Renderer, Report as Report,
@@ -10,10 +11,12 @@ from eyeray.errors import (
 
 __version__: str
 
-def render(scene: Scene, *, backend: Backend = ..., aovs: Sequence[str] = ...,
+def render(scene: Scene | str | PathLike[str] | dict[str, Any], *, size: tuple[int, int] | None = ...,
+           spp: int | None = ..., backend: Backend = ..., aovs: Sequence[str] = ...,
            crop: tuple[int, int, int, int] | None = ..., noise: float = ..., clamp: float = ...,
            progress: Callable[[float], bool | None] | None = ...,
            cancellation: Cancellation | None = ...) -> Picture: ...
-def verify(scene: Scene, *, backends: Sequence[Backend] = ..., crop: tuple[int, int, int, int] | None = ...,
+def verify(scene: Scene | str | PathLike[str] | dict[str, Any], *, size: tuple[int, int] | None = ...,
+           spp: int | None = ..., backends: Sequence[Backend] = ..., crop: tuple[int, int, int, int] | None = ...,
            evidence: str | PathLike[str] | None = ..., progress: Callable[[float], bool | None] | None = ...,
            cancellation: Cancellation | None = ...) -> Report: ...

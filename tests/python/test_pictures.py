@@ -1,6 +1,7 @@
 """Pictures as numpy arrays: not copied, and alive as long as anybody looks."""
 import gc
 import os
+import pathlib
 import subprocess
 
 import numpy as np
@@ -50,26 +51,97 @@ def test_backends_and_crop():
     for wrong in [(60, 0, 10, 10), (0, 0, 0, 5)]:
         with pytest.raises(ValueError):
             eyeray.render(scene, crop=wrong)
-    with pytest.raises(TypeError):
+    with pytest.raises(TypeError, match=r"^a crop is \(x, y, width, height\) in whole pixels, not str$"):
         eyeray.render(scene, crop="all")
     with pytest.raises(ValueError, match="'cpu'"):
         eyeray.render(scene, backend="cpu")
     with pytest.raises(eyeray.InputError, match="did you mean 'depth'"):
         eyeray.render(scene, aovs=["depht"])
-    with pytest.raises(TypeError):
-        eyeray.render(scene, aovs="depth")
-    with pytest.raises(TypeError):
-        eyeray.render("scene.toml")
+    for wrong, name in [("depth", "str"), (3, "int"), ([3], "list")]:
+        with pytest.raises(TypeError, match=f"^aovs is a list of names, not {name}$"):
+            eyeray.render(scene, aovs=wrong)
+    with pytest.raises(TypeError, match="^noise is a number, not str$"):
+        eyeray.render(scene, noise="little")
+    with pytest.raises(TypeError, match="unexpected keyword argument 'crops'"):
+        eyeray.render(scene, crops=None)
 
 
 def test_files_are_the_programs(tmp_path):
     eyeray.render(eyeray.Scene.read(SMALL)).write(tmp_path / "ours.png")
     subprocess.run([os.environ["EYERAY_BINARY"], "render", SMALL, "-q", "-o", tmp_path / "theirs.png"], check=True)
     assert (tmp_path / "ours.png").read_bytes() == (tmp_path / "theirs.png").read_bytes()
+    picture = eyeray.render(eyeray.Scene.read(SMALL))
+    assert picture.png() == picture._repr_png_() == (tmp_path / "theirs.png").read_bytes()
     with pytest.raises(eyeray.InputError):
         eyeray.render(eyeray.Scene.read(SMALL)).write(tmp_path / "picture.jpeg")
     with pytest.raises(eyeray.FileError):
         eyeray.render(eyeray.Scene.read(SMALL)).write(tmp_path / "none" / "picture.png")
+
+
+def test_colours_for_a_screen():
+    shown = eyeray.render(eyeray.Scene.read(SMALL, defines=["image.exposure=1"])).tonemapped()
+    assert (shown.shape, shown.dtype) == ((48, 64, 3), np.uint8)
+    assert shown[0, 0].tolist() == [188, 255, 255]  # sRGB of 0.25, 0.5 and 0.75, twice as bright
+    shown[0, 0] = 1  # it is a copy
+
+
+def test_an_empty_picture_is_shown_as_none():
+    cancellation = eyeray.Cancellation()
+    cancellation.request()
+    empty = eyeray.render(SMALL, cancellation=cancellation)
+    assert empty.tonemapped().shape == (0, 0, 3) and empty._repr_png_() is None
+    with pytest.raises(eyeray.InputError, match="cancelled"):
+        empty.png()
+
+
+def test_numpy_takes_a_picture_for_its_colours():
+    picture = eyeray.render(SMALL)
+    assert np.array_equal(np.asarray(picture), picture.color) and np.mean(picture) == np.mean(picture.color)
+    assert np.asarray(picture, np.float64).dtype == np.float64
+    assert np.array(picture).flags.writeable
+    # As numpy 1 calls it, and numpy 2.
+    for dtype, copy, copied in [(None, None, False), (np.float32, None, False), (None, False, False),
+                                ("f4", False, False), (None, True, True), (np.float64, None, True), (np.uint8, True, True)]:
+        array = picture.__array__(dtype, copy=copy)
+        assert array.dtype == np.dtype(dtype or np.float32)
+        assert np.shares_memory(array, picture.color) == (not copied) == (not array.flags.writeable)
+    with pytest.raises(ValueError, match="copy=False"):
+        picture.__array__(np.float64, copy=False)
+
+
+TABLES = {"camera": {"eye": [0, 1, 4], "target": [0, 1, 0]}, "render": {"background": np.array([0.25, 0.5, 0.75])}}
+
+
+def test_files_and_dicts_are_rendered_at_once(tmp_path):
+    for scene in (SMALL, pathlib.Path(SMALL), TABLES):
+        picture = eyeray.render(scene, size=(32, np.int64(16)), spp=4, backend="twin")
+        assert picture.color.shape == (16, 32, 3) and picture.samples_done == 4
+        assert picture.color[0, 0].tolist() == [0.25, 0.5, 0.75]
+    assert np.array_equal(eyeray.render(SMALL).color, eyeray.render(eyeray.Scene.read(SMALL)).color)
+    assert eyeray.verify(SMALL, size=(16, 12))
+
+
+@pytest.mark.parametrize("kind, words, scene, options", [
+    (ValueError, "^size: width and height are whole numbers from 1 on, not 0$", SMALL, {"size": (0, 1)}),
+    (TypeError, "^size: width and height are whole numbers from 1 on, not float$", SMALL, {"size": (2.5, 1)}),
+    (TypeError, r"^size is \(width, height\), not 64$", SMALL, {"size": 64}),
+    (TypeError, r"^size is \(width, height\), not \(64,\)$", SMALL, {"size": (64,)}),
+    (TypeError, r"^size is \(width, height\), not '64'$", SMALL, {"size": "64"}),
+    (ValueError, "^`defines` image.width=65537: error: `width` must be", SMALL, {"size": (65537, 1)}),
+    (ValueError, "^spp: the samples a pixel are a whole number from 1 on, not -1$", SMALL, {"spp": -1}),
+    (TypeError, "from 1 on, not bool$", SMALL, {"spp": True}),
+    (ValueError, "must be a square number; the nearest to 3 are 1 and 4", TABLES, {"spp": 3}),
+    (ValueError, "unknown key `eyes`", {"camera": {"eyes": 3}}, {}),
+    (TypeError, "^camera is a dict, or a list of dicts$", {"camera": 3}, {}),
+    (TypeError, "^camera: a key is a str, not int$", {"camera": {3: 4}}, {}),
+    (TypeError, "^a scene is an eyeray.Scene, the name of a file, or a dict, not list$", [], {}),
+    (eyeray.FileError, "missing.toml", "missing.toml", {}),
+    (TypeError, "^size and spp go with a file or a dict; a Scene has its own$", eyeray.Scene.read(SMALL), {"spp": 4}),
+])
+def test_wrong_scenes_and_sizes(kind, words, scene, options):
+    for call in (eyeray.render, eyeray.verify):
+        with pytest.raises(kind, match=words):
+            call(scene, **options)
 
 
 def test_verify():
