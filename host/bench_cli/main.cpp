@@ -16,8 +16,8 @@
 #include "host/program/integers.hpp"
 #include "host/program/json.hpp"
 #include "host/program/main.hpp"
+#include "host/program/option_values.hpp"
 #include "host/program/usage.hpp"
-#include "host/program/within.hpp"
 
 namespace eyeray::bench_cli {
 namespace {
@@ -132,10 +132,10 @@ void add_options(CLI::App& app, BenchCommand& command) {
          fmt::format("Scene files, or out of {}; all of these and {} when none is given, of --paths {}.",
                      names, bench::default_scene, bench::path_scene))
       ->option_text(" ");
-  app.add_option("-n,--runs", pictures.runs, "Measured runs of each.")
+  app.add_option("-n,--runs", pictures.runs, "The number of measured runs of each.")
       ->option_text("N=5")
-      ->check(CLI::Range(1, 1000));
-  app.add_option("--backends", pictures.backends, "Out of gpu, twin and reference.")
+      ->check(whole_within(1, 1000));
+  app.add_option("--backends", pictures.backends, "The executors: gpu, twin, reference.")
       ->option_text("LIST=gpu")
       ->delimiter(',')
       ->allow_extra_args(false);
@@ -154,19 +154,19 @@ void add_options(CLI::App& app, BenchCommand& command) {
            command.options.pictures.samples = samples;
            command.sampled = true;
          },
-         "Samples a pixel of whole pictures; of --paths the most, 64.")
+         "Samples a pixel of whole pictures; for --paths the maximum, 64 by default.")
       ->option_text("N=1")
-      ->check(CLI::Range(1, 65536));
+      ->check(whole_within(1, 65536));
   app.add_option("-D,--define", pictures.defines, "Lay a value over the scene files, as for render.")
       ->option_text("KEY=VALUE")
       ->allow_extra_args(false)
       ->take_all();
   app.add_option("--device", pictures.device, "As for render.")->option_text("WHICH");
   app.add_option("--incoherent", what.incoherent,
-                 "How gpu traces incoherent rays, out of cooperative (four lanes a ray), lanes and "
-                 "packets: each races by itself.")
+                 "The ways in which gpu traces incoherent rays: cooperative (four lanes a ray), lanes, "
+                 "packets. Each is measured by itself.")
       ->option_text("LIST")
-      ->check(CLI::IsMember({"cooperative", "lanes", "packets"}))
+      ->check(one_of({"cooperative", "lanes", "packets"}))
       ->delimiter(',')
       ->allow_extra_args(false);
   app.add_flag_callback(
@@ -174,33 +174,33 @@ void add_options(CLI::App& app, BenchCommand& command) {
   app.add_flag_callback("--no-pictures", [&command] { command.options.with_pictures = false; }, "Rays only.");
   app.add_flag_callback(
       "--no-povray", [&command] { command.options.pictures.povray = false; },
-      "Leave POV-Ray out, which else runs when installed, on SCENE.pov or what is written out for it.");
+      "Leave POV-Ray out. By default it runs if it is installed, on SCENE.pov or on a scene written for it.");
   app.add_flag_callback(
       "--no-start", [&command] { command.options.pictures.start = false; },
       "Leave cold and warm starts out.");
-  app.add_option("--compare", command.older, "Say what changed since an older answer of --json.")
+  app.add_option("--compare", command.older, "Report what changed since an older answer of --json.")
       ->option_text("OLD.json");
   app.add_flag("--paths", command.with_paths,
-               "Only: how fast path-traced pictures of 256x256 lose their noise, by 4, 16, ... samples, each "
-               "run of another seed.");
+               "Measure only how fast path-traced pictures of 256x256 lose noise, with 4, 16, ... samples "
+               "and another seed for each run.");
   app.add_option("--clamp", command.paths.clamp, "Cut every sample of --paths, as render does.")
       ->option_text("X")
       ->check(within(1e-6, 1e15));
   app.add_flag("--cycles", command.paths.cycles,
-               "The same beside Blender's Cycles, and whether both show the same light.");
-  app.add_flag("--radiosity", command.paths.povray, "The same beside POV-Ray's radiosity.");
+               "Measure --paths beside Blender's Cycles, and whether both show the same light.");
+  app.add_flag("--radiosity", command.paths.povray, "Measure --paths beside POV-Ray's radiosity.");
   app.add_flag("--dev", command.dev,
-               "Only: how long eyeray dev takes from a save to new pixels, over -n edits of each kind.");
+               "Measure only the time of eyeray dev from a save to new pixels, over -n edits of each kind.");
   app.add_option("--frames", command.frames,
-                 "Only: what the first N frames of SCENE, or of scenes/animation.toml, cost in one process "
-                 "and in one each.")
+                 "Measure only the first N frames of SCENE, or of scenes/animation.toml, in one process and "
+                 "in one process each.")
       ->option_text("N")
-      ->check(CLI::Range(1, 100000));
+      ->check(whole_within(1, 100000));
   app.add_option("--shards", command.shards,
-                 "Only: what SCENE, of --size and --spp, costs as N shards and their merge, one after the "
+                 "Measure only SCENE, with --size and --spp, as N shards and their merge, one after the "
                  "other, beside one process.")
       ->option_text("N")
-      ->check(CLI::Range(1, 10000))
+      ->check(whole_within(1, 10000))
       ->excludes("--frames");
   app.add_flag("--json", command.json, "Answer as JSON on standard output.");
 }

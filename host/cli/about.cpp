@@ -7,6 +7,7 @@
 #include "host/cli/option_table.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/core/make_folder.hpp"
+#include "host/program/option_values.hpp"
 
 namespace eyeray::cli {
 namespace {
@@ -35,8 +36,7 @@ void add_completion(CLI::App& app, Run& run) {
   const auto shell = std::make_shared<std::string>();
   command->add_option("SHELL", *shell, "bash, zsh or fish.")
       ->required()
-      ->option_text(" ")
-      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+      ->check(one_of({"bash", "zsh", "fish"}));
   command->footer(
       "Examples (Debian's package does this):\n"
       "  eyeray completion bash > ~/.local/share/bash-completion/completions/eyeray\n"
@@ -48,9 +48,7 @@ void add_completion(CLI::App& app, Run& run) {
 void add_manual(CLI::App& app, Run& run) {
   CLI::App* const command = app.add_subcommand("manual", "Write a man page for each command.");
   const auto folder = std::make_shared<std::string>();
-  command->add_option("FOLDER", *folder, "Where they go: eyeray.1, eyeray-render.1 and so on.")
-      ->required()
-      ->option_text(" ");
+  command->add_option("FOLDER", *folder, "Where they go: eyeray.1, eyeray-render.1 and so on.")->required();
   command->footer("Example:\n  eyeray manual man1 && man man1/eyeray-render.1");
   command->callback([&app, folder, &run] { run = [&app, folder] { return write_manual(app, *folder); }; });
 }

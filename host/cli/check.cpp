@@ -297,7 +297,8 @@ void add_check(CLI::App& app, Run& run) {
   command->add_flag("--manual", options->manual, "Print the reference of every table and key, as Markdown.");
   command->add_flag("--json", options->json, "Answer as JSON on standard output.");
   command->footer(
-      "Every error of the scene is shown at once, as file:line:column: error, with exit code 2.\n"
+      "All errors of the scene are shown at once, as file:line:column: error, with\n"
+      "exit code 2.\n"
       "Example: eyeray check scenes/whitted.toml -s 1920x1080");
   command->callback([options, &run] { run = [options] { return options->run(); }; });
 }

@@ -2,6 +2,7 @@
 // and the command's `run` is called and answers the exit code. Errors are thrown; main prints them.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -54,7 +55,7 @@ class SceneOptions {
   // The scene with the options laid over it; prints its warnings on stderr. InputError or Error as
   // load_scene.
   Scene load() const;
-  bool gives_samples() const { return !samples_.empty(); }
+  bool gives_samples() const { return !values_[0].empty(); }
   // The options that were given, to be pasted into another command: " -s 96x72 --spp 4".
   std::string as_written() const;
   const std::string& file() const { return file_; }
@@ -76,12 +77,7 @@ class SceneOptions {
   std::vector<std::string> defines_;
   loader::Trust trust_;
   std::string size_;
-  std::string samples_;
-  std::string exposure_;
-  std::string integrator_;
-  std::string seed_;
-  std::string triangle_;
-  std::string max_depth_;
+  std::array<std::string, 6> values_;  // of options.cpp's table, --spp first
 };
 
 // "3,4" as {3, 4}; Error (bad_input) for anything else.

@@ -11,7 +11,7 @@
 #include "host/image/false_color.hpp"
 #include "host/image/image_file.hpp"
 #include "host/program/json.hpp"
-#include "host/program/within.hpp"
+#include "host/program/option_values.hpp"
 
 namespace eyeray::cli {
 namespace {
@@ -189,39 +189,38 @@ ExitCode CompareCommand::run() const {
 void add_compare(CLI::App& app, Run& run) {
   CLI::App* const command = app.add_subcommand("compare", "Compare two picture files.");
   const auto options = std::make_shared<CompareCommand>();
-  command->add_option("A", options->a, "A picture: .pfm, .png, .hdr or .exr.")->required()->option_text(" ");
-  command->add_option("B", options->b, "The picture that it should be.")->required()->option_text(" ");
+  command->add_option("A", options->a, "A picture: .pfm, .png, .hdr or .exr.")->required();
+  command->add_option("B", options->b, "The picture that it should be.")->required();
   command
       ->add_option("--tolerance", options->tolerance,
-                   "Of each channel, relative to max(1, |b|); linear values.")
+                   "The tolerance of each channel's linear value, relative to max(1, |b|).")
       ->option_text(fmt::format("T={}", options->tolerance))
       ->check(within(0, 1));
-  command->add_option("--max-different", options->max_different, "How many pixels may differ by more.")
-      ->option_text("N=0")
-      ->check(CLI::NonNegativeNumber);
   command
-      ->add_option("--layer", options->layer, "The layer of an .exr that is compared. Default: its picture.")
+      ->add_option("--max-different", options->max_different, "The number of pixels that may differ by more.")
+      ->option_text("N=0")
+      ->check(whole_within(0, 1 << 28));
+  command->add_option("--layer", options->layer, "The layer of an .exr to compare. Default: its picture.")
       ->option_text("NAME");
   command
       ->add_option("--diff", options->diff,
                    "Write the difference: a false-colour .png, or log10 as .pfm or .exr.")
       ->option_text("FILE");
-  command->add_flag("--hdr", options->hdr,
-                    "Measure HDR-FLIP too. Without it, where a picture has values above 1.");
+  command->add_flag("--hdr", options->hdr, "Measure HDR-FLIP too. Default: if a picture has values above 1.");
   command
-      ->add_option(
-          "--flip", options->flip,
-          "Write the errors of FLIP, of HDR-FLIP where that is measured: false colour from 0 to 1, or "
-          "data.")
+      ->add_option("--flip", options->flip,
+                   "Write the errors of FLIP, or of HDR-FLIP if it is measured: in false colour from 0 to 1, "
+                   "or as data.")
       ->option_text("FILE");
   command
       ->add_option("--exposures", options->exposures,
-                   "Write the exposure at which HDR-FLIP finds each of its errors, in stops.")
+                   "Write the exposure, in stops, at which HDR-FLIP finds each error.")
       ->option_text("FILE");
   command->add_flag("--json", options->json, "Report as JSON.");
   command->footer(
       "Example: eyeray compare new.pfm old.pfm --diff difference.png\n"
-      "Exit code 0 when they agree, 1 when not; a NaN, an infinity or a negative colour in either fails.");
+      "Exit code 0 when they agree, 1 when not. A NaN, an infinity or a negative colour\nin either picture "
+      "fails.");
   command->callback([options, &run] { run = [options] { return options->run(); }; });
 }
 

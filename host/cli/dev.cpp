@@ -171,31 +171,31 @@ void add_dev(CLI::App& app, Run& run) {
   options->scene.add_to(*command);
   command
       ->add_option("-o,--output", options->outputs,
-                   "Also write each picture that is done: .png, .pfm, .hdr or .exr. May be repeated.")
+                   "Also write each finished picture: .png, .pfm, .hdr or .exr. May be repeated.")
       ->option_text("FILE")
       ->allow_extra_args(false)
       ->take_all();
-  command->add_option("--port", options->port, "Of the page, on 127.0.0.1; another where it is taken.")
+  command->add_option("--port", options->port, "The page's port on 127.0.0.1; another one if it is taken.")
       ->option_text(fmt::format("N={}", usual_port))
-      ->check(CLI::Range(1, 65535));
+      ->check(whole_within(1, 65535));
   command->add_flag("--no-page", options->no_page, "Show nothing in a browser.");
-  command->add_flag("--once", options->once, "Render once, and end: exit code 0, or that of what is wrong.");
+  command->add_flag("--once", options->once, "Render once and end, with exit code 0 or the fault's.");
   command
       ->add_option("--diagnostics", options->diagnostics,
-                   "How errors are said on standard error: gcc, json or github.")
+                   "The format of errors on standard error: gcc, json or github.")
       ->option_text("FORMAT=gcc")
-      ->check(CLI::IsMember({"gcc", "json", "github"}));
+      ->check(one_of({"gcc", "json", "github"}));
   add_backend_option(*command, options->backend);
   add_executor_options(*command, options->executor);
-  command->add_flag("--json", options->json, "Say each result as a line of JSON on standard output.");
+  command->add_flag("--json", options->json, "Print each result as a line of JSON on standard output.");
   command->add_option("--worker-socket", options->worker_socket, "")->group("");
   command->footer(
       "Example:\n"
       "  eyeray shaders --export my-shaders\n"
       "  eyeray dev scenes/whitted.toml --shaders my-shaders\n"
-      "Errors are shown as file:line:column: error and leave the last good picture alone. A shader that does "
-      "not end\n"
-      "is stopped after --timeout. Ctrl-C ends it all, with exit code 130.");
+      "Errors are shown as file:line:column: error, and leave the last good picture\n"
+      "alone. A shader that does not end is stopped after --timeout. Ctrl-C ends dev\n"
+      "with exit code 130.");
   command->callback([options, &run] { run = [options] { return options->run(); }; });
 }
 

@@ -5,7 +5,7 @@
 #include "host/generate/studio.hpp"
 #include "host/generate/terrain.hpp"
 #include "host/image/image_file.hpp"
-#include "host/program/within.hpp"
+#include "host/program/option_values.hpp"
 
 namespace eyeray::cli {
 namespace {
@@ -60,10 +60,7 @@ struct TerrainCommand {
 };
 
 ExitCode TerrainCommand::run() {
-  if (triangles > 0) {
-    check_triangles(double(triangles));
-    terrain.grid = generate::terrain_grid(triangles);
-  }
+  if (triangles > 0) terrain.grid = generate::terrain_grid(triangles);
   check_triangles(2.0 * terrain.grid * terrain.grid);
   write_generated(output, true, [&] {
     return Generated{.recipe = fmt::format("terrain --grid {} --seed {} --roughness {}", terrain.grid,
@@ -91,16 +88,16 @@ void add_sphereflake(CLI::App& generate, Run& run) {
   add_output(*command, options->output);
   command->add_option("--size-factor", options->size_factor, "Levels: 4 has 7381 spheres, 5 has 66430.")
       ->option_text("N=4")
-      ->check(CLI::Range(1, generate::max_sphereflake));
-  CLI::Option* const tessellate =
-      command
-          ->add_option("--tessellate", options->divisions,
-                       "A mesh instead, every sphere an octahedron with edges divided by N: 8 N^2 triangles.")
-          ->option_text("N")
-          ->check(CLI::Range(1, 8192));
-  command->add_option("--triangles", options->triangles, "A mesh instead, of about N triangles in all.")
+      ->check(whole_within(1, generate::max_sphereflake));
+  CLI::Option* const tessellate = command
+                                      ->add_option("--tessellate", options->divisions,
+                                                   "Make a mesh, with an octahedron for each sphere whose "
+                                                   "edges are divided by N: 8 N^2 triangles.")
+                                      ->option_text("N")
+                                      ->check(whole_within(1, 8192));
+  command->add_option("--triangles", options->triangles, "Make a mesh of about N triangles in all.")
       ->option_text("N")
-      ->check(CLI::PositiveNumber)
+      ->check(whole_within(1, int64_t(generate::max_generated_triangles)))
       ->excludes(tessellate);
   command->footer("Example: eyeray generate sphereflake -o balls.toml --size-factor 5");
   command->callback([options, &run] { run = [options] { return options->run(); }; });
@@ -113,14 +110,17 @@ void add_terrain(CLI::App& generate, Run& run) {
   CLI::Option* const grid =
       command->add_option("--grid", options->terrain.grid, "Cells a side, two triangles each.")
           ->option_text("N=160")
-          ->check(CLI::Range(1, generate::max_terrain_grid));
-  command->add_option("--triangles", options->triangles, "About so many triangles instead.")
+          ->check(whole_within(1, generate::max_terrain_grid));
+  command->add_option("--triangles", options->triangles, "Make about N triangles.")
       ->option_text("N")
-      ->check(CLI::PositiveNumber)
+      ->check(whole_within(1, int64_t(generate::max_generated_triangles)))
       ->excludes(grid);
-  command->add_option("--seed", options->terrain.seed, "Another number, another landscape.")
-      ->option_text("N=0");
-  command->add_option("--roughness", options->terrain.roughness, "From 0.2, rolling hills, to 0.6, crags.")
+  command->add_option("--seed", options->terrain.seed, "The seed of the landscape.")
+      ->option_text("N=0")
+      ->check(whole_within(0, std::numeric_limits<uint32_t>::max()));
+  command
+      ->add_option("--roughness", options->terrain.roughness,
+                   "Roughness, from 0.2 for rolling hills to 0.6 for crags.")
       ->option_text("R=0.48")
       ->check(within(0.2, 0.6));
   command->footer("Example: eyeray generate terrain -o alps.toml --triangles 8000000 --seed 7");
@@ -139,7 +139,7 @@ void add_studio(CLI::App& generate, Run& run) {
       ->required();
   command->add_option("--width", options->width, "Pixels across; half as many down.")
       ->option_text("N=1024")
-      ->check(CLI::Range(2, generate::most_studio_width));
+      ->check(whole_within(2, generate::most_studio_width));
   command->footer("Example: eyeray generate studio -o studio.hdr");
   command->callback([options, &run] {
     run = [options] {

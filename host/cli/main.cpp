@@ -13,11 +13,12 @@ namespace {
 constexpr const char* footer =
     "First picture:   eyeray render scenes/whitted.toml -o whitted.png\n"
     "Proof:           eyeray verify scenes/whitted.toml\n"
-    "Exit codes: 0 ok, 1 a comparison failed, 2 bad usage, scene or shader, 3 no usable Vulkan device,\n"
-    "            4 file input or output, 5 time-out, 6 a checkpoint that nothing goes on from,\n"
+    "Exit codes: 0 ok, 1 a comparison failed, 2 bad usage, scene or shader,\n"
+    "            3 no usable Vulkan device, 4 file input or output, 5 time-out,\n"
+    "            6 a checkpoint that nothing goes on from, 70 a bug in eyeray,\n"
     "            128 + N ended by signal N.\n"
-    "Data goes to standard output, words to standard error. Under --json a failure is JSON too: "
-    "{\"error\": ...}.";
+    "Data goes to standard output, words to standard error. Under --json a failure\n"
+    "is JSON too: {\"error\": ...}.";
 
 // A command of former versions, which users may still type. No list shows it.
 void name_bench(CLI::App& app) {

@@ -152,9 +152,8 @@ void add_merge(CLI::App& app, Run& run) {
   const auto options = std::make_shared<MergeCommand>();
   command
       ->add_option("PARTS", options->parts,
-                   "All parts of the picture, in any order; or verify's reports, .json.")
-      ->required()
-      ->option_text(" ");
+                   "All parts of the picture in any order, or reports of verify (.json).")
+      ->required();
   command
       ->add_option(
           "-o,--output", options->outputs,
@@ -164,9 +163,9 @@ void add_merge(CLI::App& app, Run& run) {
       ->take_all();
   command->add_flag("--half", options->half, "Write the colours of an .exr in 16 bits a channel, not 32.");
   command->add_flag("--check", options->check,
-                    "Only say whether the parts are sound and all of one picture.");
+                    "Only report whether the parts are sound and make a whole picture.");
   command->add_flag("-q,--quiet", options->quiet, "No summary; warnings and errors remain.");
-  command->add_flag("--json", options->json, "Say what was done as JSON on standard output.");
+  command->add_flag("--json", options->json, "Report as JSON on standard output.");
   command->footer(
       "Examples:\n"
       "  eyeray merge whitted.*-of-64.eyeray -o whitted.png\n"

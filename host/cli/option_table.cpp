@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "host/executors/tuning.hpp"
+#include "host/program/help.hpp"
 
 namespace eyeray::cli {
 namespace {
@@ -21,7 +22,7 @@ std::vector<std::string> tuning_settings() {
 
 OptionRow row_of(const CLI::Option& option) {
   OptionRow row;
-  row.text = option.get_description();
+  row.text = program::description_of(option);
   row.group = option.get_group();
   row.is_argument = option.get_positional();
   if (row.is_argument) {

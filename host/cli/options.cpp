@@ -3,8 +3,10 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
-#include <charconv>
+#include <algorithm>
+#include <array>
 #include <cstdlib>
+#include <span>
 
 #include "host/cli/command.hpp"
 #include "host/core/embedded_shaders.hpp"
@@ -14,10 +16,36 @@
 #include "host/executors/cpp_compiler.hpp"
 #include "host/executors/tuning.hpp"
 #include "host/loader/scene_file.hpp"
+#include "host/loader/sections.hpp"
+#include "host/program/option_values.hpp"
+#include "host/scene/table_reader.hpp"
 #include "host/session/request.hpp"
 
 namespace eyeray::cli {
 namespace {
+
+// Options that each lay one value over the scene.
+struct ValueOption {
+  const char* name;
+  const char* value;
+  std::string_view section, key;
+  const char* text;
+};
+constexpr std::array value_options = {
+    ValueOption{"--spp", "N", "image", "samples", "Samples a pixel"},
+    ValueOption{"--exposure", "STOPS", "image", "exposure", "Exposure of a .png"},
+    ValueOption{"--integrator", "NAME", "render", "integrator", "Integrator (docs/scene-reference.md)"},
+    ValueOption{"--max-depth", "N", "render", "max_depth", "Most reflections and refractions in a row"},
+    ValueOption{"--seed", "N", "render", "seed", "Seed of all random numbers"},
+    ValueOption{"--triangle", "METHOD", "render", "triangle", "Triangle intersection"}};
+
+// "Samples a pixel: an integer from 1 to 65536.", by the key's row.
+std::string description_of(const ValueOption& option) {
+  const std::span<const Key> keys = loader::find_section(option.section)->keys;
+  std::string values = describe(*std::ranges::find(keys, option.key, &Key::name));
+  std::erase(values, '"');
+  return fmt::format("{}: {}.", option.text, values);
+}
 
 // A file that has an embedded shader's name, but lies elsewhere, takes nothing's place.
 void warn_of_misplaced_shaders(const std::filesystem::path& folder) {
@@ -76,9 +104,8 @@ void SceneOptions::add_to(CLI::App& command) {
   command
       .add_option("SCENE", file_, "The scene file (docs/scene-file.md), or a mesh: .obj, .ply, .gltf, .glb.")
       ->required()
-      ->option_text(" ")
       ->check([](const std::string& file) { return file.empty() ? "wants the name of a file" : ""; });
-  const auto add = [&](const char* name, auto& value, const char* text, const char* description) {
+  const auto add = [&](const char* name, auto& value, const char* text, const std::string& description) {
     return command.add_option(name, value, description)->option_text(text)->group(group);
   };
   add("-D,--define", defines_, "KEY=VALUE",
@@ -87,21 +114,19 @@ void SceneOptions::add_to(CLI::App& command) {
       ->allow_extra_args(false)
       ->take_all();
   add("--allow-path", trust_.folders, "DIR",
-      "A folder outside the scene's whose scenes and images it may use. May be repeated.")
+      "A folder outside the scene's own that the scene may read from. May be repeated.")
       ->allow_extra_args(false)
       ->take_all();
   command
       .add_flag("--no-formulas{false}", trust_.formulas,
-                "Refuse a scene that brings functions of its own ([[implicit]] with `code` or `file`).")
+                "Refuse a scene with user-defined functions ([[implicit]] with `code` or `file`).")
       ->group(group);
   add("-s,--size", size_, "WxH", "Picture size in pixels, as 640x480.");
-  add("--spp", samples_, "N", "Samples a pixel, of some patterns a square number.");
-  add("--exposure", exposure_, "STOPS", "Of a .png: twice as bright with each.");
-  add("--integrator", integrator_, "NAME",
-      "whitted; path: all light, with noise; or raycast: eye rays only.");
-  add("--max-depth", max_depth_, "N", "Reflections and refractions in a row.");
-  add("--seed", seed_, "N", "Of all random numbers.");
-  add("--triangle", triangle_, "METHOD", "Triangle intersection: woop or moller-trumbore.");
+  static_assert(std::tuple_size_v<decltype(values_)> == value_options.size());
+  for (size_t i = 0; i < value_options.size(); ++i) {
+    const ValueOption& each = value_options[i];
+    add(each.name, values_[i], each.value, description_of(each));
+  }
 }
 
 std::string SceneOptions::as_written() const {
@@ -111,12 +136,7 @@ std::string SceneOptions::as_written() const {
     if (!value.empty()) text += fmt::format(" {} {}", name, shell_word(value));
   };
   add("-s", size_);
-  add("--spp", samples_);
-  add("--exposure", exposure_);
-  add("--integrator", integrator_);
-  add("--max-depth", max_depth_);
-  add("--seed", seed_);
-  add("--triangle", triangle_);
+  for (size_t i = 0; i < value_options.size(); ++i) add(value_options[i].name, values_[i]);
   return text;
 }
 
@@ -128,16 +148,12 @@ Scene SceneOptions::load() const {
     overrides.push_back({fmt::format("image.width={}", width), "-s " + size_});
     overrides.push_back({fmt::format("image.height={}", height), "-s " + size_});
   }
-  const auto add = [&](const char* option, const char* key, const std::string& value) {
-    if (!value.empty())
-      overrides.push_back({fmt::format("{}={}", key, value), fmt::format("{} {}", option, value)});
-  };
-  add("--spp", "image.samples", samples_);
-  add("--exposure", "image.exposure", exposure_);
-  add("--integrator", "render.integrator", integrator_);
-  add("--max-depth", "render.max_depth", max_depth_);
-  add("--seed", "render.seed", seed_);
-  add("--triangle", "render.triangle", triangle_);
+  for (size_t i = 0; i < value_options.size(); ++i) {
+    const ValueOption& each = value_options[i];
+    if (!values_[i].empty())
+      overrides.push_back({fmt::format("{}.{}={}", each.section, each.key, values_[i]),
+                           fmt::format("{} {}", each.name, values_[i])});
+  }
 
   Scene scene = session::checked(loader::load_scene(file_, overrides, trust_));
   for (const Diagnostic& warning : scene.warnings) print_lines(stderr, "{}\n", format_diagnostic(warning));
@@ -148,7 +164,7 @@ void add_executor_options(CLI::App& command, executors::ExecutorOptions& options
   const std::string group = "Device";
   command
       .add_option("--device", options.gpu.device,
-                  "auto, cpu, gpu, a number or part of a name (see eyeray devices).")
+                  "The Vulkan device: auto, cpu, gpu, a number, or a part of a name (see eyeray devices).")
       ->option_text("WHICH")
       ->group(group);
   command
@@ -167,21 +183,15 @@ void add_executor_options(CLI::App& command, executors::ExecutorOptions& options
       .add_option("--timeout", options.gpu.timeout_seconds, "The longest wait for the device, in seconds.")
       ->option_text(fmt::format("SECONDS={}", options.gpu.timeout_seconds))
       ->group(group)
-      ->check([](const std::string& text) {
-        double seconds = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
-        const bool good =
-            error == std::errc() && end == text.data() + text.size() && seconds >= 0.001 && seconds <= 1e6;
-        return good ? std::string() : fmt::format("wants seconds from 0.001 to 1000000, not '{}'", text);
-      });
+      ->check(within(0.001, 1e6));
   command
       .add_flag("--compile-twin", options.twin.compile,
-                "Make the twin of the shaders of --shaders, too, by a C++ compiler ($CXX), for debuggers.")
+                "Compile the twin from --shaders too, with a C++ compiler ($CXX), for debuggers.")
       ->group(group);
   command
       .add_option_function<std::string>(
           "--sanitize", [&options](const std::string& list) { sanitize(options, list); },
-          "The same, with sanitizers: address, undefined, or both.")
+          "Compile the twin with sanitizers: address, undefined, or both (address,undefined).")
       ->option_text("LIST")
       ->group(group);
   command
@@ -197,8 +207,8 @@ void add_executor_options(CLI::App& command, executors::ExecutorOptions& options
           [&options](const std::vector<std::string>& settings) {
             for (const std::string& setting : settings) executors::tune(options, setting);
           },
-          fmt::format("How kernels are made and find hits, for who measures; no pixel changes "
-                      "(docs/tuning.md). May be repeated. Out of {}.",
+          fmt::format("Set how kernels are built and find hits, for measurements; no pixel changes "
+                      "(docs/tuning.md). May be repeated. Settings: {}.",
                       keys))
       ->option_text("KEY=VALUE")
       ->allow_extra_args(false)
@@ -209,15 +219,15 @@ void add_executor_options(CLI::App& command, executors::ExecutorOptions& options
                   "Run under the Vulkan validation layer: core or sync.")
       ->option_text("SET")
       ->group(group)
-      ->check(CLI::IsMember({"core", "sync"}));
+      ->check(one_of({"core", "sync"}));
 }
 
 void add_backend_option(CLI::App& command, executors::Backend& backend) {
   const auto parse = [&backend](const std::string& name) { backend = executors::parse_backend(name); };
   command
-      .add_option_function<std::string>(
-          "--backend", parse,
-          "gpu, twin (the same shaders as C++ on the CPU) or reference (float64, written independently).")
+      .add_option_function<std::string>("--backend", parse,
+                                        "The executor: gpu, twin (the same shaders as C++ on the CPU) or "
+                                        "reference (float64, written independently).")
       ->option_text("NAME=gpu")
       ->group("Device");
 }

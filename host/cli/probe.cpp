@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "host/cli/command.hpp"
+#include "host/program/option_values.hpp"
 
 namespace eyeray::cli {
 namespace {
@@ -38,18 +39,20 @@ void add_probe(CLI::App& app, Run& run) {
       "probe", "Show all rays of one pixel, by GPU, twin and reference, and what differs first.");
   const auto options = std::make_shared<ProbeCommand>();
   options->scene_options.add_to(*command);
-  command->add_option("PIXEL", options->pixel, "X,Y, from the picture's top left, as verify names it.")
-      ->required()
-      ->option_text(" ");
+  command
+      ->add_option("PIXEL", options->pixel,
+                   "The pixel as X,Y from the picture's top left, as verify reports it.")
+      ->required();
   add_executor_options(*command, options->options.executor);
   const auto parse = [options](const std::string& list) { options->options.backends = parse_backends(list); };
-  command->add_option_function<std::string>("--backends", parse, "Who shows its rays.")
+  command->add_option_function<std::string>("--backends", parse, "The executors whose rays are shown.")
       ->option_text("LIST=gpu,twin,reference")
       ->group("Device");
   command
       ->add_option("--sample", options->options.sample,
-                   "Which of the pixel's samples, from 0. Default: the first that differs.")
-      ->option_text("N");
+                   "The sample of the pixel, from 0. Default: the first that differs.")
+      ->option_text("N")
+      ->check(whole_within(0, 65535));
   command->add_flag("--json", options->json, "Answer as JSON.");
   command->footer(
       "Examples:\n"

@@ -10,7 +10,7 @@
 #include "host/core/escaped_text.hpp"
 #include "host/core/readable.hpp"
 #include "host/core/standard_streams.hpp"
-#include "host/program/within.hpp"
+#include "host/program/option_values.hpp"
 #include "host/session/part_file.hpp"
 #include "host/session/picture_files.hpp"
 #include "host/session/session.hpp"
@@ -88,16 +88,18 @@ void add_frame_options(CLI::App& command, RenderCommand& options) {
   const std::string group = "Animation";
   command
       .add_option("--frames", options.frames,
-                  "These frames of a scene that moves, to files with the number in their names: -o "
-                  "out.%04d.png. What is there is kept.")
+                  "Render these frames of an animated scene, to files with the frame's number in their "
+                  "names: -o out.%04d.png. Existing files are kept.")
       ->option_text("FIRST:LAST[:STEP]")
       ->group(group)
       ->excludes("--checkpoint")
       ->excludes("--resume");
-  command.add_option("--video", options.video, "A video of them, too, by ffmpeg: .mp4, .mkv, .mov or .webm.")
+  command
+      .add_option("--video", options.video,
+                  "Make a video of the frames, too, with ffmpeg: .mp4, .mkv, .mov or .webm.")
       ->option_text("FILE")
       ->group(group);
-  command.add_flag("--overwrite", options.overwrite, "Render frames that are there anew.")->group(group);
+  command.add_flag("--overwrite", options.overwrite, "Render frames again whose files exist.")->group(group);
 }
 
 void add_long_render_options(CLI::App& command, RenderCommand& options) {
@@ -108,15 +110,16 @@ void add_long_render_options(CLI::App& command, RenderCommand& options) {
   };
   CLI::Option* const checkpoint =
       add("--checkpoint", file.begin, "FILE",
-          "Keep what is done in this file, now and then and on Ctrl-C, until the picture is written.");
+          "Store the work so far in this file, now and then and on Ctrl-C, until the picture is written.");
   add("--resume", file.resume, "FILE",
-      "Go on from a checkpoint, and keep it as --checkpoint does. All else must be as it was.")
+      "Continue from a checkpoint, and store it as --checkpoint does. All other options must be as they "
+      "were.")
       ->excludes(checkpoint);
-  add("--checkpoint-every", file.seconds, "SECONDS=30", "How often the checkpoint is written.")
+  add("--checkpoint-every", file.seconds, "SECONDS=30", "The time between two writes of the checkpoint.")
       ->check(within(0.01, 1e6));
   add("--band-memory", options.band_mebibytes, "MIB=256",
-      "A picture whose sums (40 bytes a pixel) need more is rendered in bands of rows.")
-      ->check(CLI::Range(1, 1 << 20));
+      "The memory for the sums of pixels, 40 bytes each. A larger picture is rendered in bands of rows.")
+      ->check(whole_within(1, 1 << 20));
 }
 
 session::Result RenderCommand::render(PictureOptions& wanted) {
@@ -243,19 +246,16 @@ void add_render(CLI::App& app, Run& run) {
   add_frame_options(*command, *render);
   CLI::Option* const noise =
       command
-          ->add_option(
-              "--noise", request.noise,
-              fmt::format(
-                  "Take samples until pixels are off by no more than this share of their brightness, as "
-                  "0.01, each as many as it needs; --spp N (without it {}) is the most.",
-                  most_samples_by_default))
+          ->add_option("--noise", request.noise,
+                       fmt::format("Take samples until the error of each pixel is at most this share of its "
+                                   "brightness, as 0.01. --spp N (default {}) is the maximum.",
+                                   most_samples_by_default))
           ->option_text("SHARE")
           ->check(within(1e-4, 1));
   command
-      ->add_option(
-          "--clamp", request.clamp,
-          "Cut every sample to this in any channel: no more bright dots, but a biased picture, which "
-          "is darker than the truth.")
+      ->add_option("--clamp", request.clamp,
+                   "Cut every sample to this value in each channel: no bright dots, but a biased picture, "
+                   "which is darker than the truth.")
       ->option_text("X")
       ->check(within(1e-6, 1e15));
   command
@@ -263,22 +263,22 @@ void add_render(CLI::App& app, Run& run) {
           "--shard",
           [render](const std::string& text) { render->options.request.shard = shards::parse_shard(text); },
           "Render the I-th of N shares of the picture, as 3/64, to a part; eyeray merge makes the picture of "
-          "all.")
+          "all parts.")
       ->option_text("I/N")
       ->group("Many machines");
   command->add_flag(
       "--stats", render->stats,
-      "Print how long each stage took, and how many eye, reflected, refracted and shadow rays there were.");
+      "Print the time of each stage, and the numbers of camera, reflected, refracted and shadow rays.");
   command
-      ->add_flag(
-          "--classic", render->options.classic,
-          "Sample as Haines' published statistics do: a ray a pixel corner, at most 5 in a row with the eye "
-          "ray, none left out for counting little.")
+      ->add_flag("--classic", render->options.classic,
+                 "Sample as Haines' published statistics do: one ray at each pixel corner, at most 5 rays in "
+                 "a row, and none left out for a small contribution.")
       ->excludes("--spp")
       ->excludes(noise)
       ->excludes("--max-depth");
-  command->add_flag("-q,--quiet", render->quiet, "No progress and no summary; warnings and errors remain.");
-  command->add_flag("--json", render->json, "Say what was done as JSON on standard output.");
+  command->add_flag("-q,--quiet", render->quiet,
+                    "Print no progress and no summary; warnings and errors remain.");
+  command->add_flag("--json", render->json, "Report as JSON on standard output.");
   command->footer(
       "Examples:\n"
       "  eyeray render scenes/whitted.toml                                   whitted.png\n"

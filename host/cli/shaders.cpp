@@ -99,8 +99,7 @@ void add_shaders(CLI::App& app, Run& run) {
   CLI::App* const command =
       app.add_subcommand("shaders", "List, print or export the shaders inside the program.");
   const auto options = std::make_shared<ShadersCommand>();
-  CLI::Option* const list =
-      command->add_flag("--list", options->listed, "Print the names (the default).")->option_text(" ");
+  CLI::Option* const list = command->add_flag("--list", options->listed, "Print the names (the default).");
   CLI::Option* const print =
       command->add_option("--print", options->name, "Print one shader.")->option_text("NAME");
   command->add_option("--export", options->folder, "Write all shaders below this folder.")

@@ -10,6 +10,7 @@
 #include "host/cli/picture_options.hpp"
 #include "host/core/content_hash.hpp"
 #include "host/core/standard_streams.hpp"
+#include "host/program/option_values.hpp"
 #include "host/session/picture_files.hpp"
 #include "host/slurm/array.hpp"
 
@@ -157,33 +158,32 @@ void add_slurm(CLI::App& app, Run& run, const std::vector<std::string>& sbatch_w
   const auto options = std::make_shared<SlurmCommand>();
   options->sbatch_words = sbatch_words;
   options->picture.add_to(*command);
-  command->add_option("MORE", options->more_scenes, "Further scenes, under the same options.")
-      ->option_text(" ");
+  command->add_option("MORE", options->more_scenes, "Further scenes, under the same options.");
   const auto add = [&](const char* name, auto& value, const char* text, const char* description) {
     return command->add_option(name, value, description)->option_text(text)->group("Slurm");
   };
-  add("--shards", options->shards, "N", "How many shares, and so jobs, there are.")
+  add("--shards", options->shards, "N", "The number of shares, and so of jobs.")
       ->required()
-      ->check(CLI::Range(1, render::most_shards));
+      ->check(whole_within(1, render::most_shards));
   add("--frames", options->frames, "FIRST:LAST[:STEP]",
-      "These frames of a scene that moves, every N-th of them a share; -o out.%04d.png.");
-  add("--video", options->video, "FILE", "A video of them, too, by ffmpeg on the last job's node.");
+      "Render these frames of an animated scene, every N-th of them a share; -o out.%04d.png.");
+  add("--video", options->video, "FILE", "Make a video of the frames with ffmpeg, on the last job's node.");
   add("--folder", options->folder, "DIR",
-      "For parts, checkpoints and scripts, where all nodes see it. Default: SCENE.slurm here.");
+      "The folder for parts, checkpoints and scripts, visible to all nodes. Default: SCENE.slurm here.");
   command
       ->add_flag("--no-submit", options->no_submit,
-                 "Write the scripts, and say how far the picture is; submit nothing.")
+                 "Write the scripts and report how far the picture is, but submit nothing.")
       ->group("Slurm");
-  command->add_flag("-q,--quiet", options->quiet, "Only warnings and errors.");
-  command->add_flag("--json", options->json, "Say what was done as JSON on standard output.");
+  command->add_flag("-q,--quiet", options->quiet, "Print only warnings and errors.");
+  command->add_flag("--json", options->json, "Report as JSON on standard output.");
   command->footer(
       "Examples:\n"
       "  eyeray slurm scenes/whitted.toml -s 3840x2160 --spp 256 --shards 64 -- --partition=render "
       "--time=1:00:00\n"
       "  eyeray slurm scenes/animation.toml --frames 0:47 --shards 12 --video animation.mp4 -- "
       "--time=1:00:00\n"
-      "Words behind -- are sbatch's. The same command again says how far the jobs are, and when they have\n"
-      "ended submits what is missing.");
+      "Words behind -- are sbatch's. The same command again reports how far the jobs\n"
+      "are, and submits what is missing when they have ended.");
   command->callback([options, command, &run] {
     options->render_words =
         words_of_render(*command, {"--output", "--half", "--shards", "--frames", "--video", "--folder",

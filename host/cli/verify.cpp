@@ -17,7 +17,7 @@
 #include "host/core/standard_streams.hpp"
 #include "host/loader/scene_edit.hpp"
 #include "host/loader/suite.hpp"
-#include "host/program/within.hpp"
+#include "host/program/option_values.hpp"
 #include "host/session/request.hpp"
 #include "host/shards/part.hpp"
 #include "host/verify/page.hpp"
@@ -44,7 +44,7 @@ struct VerifyCommand {
   bool github = false;
   std::vector<std::string> may_stay_unverified;
   std::string against;
-  verify::Update update = verify::Update::never;
+  std::string update;                       // failing, force, or never: ""
   std::optional<render::Shard> shard = {};  // of the scenes
   std::vector<std::string> files = {};      // those that are verified
   size_t suite_size = 0;                    // all, and …
@@ -83,7 +83,10 @@ std::optional<verify::Golden> VerifyCommand::golden_of(const std::string& scene)
   if (against.empty()) return std::nullopt;
   const bool is_picture = fs::path(against).extension() == ".pfm";
   return verify::Golden{is_picture ? fs::path(against) : fs::path(against) / (name_in_folder(scene) + ".pfm"),
-                        update, EYERAY_VERSION};
+                        update.empty()      ? verify::Update::never
+                        : update == "force" ? verify::Update::all
+                                            : verify::Update::failing,
+                        EYERAY_VERSION};
 }
 
 // Every scene that was named, or lies in a folder that was.
@@ -179,9 +182,9 @@ void VerifyCommand::write_reports(std::span<const compare::Report> reports) cons
 
 // Checks that CLI11 cannot make.
 void VerifyCommand::check_options() const {
-  if (update != verify::Update::never && against.empty())
+  if (!update.empty() && against.empty())
     throw Error(ExitCode::bad_input, "--update needs --against: which picture is to be updated?");
-  if (update != verify::Update::never && options.crop.pixels() > 0)
+  if (!update.empty() && options.crop.pixels() > 0)
     throw Error(ExitCode::bad_input, "--update stores whole pictures: leave out --crop");
   if (fs::path(against).extension() == ".pfm" && suite_size > 1)
     throw Error(ExitCode::bad_input, "--against {}: {} scenes need a folder of pictures", against,
@@ -246,10 +249,8 @@ void add_verify(CLI::App& app, Run& run) {
   const auto options = std::make_shared<VerifyCommand>();
   verify::Options& how = options->options;
   options->scene_options.add_to(*command);
-  command
-      ->add_option("MORE", options->more_scenes,
-                   "Further scenes, or folders of them, under the same options.")
-      ->option_text(" ");
+  command->add_option("MORE", options->more_scenes,
+                      "Further scenes, or folders of them, under the same options.");
   add_crop_option(*command, how.crop);
   add_executor_options(*command, how.executor);
   const auto parse = [&how](const std::string& list) {
@@ -258,57 +259,56 @@ void add_verify(CLI::App& app, Run& run) {
       throw Error(ExitCode::bad_input,
                   "--backends names what is compared with the reference: gpu, twin or gpu,twin");
   };
-  command->add_option_function<std::string>("--backends", parse, "What is compared with the reference.")
+  command
+      ->add_option_function<std::string>("--backends", parse,
+                                         "The executors to compare with the reference: gpu, twin, or both.")
       ->option_text("LIST=gpu,twin")
       ->group("Device");
   command
-      ->add_option(
-          "--max-explained", how.max_explained,
-          "The share of pixels that may differ where the picture itself jumps, each gate's. Default: "
-          "what the scene's [verify] says.")
+      ->add_option("--max-explained", how.max_explained,
+                   "The share of pixels that may differ at discontinuities of the picture, for each gate. "
+                   "Default: from the scene's [verify].")
       ->option_text("SHARE")
       ->check(within(0, most_explained));
   command
       ->add_option("--against", options->against,
-                   "A golden picture, .pfm, that the scene's must equal too; or a folder of them.")
+                   "A golden picture (.pfm) that the scene's picture must equal too, or a folder of them.")
       ->option_text("FILE");
   command
       ->add_flag("--update{failing}", options->update,
-                 "Where nothing else fails, store the scene's picture as the golden one: of scenes that "
-                 "differ from it or have none; with =force, of all.")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, verify::Update>{
-          {"failing", verify::Update::failing}, {"force", verify::Update::all}}))
+                 "If nothing else fails, store the scene's picture as the golden one where that differs or "
+                 "is missing; with =force, always.")
+      ->check(one_of({"failing", "force"}))
+      ->disable_flag_override(false)
       ->option_text("[=force]");
   command->add_flag("--record", options->record,
-                    "Where nothing else fails, write twice the share that is explained into the scene's "
-                    "[verify].");
+                    "If nothing else fails, write twice the explained share into the scene's [verify].");
   command
-      ->add_option(
-          "--ulp", how.ulp,
-          "How far GPU and twin may be apart, in units in the last place: for devices whose square root or "
-          "division is not exact.")
+      ->add_option("--ulp", how.ulp,
+                   "The largest distance between GPU and twin, in units in the last place: for devices whose "
+                   "square root or division is not exact.")
       ->option_text("N=0")
-      ->check(CLI::Range(0, 64));
+      ->check(whole_within(0, 64));
   command->add_flag("--raster", how.raster,
-                    "Compare what eye rays hit with what the device's rasteriser draws, too.");
+                    "Compare the hits of camera rays with the device's rasteriser, too.");
   command
       ->add_option("--keep", options->keep,
-                   "Where pictures are left when a gate fails. Default: SCENE.verify here.")
+                   "The folder for the pictures of a failed gate. Default: SCENE.verify here.")
       ->option_text("DIR");
-  command->add_flag("--keep-passed", options->keep_passed, "Leave them when no gate fails, too.");
+  command->add_flag("--keep-passed", options->keep_passed, "Write these pictures if no gate fails, too.");
   command
       ->add_option_function<std::string>(
           "--shard", [options](const std::string& text) { options->shard = shards::parse_shard(text); },
-          "Of the scenes every N-th, from the I-th on, as 3/64; eyeray merge makes one of the reports of "
-          "--json.")
+          "Verify every N-th scene, from the I-th on, as 3/64; eyeray merge joins the reports of --json.")
       ->option_text("I/N");
-  command->add_flag("-q,--quiet", options->quiet, "No progress.");
+  command->add_flag("-q,--quiet", options->quiet, "Print no progress.");
   command->add_flag("--json", options->json, "Report as JSON.");
   command
-      ->add_option("--report", options->page_folder,
-                   "Write a page with all pictures, DIR/index.html; what failing scenes leave goes below.")
+      ->add_option(
+          "--report", options->page_folder,
+          "Write a page with all pictures, DIR/index.html, and the pictures of failed scenes below DIR.")
       ->option_text("DIR");
-  command->add_option("--junit", options->junit, "Write the report as JUnit's XML, too; its folder is made.")
+  command->add_option("--junit", options->junit, "Write the report as JUnit XML, too. Its folder is made.")
       ->option_text("FILE");
   command
       ->add_flag("--github", options->github,
@@ -316,7 +316,7 @@ void add_verify(CLI::App& app, Run& run) {
       ->excludes("--json");
   command
       ->add_option("--allow-unverified", options->may_stay_unverified,
-                   "A scene of several that may fail to render. May be repeated.")
+                   "A scene that may fail to render among several. May be repeated.")
       ->option_text("SCENE")
       ->allow_extra_args(false)
       ->take_all();

@@ -44,6 +44,8 @@ v0::ErrorKind kind_of(ExitCode code) {
       return v0::ErrorKind::timed_out;
     case ExitCode::interrupted:
       return v0::ErrorKind::cancelled;
+    case ExitCode::internal:
+      return v0::ErrorKind::internal;
     default:
       return v0::ErrorKind::bad_input;
   }

@@ -1,6 +1,13 @@
 #include "host/program/help.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <filesystem>
+#include <set>
 #include <sstream>
 
 #include "host/build/build_facts.hpp"
@@ -9,10 +16,19 @@ namespace eyeray::program {
 namespace {
 
 constexpr size_t name_columns = 30;
-constexpr size_t text_columns = 80;
+constexpr size_t most_text_columns = 80, least_text_columns = 40;
+
+size_t text_columns() {
+  winsize size{};
+  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return most_text_columns;
+  return std::clamp(std::max<size_t>(size.ws_col, name_columns) - name_columns, least_text_columns,
+                    most_text_columns);
+}
 
 // Line breaks between words, so that no line is longer than `columns`.
-std::string wrapped(const std::string& text, size_t columns) {
+std::string wrapped(const std::string& text, size_t indent = name_columns) {
+  static const size_t room = text_columns() + name_columns;
+  const size_t columns = room - indent;
   std::istringstream words(text);
   std::string result, word;
   for (size_t column = 0; words >> word; column += word.size()) {
@@ -56,8 +72,21 @@ class HelpFormatter final : public CLI::Formatter {
       name.erase(open, name.find('}', open) + 1 - open);
     return name;
   }
+  // What CLI11 would add, types and what is excluded, is in the description.
+  std::string make_option_opts(const CLI::Option* option) const override {
+    return option->get_option_text().empty() ? "" : " " + option->get_option_text();
+  }
   std::string make_option_desc(const CLI::Option* option) const override {
-    return wrapped(option->get_description(), text_columns);
+    return wrapped(description_of(*option));
+  }
+  std::string make_description(const CLI::App* app) const override {
+    return wrapped(app->get_description(), 0) + "\n";
+  }
+  std::string make_subcommand(const CLI::App* command) const override {
+    std::stringstream text;
+    CLI::detail::format_help(text, command->get_display_name(true), wrapped(command->get_description()),
+                             column_width_);
+    return text.str();
   }
   std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
     std::string text = CLI::Formatter::make_help(app, name, mode);
@@ -70,6 +99,13 @@ class HelpFormatter final : public CLI::Formatter {
 };
 
 }  // namespace
+
+std::string description_of(const CLI::Option& option) {
+  std::set<std::string> names;  // CLI11's set is in the order of addresses
+  for (const CLI::Option* other : option.get_excludes()) names.insert(other->get_name());
+  if (names.empty()) return option.get_description();
+  return fmt::format("{} Not with {}.", option.get_description(), fmt::join(names, ", "));
+}
 
 std::shared_ptr<CLI::Formatter> help_formatter() {
   return std::make_shared<HelpFormatter>();

@@ -24,15 +24,19 @@ std::string words_before(const CLI::App& command) {
   return parent ? words_before(*parent) + command.get_name() + " " : "";
 }
 
-// What CLI11 says of values, in plain words.
+// CLI11's message in plain words.
 std::string plain_words(const std::string& text) {
-  static const std::regex missing(R"(^(.+): 1 required \w+ missing$)");
-  static const std::regex not_among(R"(^(.+): (.*) not in \{(.*)\}$)");
-  std::smatch match;
-  if (std::regex_match(text, match, missing)) return fmt::format("{} needs a value", match[1].str());
-  if (!std::regex_match(text, match, not_among)) return text;
-  return fmt::format("{} is one of {}, not '{}'", match[1].str(),
-                     std::regex_replace(match[3].str(), std::regex(","), ", "), match[2].str());
+  static const std::pair<std::regex, const char*> rules[] = {
+      {std::regex(R"(^(.+): 1 required .+ missing$)"), "$1 needs a value"},
+      {std::regex(R"(^(.+): At Most 1 required but received (\d+)$)"), "$1 is given $2 times"},
+      {std::regex(R"(^(.+) was given a disallowed flag override$)"), "--$1 takes no value"},
+      {std::regex(R"(^(.+) excludes (.+)$)"), "$1 and $2 exclude each other"},
+      {std::regex(R"(^Could not convert: (.+?) = ([^]*)$)"), "$1 does not take the value '$2'"},
+      // Of option_values.hpp, behind the option's name.
+      {std::regex(R"(^([\w-]+): ((?:is|wants) [^]*)$)"), "$1 $2"}};
+  for (const auto& [pattern, words] : rules)
+    if (std::regex_match(text, pattern)) return std::regex_replace(text, pattern, words);
+  return text;
 }
 
 // The option that is meant by other programs' name for it; else the name.
@@ -105,6 +109,7 @@ void describe(CLI::App& app, const std::string& name, const std::string& text, c
                        "Print the version, and the commit that it was built from.");
   app.set_help_flag("-h,--help", "Print this help.");
   app.formatter(help_formatter());
+  app.option_defaults()->disable_flag_override();
   app.footer(footer);
 }
 

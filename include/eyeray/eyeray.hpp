@@ -56,6 +56,7 @@ enum class ErrorKind {
   file_io,    // a file cannot be read or written
   timed_out,  // the device took longer than RendererOptions::timeout_seconds
   cancelled,  // a Cancellation or a progress function ended the call
+  internal,   // eyeray has a bug
 };
 
 // what() is text for people: one sentence, or all diagnostics of a scene, each with its line and a caret.

@@ -6,12 +6,12 @@ import os
 
 from eyeray._eyeray import Cancellation, Picture, Renderer, Report, Scene, version
 from eyeray.errors import (
-    CancelledError, DeviceError, Diagnostic, DeviceTimeout, Error, FileError, InputError)
+    CancelledError, DeviceError, Diagnostic, DeviceTimeout, Error, FileError, InputError, InternalError)
 
 __version__ = version()
 __all__ = [
     "Cancellation", "CancelledError", "DeviceError", "DeviceTimeout", "Diagnostic", "Error", "FileError",
-    "InputError", "Picture", "Renderer", "Report", "Scene", "render", "verify", "version"]
+    "InputError", "InternalError", "Picture", "Renderer", "Report", "Scene", "render", "verify", "version"]
 
 _renderer = None
 

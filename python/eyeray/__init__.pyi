@@ -7,7 +7,8 @@ from eyeray._eyeray import (
     Scene as Scene, version as version)
 from eyeray.errors import (
     CancelledError as CancelledError, DeviceError as DeviceError, DeviceTimeout as DeviceTimeout,
-    Diagnostic as Diagnostic, Error as Error, FileError as FileError, InputError as InputError)
+    Diagnostic as Diagnostic, Error as Error, FileError as FileError, InputError as InputError,
+    InternalError as InternalError)
 
 __version__: str
 

@@ -54,5 +54,9 @@ class CancelledError(Error):
     """verify() was cancelled."""
 
 
+class InternalError(Error, RuntimeError):
+    """eyeray has a bug; please report it."""
+
+
 # By the numbers of the native module.
-_kinds = (InputError, DeviceError, FileError, DeviceTimeout, CancelledError)
+_kinds = (InputError, DeviceError, FileError, DeviceTimeout, CancelledError, InternalError)

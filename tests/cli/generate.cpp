@@ -78,7 +78,8 @@ TEST_CASE("what cannot be generated is refused in one line, and leaves no file")
        "that would be 1549681952 triangles; the most is 536870912"},
       {{"terrain", "-o", fresh, "--triangles", "600000000"},
        2,
-       "that would be 600000000 triangles; the most is 536870912"},
+       "--triangles is a whole number from 1 to 536870912, not '600000000' (see eyeray generate terrain "
+       "--help)"},
       {{"terrain", "-o", fresh, "--trangles", "6"},
        2,
        "unknown option '--trangles'; did you mean '--triangles'? (see eyeray generate terrain --help)"},

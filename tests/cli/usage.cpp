@@ -5,6 +5,7 @@
 #include <regex>
 
 #include "scene.hpp"
+#include "terminal.hpp"
 //
 #include "tests/support/doctest.hpp"
 
@@ -80,7 +81,7 @@ TEST_CASE("a wrong command line is one line that says what was meant, and code 2
        "the crop 1,1,2147483647,2147483647 leaves the picture, which is 64x48"},
       {{"render", scene, "--backend", "cpu"}, "no backend 'cpu': there are gpu, twin and reference"},
       {{"render", scene, "--timeout", "nan"},
-       "--timeout: wants seconds from 0.001 to 1000000, not 'nan' (see eyeray render --help)"},
+       "--timeout is a number from 0.001 to 1000000, not 'nan' (see eyeray render --help)"},
       {{"render", scene, "--aov", "dept"},
        "no AOV 'dept'; did you mean 'depth'? There are depth, position, normal, normal_geometric, front, "
        "uv, shape, primitive, material, hits, bounces, rays, ray_kinds, samples, noise, brightest, albedo, "
@@ -90,7 +91,7 @@ TEST_CASE("a wrong command line is one line that says what was meant, and code 2
        folder / "x.gif" + ": a picture's name must end in .png, .pfm, .hdr or .exr"},
       {{"shaders", "--print", "sphere.glsl"}, "no shader 'sphere.glsl' (see eyeray shaders --list)"},
       {{"check"}, "no scene given (see eyeray check --help)"},
-      {{"render", ""}, "SCENE: wants the name of a file (see eyeray render --help)"},
+      {{"render", ""}, "SCENE wants the name of a file (see eyeray render --help)"},
       {{"render", scene, "-o"}, "--output needs a value (see eyeray render --help)"},
       {{"render", scene, "--samples", "4"},
        "unknown option '--samples'; did you mean '--spp'? (see eyeray render --help)"},
@@ -108,6 +109,22 @@ TEST_CASE("a wrong command line is one line that says what was meant, and code 2
        "incoherent, stack, constants, optimiser"},
       {{"probe", scene, "1,1", "--tune", "rays=packets", "--tune", "constants=no"},
        "--tune constants is one of on, off, not 'no'"},
+      {{"render", scene, "--band-memory", "0"},
+       "--band-memory is a whole number from 1 to 1048576, not '0' (see eyeray render --help)"},
+      {{"render", scene, "--half=x"}, "--half takes no value (see eyeray render --help)"},
+      {{"render", scene, "--json=3"}, "--json takes no value (see eyeray render --help)"},
+      {{"render", scene, "--no-formulas=true"}, "--no-formulas takes no value (see eyeray render --help)"},
+      {{"render", scene, "--spp", "1", "--spp", "4"}, "--spp is given 2 times (see eyeray render --help)"},
+      {{"render", scene, "--classic", "--spp", "4"},
+       "--spp and --classic exclude each other (see eyeray render --help)"},
+      {{"verify", scene, "--update=x"},
+       "--update is one of failing, force, not 'x' (see eyeray verify --help)"},
+      {{"compare", "a.pfm", "b.pfm", "--max-different", "1.5"},
+       "--max-different is a whole number from 0 to 268435456, not '1.5' (see eyeray compare --help)"},
+      {{"probe", scene, "1,1", "--sample", "-1"},
+       "--sample is a whole number from 0 to 65535, not '-1' (see eyeray probe --help)"},
+      {{"generate", "terrain", "-o", "x.toml", "--seed", "x"},
+       "--seed is a whole number from 0 to 4294967295, not 'x' (see eyeray generate terrain --help)"},
       {{"completion", "bsh"}, "SHELL is one of bash, zsh, fish, not 'bsh' (see eyeray completion --help)"},
   };
   for (const Mistake& mistake : mistakes) {
@@ -138,8 +155,8 @@ TEST_CASE("without a command the help is shown, as words") {
 }
 
 TEST_CASE("every command explains itself with an example, in lines that fit") {
-  for (const std::string command :
-       {"render", "verify", "compare", "probe", "check", "dev", "devices", "generate", "shaders"}) {
+  for (const std::string command : {"render", "verify", "compare", "probe", "check", "dev", "devices",
+                                    "generate", "shaders", "merge", "slurm", "new"}) {
     CAPTURE(command);
     const ProcessResult result = run_eyeray({command, "--help"});
     CHECK(result.code == 0);
@@ -150,11 +167,39 @@ TEST_CASE("every command explains itself with an example, in lines that fit") {
     for (std::string line; std::getline(lines, line);) {
       CAPTURE(line);
       CHECK(line.size() <= 125);
-      // What CLI11 writes of its own, of flags that stand for a value.
-      const bool is_option = line.starts_with("  -");
-      CHECK_FALSE(
-          (is_option && (line.find('{') != std::string::npos || line.find(" :value") != std::string::npos)));
+      // CLI11's own words: a flag's value, a type, what excludes what.
+      if (line.starts_with("  ") && line.find("eyeray") == std::string::npos)
+        CHECK_FALSE(std::regex_search(line, std::regex(R"(\{\w|:value|Excludes|TEXT|REQUIRED)")));
     }
+  }
+}
+
+TEST_CASE("help is as wide as the terminal, and 110 columns elsewhere") {
+  // Of options: what is behind them are examples.
+  const auto widest = [](const std::string& help) {
+    std::istringstream lines(help.substr(0, help.find("Examples:")));
+    size_t columns = 0;
+    for (std::string line; std::getline(lines, line);) columns = std::max(columns, line.size());
+    return columns;
+  };
+  CHECK(widest(run_eyeray({"render", "--help"}).out) > 100);
+  CHECK(widest(run_eyeray({"render", "--help"}).out) <= 110);
+  Terminal terminal(80);
+  Process eyeray(terminal.command("", "sh -c '" + eyeray_binary() + " render --help >&2'"), xterm);
+  REQUIRE(terminal.wait_for("Ctrl-C keeps"));
+  const size_t narrow = widest(std::regex_replace(terminal.shown(), std::regex("\r"), ""));
+  CHECK(narrow > 70);
+  CHECK(narrow <= 80);
+}
+
+TEST_CASE("the help of an option that lays a value over the scene follows from the key's row") {
+  const std::string help = std::regex_replace(run_eyeray({"check", "--help"}).out, std::regex("\\s+"), " ");
+  for (const std::string text :
+       {"--integrator NAME Integrator (docs/scene-reference.md): raycast, whitted, path or sppm.",
+        "--triangle METHOD Triangle intersection: woop or moller-trumbore.",
+        "--spp N Samples a pixel: an integer from 1 to 65536."}) {
+    CAPTURE(text);
+    CHECK(help.find(text) != std::string::npos);
   }
 }
 
