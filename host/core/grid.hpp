@@ -4,13 +4,12 @@
 
 namespace eyeray {
 
-// Every stride-th pixel of every stride-th row of an area, from its top left on; with a stride of 1 all of
-// it.
+// Every stride-th pixel of every stride-th row of an area, from its top left on.
 struct Grid {
   Rect area;
   int stride;
 
-  Grid(const Rect& area_, int stride_ = 1) : area(area_), stride(stride_) {}
+  Grid(const Rect& of, int every = 1) : area(of), stride(every) {}
 
   int width() const { return (area.width + stride - 1) / stride; }
   int height() const { return (area.height + stride - 1) / stride; }
