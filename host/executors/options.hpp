@@ -38,10 +38,10 @@ struct TwinOptions {
 
 struct ExecutorOptions {
   std::filesystem::path shader_folder;  // laid over the embedded shaders, file by file; empty: none
-  pack::PackOptions pack;
-  bool ray_kinds = false;    // reflected and refracted rays are wanted: who counts them only then
-  bool search_cost = false;  // the same of FirstHit::cost, which the reference has not
-  LeftOutPhotons left_out;   // where the scene's integrator sends out photons
+  pack::PackOptions pack;               // of which the reference takes `acceleration` alone
+  bool ray_kinds = false;               // count reflected and refracted rays; the GPU does so only if asked
+  bool search_cost = false;  // fill FirstHit::cost; the GPU does so only if asked, the reference never
+  LeftOutPhotons left_out;   // photons that bring no light
   GpuOptions gpu;
   TwinOptions twin;
 };
