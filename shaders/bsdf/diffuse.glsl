@@ -32,16 +32,16 @@ vec3 diffuse_albedo(Bsdf bsdf) {
 LobeValue diffuse_value(Bsdf bsdf, Directions at) {
   float cosine = maximum(at.i.z, 0.0f);
   vec3 albedo = bsdf.diffuse;
-  if (HAS_ROUGH_DIFFUSE == 1) {
-    float r = bsdf.diffuse_roughness;
-    float a = 1.0f / (1.0f + FUJII_A * r);
-    float s = dot3(at.i, at.o) - at.i.z * at.o.z;
-    float t = s > 0.0f ? maximum(maximum(at.i.z, at.o.z), 1.0e-6f) : 1.0f;
-    float mean = a * (1.0f + FUJII_MEAN * r);
-    vec3 often = bsdf.diffuse * bsdf.diffuse * mean / (vec3(1.0f, 1.0f, 1.0f) - bsdf.diffuse * (1.0f - mean));
-    float rest = (1.0f - fujii_albedo(cosine, r)) * (1.0f - fujii_albedo(at.o.z, r)) / maximum(1.0f - mean, 1.0e-7f);
-    albedo = r > 0.0f ? bsdf.diffuse * (a * (1.0f + r * (s / t))) + often * rest : bsdf.diffuse;
-  }
+#if HAS_ROUGH_DIFFUSE
+  float r = bsdf.diffuse_roughness;
+  float a = 1.0f / (1.0f + FUJII_A * r);
+  float s = dot3(at.i, at.o) - at.i.z * at.o.z;
+  float t = s > 0.0f ? maximum(maximum(at.i.z, at.o.z), 1.0e-6f) : 1.0f;
+  float mean = a * (1.0f + FUJII_MEAN * r);
+  vec3 often = bsdf.diffuse * bsdf.diffuse * mean / (vec3(1.0f, 1.0f, 1.0f) - bsdf.diffuse * (1.0f - mean));
+  float rest = (1.0f - fujii_albedo(cosine, r)) * (1.0f - fujii_albedo(at.o.z, r)) / maximum(1.0f - mean, 1.0e-7f);
+  albedo = r > 0.0f ? bsdf.diffuse * (a * (1.0f + r * (s / t))) + often * rest : bsdf.diffuse;
+#endif
 #if HAS_GLOSSY
   vec3 one = vec3(1.0f, 1.0f, 1.0f);
   albedo = albedo * (one - layer_albedo(bsdf.layer, bsdf.albedo)) * (one - layer_albedo(bsdf.layer, at.albedo)) /

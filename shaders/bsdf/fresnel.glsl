@@ -38,9 +38,11 @@ float conductor_reflectance(float n, float k, float cosine) {
 
 vec3 mirrored_share(Fresnel fresnel, float cosine) {
   vec3 share = fresnel.f0 + (fresnel.f90 - fresnel.f0) * fifth_power(1.0f - cosine);
-  if (HAS_CONDUCTORS == 1 && fresnel.conductor)
+#if HAS_CONDUCTORS
+  if (fresnel.conductor)
     share = vec3(conductor_reflectance(fresnel.f0.x, fresnel.f90.x, cosine), conductor_reflectance(fresnel.f0.y, fresnel.f90.y, cosine),
                  conductor_reflectance(fresnel.f0.z, fresnel.f90.z, cosine));
+#endif
   return share;
 }
 

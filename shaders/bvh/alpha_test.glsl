@@ -21,15 +21,19 @@ float least_alpha(Material material, Ray ray, uint id) {
 // `t` of a hit, or −1 where it is cut out or culled. `id`: the scene's primitive index; `ray`, as the primitive sees it. Only shapes that a ray
 // hits once have an alpha: behind a hit that does not count there is nothing more of the shape.
 float alpha_test(Primitive primitive, uint id, uint instance, Ray ray, float t, vec2 uv) {
-  if (HAS_ALPHA_TEST == 0 && HAS_FRONT_ONLY == 0) return t;
+#if HAS_ALPHA_TEST || HAS_FRONT_ONLY
   uint index = material_of(primitive);
-  if (HAS_INSTANCES == 1 && instance != NONE) {
+#if HAS_INSTANCES
+  if (instance != NONE) {
     Instance shown = load_instance(instance);
     if (!of_group(shown)) index = shown.material;
   }
+#endif
   Material material = load_material(index);
-  bool in_front_only = HAS_FRONT_ONLY == 1 && (material.flags & MATERIAL_FRONT_ONLY) != 0u && kind_of(primitive) == KIND_triangle;
-  if (in_front_only && dot3(corner_normal(primitive), ray.d) >= 0.0f) return -1.0f;
+#endif
+#if HAS_FRONT_ONLY
+  if ((material.flags & MATERIAL_FRONT_ONLY) != 0u && kind_of(primitive) == KIND_triangle && dot3(corner_normal(primitive), ray.d) >= 0.0f) return -1.0f;
+#endif
 #if HAS_ALPHA_TEST
   if (material.alpha_cutoff > 0.0f && t > 0.0f) {
     Hit hit;

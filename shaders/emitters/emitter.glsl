@@ -31,7 +31,8 @@ float emitter_density(Emitter e, vec3 from, EmitterSample place) {
 // What the place sends on to where `direction` comes from, which points at it.
 vec3 emitter_radiance(Emitter e, EmitterSample place, vec3 direction) {
   vec3 light = e.radiance;
-  if (HAS_EMISSION_TEXTURES == 1 && e.texture != NONE) {
+#if HAS_EMISSION_TEXTURES
+  if (e.texture != NONE) {
     TextureContext at = place_of_uv(place.uv);
     at.p = place.p;
     vec3 color = vec3(1.0f, 1.0f, 1.0f);
@@ -49,6 +50,7 @@ vec3 emitter_radiance(Emitter e, EmitterSample place, vec3 direction) {
     }
     light = emission_texture(e.texture, at) * color;
   }
+#endif
   if (HAS_ONE_SIDED_EMISSION == 1 && e.side * dot3(place.normal, direction) > 0.0f) light = vec3(0.0f, 0.0f, 0.0f);
   return light;
 }

@@ -15,10 +15,12 @@ SHADER_BEGIN
 // The primitive that was hit, with the material that it has there.
 Primitive primitive_at(Hit hit) {
   Primitive primitive = load_primitive(hit.slot);
-  if (HAS_INSTANCES == 1 && hit.instance != NONE) {
+#if HAS_INSTANCES
+  if (hit.instance != NONE) {
     Instance instance = load_instance(hit.instance);
     if (!of_group(instance)) primitive.material_and_kind = material_and_kind(instance.material, kind_of(primitive));
   }
+#endif
 #if HAS_CSG
   if (kind_of(primitive) == KIND_csg)
     primitive.material_and_kind = material_and_kind(material_of(csg_leaf(primitive, hit)), KIND_csg);

@@ -38,7 +38,9 @@ AuxiliaryResult auxiliary_of(Frame frame, Ray camera_ray, uint pixel, uint index
       Interaction at = met_at(path, ray, hit, flight, result.flags);
       result.albedo = max_component(at.scattering.emitted) > 0.0f ? white : bsdf_albedo(at.bsdf);
       result.normal = at.seen.normal;
-      if (HAS_SCATTERING == 1 && flight.scattered) result.albedo = medium_albedo(path.media);
+#if HAS_SCATTERING
+      if (flight.scattered) result.albedo = medium_albedo(path.media);
+#endif
       path = scatter(frame, path, at).next;
       going = !flight.scattered && is_specular(at.bsdf) && path.depth <= frame.max_depth + 1u;
     }

@@ -15,13 +15,17 @@ struct Flight {
   vec3 weight;     // of the light that comes from there
 };
 
+#if HAS_ABSORPTION
 // The share of light that comes through this length of a medium (medium_extent.glsl).
 vec3 medium_transmittance(uint media, float length) {
   Medium medium = load_medium(innermost_medium(media));
   vec3 extinction = medium.absorption;
-  if (HAS_SCATTERING == 1) extinction = extinction + medium.scattering;
+#if HAS_SCATTERING
+  extinction = extinction + medium.scattering;
+#endif
   return vec3(exp_negative(-extinction.x * length), exp_negative(-extinction.y * length), exp_negative(-extinction.z * length));
 }
+#endif
 
 // Of the path whose ray has that hit.
 Flight flight_of(Frame frame, Path path, Hit hit) {
@@ -29,10 +33,11 @@ Flight flight_of(Frame frame, Path path, Hit hit) {
   flight.t = hit.t;
   flight.scattered = false;
   flight.weight = vec3(1.0f, 1.0f, 1.0f);
-  if (HAS_ABSORPTION == 0) return flight;
+#if HAS_ABSORPTION
   float length = medium_length(frame, path.media, path.o, path.d, hit.t);
   // A shape's medium that the ray never leaves lets all light through.
   if (hit.slot != NONE || innermost_medium(path.media) == 0u) flight.weight = medium_transmittance(path.media, length);
+#endif
 #if HAS_SCATTERING
   Medium medium = load_medium(innermost_medium(path.media));
   if (max_component(medium.scattering) > 0.0f) {
@@ -104,6 +109,7 @@ Interaction vertex_at(Frame frame, Path path, Ray ray, Hit hit, bool there, OUT(
   return met_at(path, ray, some, flight, flags);
 }
 
+#if HAS_SCATTERING
 // Of the light that the innermost medium takes away the share that it sends elsewhere.
 vec3 medium_albedo(uint media) {
   Medium medium = load_medium(innermost_medium(media));
@@ -111,6 +117,7 @@ vec3 medium_albedo(uint media) {
   return vec3(medium.scattering.x / maximum(extinction.x, 1.0e-30f), medium.scattering.y / maximum(extinction.y, 1.0e-30f),
               medium.scattering.z / maximum(extinction.z, 1.0e-30f));
 }
+#endif
 
 SHADER_END
 #endif

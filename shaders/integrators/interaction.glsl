@@ -71,12 +71,12 @@ Interaction struck_at(Ray ray, Hit hit, uint media, INOUT(uint) flags) {
   at.in_medium = false;
   at.anisotropy = 0.0f;
 #endif
-  if (HAS_MEDIA == 1) {
-    if (at.material.medium != 0u)
-      at.media_behind = front ? enter_medium(media, at.material.medium, flags) : leave_medium(media, at.material.medium);
-    at.context.ior_from = load_medium(innermost_medium(media)).ior;
-    at.context.ior_to = load_medium(innermost_medium(at.media_behind)).ior;
-  }
+#if HAS_MEDIA
+  if (at.material.medium != 0u)
+    at.media_behind = front ? enter_medium(media, at.material.medium, flags) : leave_medium(media, at.material.medium);
+  at.context.ior_from = load_medium(innermost_medium(media)).ior;
+  at.context.ior_to = load_medium(innermost_medium(at.media_behind)).ior;
+#endif
   PROBE(ior, vec2(at.context.ior_from, at.context.ior_to));
   return at;
 }

@@ -63,20 +63,22 @@ vec3 path_missed(Frame frame, Path path) {
   if (frame.environment_numbers > 0u && path.density > 0.0f)
     light = light * power_heuristic(path.density, environment_share(frame) * environment_density(frame, path.d));
 #endif
-  if (HAS_LIGHT_DISKS == 1)
-    for (uint i = 0u; i < LIGHT_COUNT; i++) {
-      LightSample disk = sample_light(load_light(i), last_vertex(path));
-      float density = emitter_share(i) * (1.0f - environment_share(frame)) * disk_density(disk);
-      float weight = path.density > 0.0f ? power_heuristic(path.density, density) : 1.0f;
-      if (disk.versine > 0.0f && in_disk(disk, path.d)) light = light + disk_radiance(disk) * weight;
-    }
+#if HAS_LIGHT_DISKS
+  for (uint i = 0u; i < LIGHT_COUNT; i++) {
+    LightSample disk = sample_light(load_light(i), last_vertex(path));
+    float density = emitter_share(i) * (1.0f - environment_share(frame)) * disk_density(disk);
+    float weight = path.density > 0.0f ? power_heuristic(path.density, density) : 1.0f;
+    if (disk.versine > 0.0f && in_disk(disk, path.d)) light = light + disk_radiance(disk) * weight;
+  }
+#endif
   return light;
 }
 
 // The surface's own light, less what shadow rays to it have brought already.
 vec3 path_emitted(Frame frame, Path path, Interaction at) {
-  if (HAS_EMISSION == 0) return vec3(0.0f, 0.0f, 0.0f);
-  vec3 light = at.scattering.emitted;
+  vec3 light = vec3(0.0f, 0.0f, 0.0f);
+#if HAS_EMISSION
+  light = at.scattering.emitted;
   uint emitter = EMITTER_COUNT > 0u && path.density > 0.0f ? emitter_of(at.primitive) : NONE;
   if (emitter != NONE) {
     EmitterSample place;
@@ -86,6 +88,7 @@ vec3 path_emitted(Frame frame, Path path, Interaction at) {
     float density = share * emitter_density(load_emitter(emitter), last_vertex(path), place);
     light = light * power_heuristic(path.density, density);
   }
+#endif
   return light;
 }
 
@@ -130,15 +133,18 @@ Arriving emitter_arriving(Frame frame, Path path, Interaction at, float chance) 
     LightSample s = sample_light(load_light(light), at.seen.p);
     arriving.direction = s.direction;
     arriving.radiance = s.color * PI;
-    if (HAS_LIGHT_DISKS == 1 && s.versine > 0.0f) {
+#if HAS_LIGHT_DISKS
+    if (s.versine > 0.0f) {
       arriving.direction = disk_direction(s, path_pair(frame, path, PAIR_EMITTER));
       arriving.radiance = disk_radiance(s);
       arriving.density = arriving.share * disk_density(s);
     }
+#endif
     arriving.distance = s.distance;
     arriving.ray = spawn_to_light(at.seen, arriving.direction, is_before(at, arriving.direction), arriving.distance);
   }
-  if (HAS_EMISSION == 1 && light >= LIGHT_COUNT) {
+#if HAS_EMISSION
+  if (light >= LIGHT_COUNT) {
     Emitter emitter = load_emitter(light);
     EmitterSample place = sample_emitter(emitter, at.seen.p, path_pair(frame, path, PAIR_EMITTER));
     arriving.direction = normalize3(place.p - at.seen.p);
@@ -151,6 +157,7 @@ Arriving emitter_arriving(Frame frame, Path path, Interaction at, float chance) 
     if (may_light(emitter, at.primitive)) arriving.radiance = emitter_radiance(emitter, place, arriving.direction);
     arriving.density = arriving.share * emitter_density(emitter, at.seen.p, place);
   }
+#endif
   return arriving;
 }
 
@@ -195,12 +202,14 @@ bool shadow_ray_to(Frame frame, Path path, Interaction at, Arriving arriving, ve
     on_side = true;
   }
 #endif
+#if HAS_ABSORPTION
   // Surfaces keep shadow rays in the medium that they begin in; interfaces do not, and there the ray itself is weakened (through_panes).
-  if (HAS_ABSORPTION == 1 && !ANY_INTERFACE) {
+  if (!ANY_INTERFACE) {
     uint media = is_before(at, arriving.direction) ? path.media : at.media_behind;
     float length = medium_length(frame, media, arriving.ray.o, arriving.ray.d, arriving.distance);
     arriving.radiance = arriving.radiance * medium_transmittance(media, length);
   }
+#endif
   float density = arriving.density;
   contribution =
       arriving.radiance * lobes.value * (density > 0.0f ? power_heuristic(density, lobes.density) / density : 1.0f / arriving.share);

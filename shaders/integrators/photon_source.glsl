@@ -81,6 +81,7 @@ PhotonSource from_around(Frame frame, PhotonPass pass, vec2 start, vec2 heading,
 }
 #endif
 
+#if HAS_MEDIUM_EXTENT && HAS_ABSORPTION
 // Light from infinitely far away has come through the medium around all before its photon starts. A photon of which
 // that leaves little is rare instead: it starts with the probability `survival`, by a random number.
 vec3 after_upstream(Frame frame, PhotonSource source, float chance) {
@@ -88,6 +89,7 @@ vec3 after_upstream(Frame frame, PhotonSource source, float chance) {
   float survival = max_component(left);
   return chance < survival ? source.flux * left / survival : vec3(0.0f, 0.0f, 0.0f);
 }
+#endif
 
 PhotonSource photon_source(Frame frame, PhotonPass pass, uint pixel, uint number) {
   vec2 choice = sample_pair(frame, pixel, number, PAIR_SOURCE);
@@ -125,11 +127,11 @@ PhotonSource photon_source(Frame frame, PhotonPass pass, uint pixel, uint number
   source.light = light;
   source.media = light == NONE ? 0u : load_emitter_media(2u * light + (source.below ? 1u : 0u));
   source.flux = source.flux / share;
-  if (HAS_MEDIUM_EXTENT == 1 && HAS_ABSORPTION == 1) {
-    bool afar = light == NONE;
-    if (light < LIGHT_COUNT) afar = sample_light(load_light(light), source.o).distance == T_MISS;
-    if (afar && frame.has_medium_extent != 0u) source.flux = after_upstream(frame, source, side.x);
-  }
+#if HAS_MEDIUM_EXTENT && HAS_ABSORPTION
+  bool afar = light == NONE;
+  if (light < LIGHT_COUNT) afar = sample_light(load_light(light), source.o).distance == T_MISS;
+  if (afar && frame.has_medium_extent != 0u) source.flux = after_upstream(frame, source, side.x);
+#endif
   return source;
 }
 

@@ -22,8 +22,12 @@ vec3 raycast_emitted(Frame frame, Path path, Interaction at) {
   float headlight = abs(dot3(at.seen.normal, at.d));
   if (LIGHT_COUNT == 0u) light = vec3(headlight, headlight, headlight);
   vec3 base = color_of(at.material, at.context.place);
-  if (HAS_EMISSION == 1) base = base + emission_of(at.material, at.context.place);
-  if (HAS_COLORS == 1) base = base * at.context.color;
+#if HAS_EMISSION
+  base = base + emission_of(at.material, at.context.place);
+#endif
+#if HAS_COLORS
+  base = base * at.context.color;
+#endif
   return base * light;
 }
 

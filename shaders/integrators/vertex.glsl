@@ -21,7 +21,9 @@ SHADER_BEGIN
 // Whether paths can hit the light by chance.
 bool has_extent(uint light, vec3 p) {
   bool extended = light >= LIGHT_COUNT;
-  if (HAS_LIGHT_DISKS == 1 && !extended) extended = sample_light(load_light(light), p).versine > 0.0f;
+#if HAS_LIGHT_DISKS
+  if (!extended) extended = sample_light(load_light(light), p).versine > 0.0f;
+#endif
   return extended;
 }
 
@@ -37,10 +39,12 @@ vec3 through_panes(Frame frame, Ray ray, float distance, uint light, uint media,
     TraversalState state = search(ray, distance, false);
     counts.z = counts.z | iteration_limit(state);
     going = state.hit.slot != NONE;
-    if (HAS_ABSORPTION == 1 && ANY_INTERFACE) {
+#if HAS_ABSORPTION
+    if (ANY_INTERFACE) {
       float length = medium_length(frame, media, ray.o, ray.d, going ? state.hit.t : distance);
       left = left * medium_transmittance(media, length);
     }
+#endif
     if (going) {
       Interaction at = struck_at(ray, state.hit, media, ignored);
       left = i < most ? left * passed_by(at.material, at.context) : vec3(0.0f, 0.0f, 0.0f);
@@ -119,9 +123,11 @@ Continuations shade(Frame frame, Path path, Ray ray, Hit hit, INOUT(vec3) color,
     PROBE(light, light);
     DECIDED(EVENT_LIGHT, seen);
     color = color + path.throughput * light;
-    if (HAS_SECONDARY == 1) all = scatter(frame, path, at);
+#if HAS_SECONDARY
+    all = scatter(frame, path, at);
 #if RAY_KINDS
     counts.z = counts.z | (all.cut_off ? FLAG_CUT_OFF : 0u);
+#endif
 #endif
     DECIDED(EVENT_WAY, all.count > 0u ? all.way + 1u : 0u);
   }

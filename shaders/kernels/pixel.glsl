@@ -16,7 +16,9 @@ SHADER_BEGIN
 bool eye_ray(Frame frame, uint x, uint y, uint index, OUT(Ray) ray) {
   vec2 place = sample_position(frame, x, y, index);
   vec2 lens = vec2(0.0f, 0.0f);
-  if (HAS_LENS == 1) lens = point_on_lens(frame, sample_pair(frame, y * frame.width + x, index, PAIR_LENS));
+#if HAS_LENS
+  lens = point_on_lens(frame, sample_pair(frame, y * frame.width + x, index, PAIR_LENS));
+#endif
   ray = camera_ray(frame, place, lens);
   return camera_sees(frame, place, lens);
 }

@@ -7,6 +7,7 @@
 
 SHADER_BEGIN
 
+#if HAS_MEDIUM_EXTENT
 // The part of the ray up to t that is in the box, as the t at which it begins and that at which it ends; both are
 // equal where none is.
 vec2 extent_interval(Frame frame, vec3 o, vec3 d, float t) {
@@ -59,19 +60,22 @@ float extent_distance(Frame frame, vec3 o, vec3 d, float length) {
   float u = maximum(1.0f - d.y * frame.medium_decay * s, 1.0e-30f);
   return begin + (u == 1.0f ? s : s * (log_positive(u) / (u - 1.0f)));
 }
+#endif
 
 // How long the ray up to t would be in a medium that has the coefficients of its record all along, with the same
 // transmittance.
 float medium_length(Frame frame, uint media, vec3 o, vec3 d, float t) {
-  bool has_extent = HAS_MEDIUM_EXTENT == 1 && frame.has_medium_extent != 0u && innermost_medium(media) == 0u;
-  if (has_extent) return extent_length(frame, o, d, t);
+#if HAS_MEDIUM_EXTENT
+  if (frame.has_medium_extent != 0u && innermost_medium(media) == 0u) return extent_length(frame, o, d, t);
+#endif
   return t;
 }
 
 // The t at which that is `length`.
 float medium_distance(Frame frame, uint media, vec3 o, vec3 d, float length) {
-  bool has_extent = HAS_MEDIUM_EXTENT == 1 && frame.has_medium_extent != 0u && innermost_medium(media) == 0u;
-  if (has_extent) return extent_distance(frame, o, d, length);
+#if HAS_MEDIUM_EXTENT
+  if (frame.has_medium_extent != 0u && innermost_medium(media) == 0u) return extent_distance(frame, o, d, length);
+#endif
   return length;
 }
 

@@ -11,7 +11,9 @@ Scattering phong_scattering(Material material, ScatteringContext context) {
   s.diffuse = base_of(material, context.place) * context.color;
   s.specular = specular_of(material, context.place);
   s.reflected = reflected_of(material, context.place);
-  if (HAS_EMISSION == 1) s.emitted = emission_of(material, context.place) * context.color;
+#if HAS_EMISSION
+  s.emitted = emission_of(material, context.place) * context.color;
+#endif
   return s;
 }
 

@@ -14,11 +14,13 @@ float principled_f90(Material material) { return material.b.w; }  // … so seen
 
 Scattering principled_scattering(Material material, ScatteringContext context) {
   Scattering s = phong_scattering(material, context);
-  if (HAS_TRANSMISSION == 1 && (material.flags & MATERIAL_CLEAR) != 0u) {
+#if HAS_TRANSMISSION
+  if ((material.flags & MATERIAL_CLEAR) != 0u) {
     vec3 emitted = s.emitted;
     s = dielectric_scattering(material, context);
     s.emitted = emitted;
   }
+#endif
   return s;
 }
 
@@ -38,12 +40,12 @@ Bsdf principled_surface(Material material, ScatteringContext context, vec3 color
   vec3 f0 = principled_f0(material);
   float f90 = principled_f90(material);
   vec3 edge = white * f90;
-  if (HAS_SPECULAR_TEXTURES == 1) {
-    vec3 tint = specular_color_of(material, context.place);
-    float level = specular_level_of(material, context.place).x;
-    f0 = vec3(minimum(f0.x * tint.x, f90), minimum(f0.y * tint.y, f90), minimum(f0.z * tint.z, f90)) * level;
-    edge = edge * level;
-  }
+#if HAS_SPECULAR_TEXTURES
+  vec3 tint = specular_color_of(material, context.place);
+  float level = specular_level_of(material, context.place).x;
+  f0 = vec3(minimum(f0.x * tint.x, f90), minimum(f0.y * tint.y, f90), minimum(f0.z * tint.z, f90)) * level;
+  edge = edge * level;
+#endif
   bsdf.layer = schlick(f0, edge);
   bsdf.layered = 1.0f - metallic;
   bsdf.metal = schlick(color, white);

@@ -14,7 +14,9 @@ vec2 sample_position(Frame frame, uint x, uint y, uint index) {
 #define PLACE_OF(name, number, count) \
   if (SAMPLER_IS(number)) place = name##_place(frame, pixel, index);
   SAMPLERS(PLACE_OF)
-  if (HAS_FILTER == 1) place = filtered(frame, place);
+#if HAS_FILTER
+  place = filtered(frame, place);
+#endif
   return vec2(float(x) + place.x, float(y) + place.y);
 }
 
