@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "host/cameras/registry.hpp"
 #include "host/cameras/round.hpp"
 #include "host/records/records.hpp"
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "host/cameras/make.hpp"
+#include "host/cameras/registry.hpp"
 #include "host/records/records.hpp"
 
 namespace eyeray::cameras {

@@ -3,8 +3,9 @@
 #include <array>
 
 #include "host/cameras/make.hpp"
+#include "host/cameras/registry.hpp"
+#include "host/reading/formula_reader.hpp"
 #include "host/records/records.hpp"
-#include "host/scene/formula_reader.hpp"
 
 namespace eyeray::cameras {
 
@@ -39,8 +40,8 @@ constexpr Key keys[] = {
      .type = KeyType::formula,
      .doc = "The function, `vec3 direction(vec2 place, vec2 lens)`, and what it calls.",
      .optional = true},
-    formula_file_key,
-    parameters_key,
+    reading::formula_file_key,
+    reading::parameters_key,
 };
 
 // Beyond these float32 cannot compute.

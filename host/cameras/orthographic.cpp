@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "host/cameras/make.hpp"
+#include "host/cameras/registry.hpp"
 #include "host/records/records.hpp"
 
 namespace eyeray::cameras {

@@ -93,7 +93,8 @@ Inventory take_inventory(const Scene& scene) {
   const size_t environment_texels = scene.environment ? pack::environment_texels(*scene.environment) : 0;
   std::vector<uint32_t> kinds;
   for (const auto& shape : scene.shapes)
-    kinds.push_back(uint32_t(std::ranges::find(shapes::types(), shape->type) - shapes::types().begin()));
+    kinds.push_back(uint32_t(std::ranges::find(shapes::types(), shape->type, &shapes::ShapeType::name) -
+                             shapes::types().begin()));
   inventory.shapes = count_kinds(shapes::types(), kinds);
   kinds.clear();
   for (const shader::Material& material : packed.materials) kinds.push_back(material.kind);

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "host/core/diagnostic_log.hpp"
 #include "host/importers/json_text.hpp"
 #include "host/importers/malformed.hpp"
-#include "host/scene/diagnostic_log.hpp"
 
 namespace eyeray::importers {
 

@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/core/diagnostic_log.hpp"
 #include "host/core/error.hpp"
 #include "host/materials/make.hpp"
-#include "host/scene/diagnostic_log.hpp"
 #include "host/scene/image_texture_file.hpp"
 
 namespace eyeray::importers {

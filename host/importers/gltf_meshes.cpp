@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "host/scene/diagnostic_log.hpp"
+#include "host/core/diagnostic_log.hpp"
 
 namespace eyeray::importers {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "host/scene/diagnostic_log.hpp"
+#include "host/core/diagnostic_log.hpp"
 
 namespace eyeray::importers {
 

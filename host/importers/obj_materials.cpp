@@ -8,11 +8,11 @@
 #define TINYOBJLOADER_USE_DOUBLE
 #include <tiny_obj_loader.h>
 
+#include "host/core/diagnostic_log.hpp"
 #include "host/core/error.hpp"
 #include "host/core/input_file.hpp"
 #include "host/importers/obj_maps.hpp"
 #include "host/materials/make.hpp"
-#include "host/scene/diagnostic_log.hpp"
 #include "host/scene/image_texture_file.hpp"
 
 namespace eyeray::importers {

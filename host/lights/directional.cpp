@@ -1,6 +1,7 @@
 #include <limits>
 
 #include "host/lights/make.hpp"
+#include "host/lights/registry.hpp"
 #include "host/lights/versine.hpp"
 #include "host/records/packer.hpp"
 
@@ -36,7 +37,7 @@ constexpr Key keys[] = {
 
 class Directional final : public Light {
  public:
-  explicit Directional(const DirectionalLight& values) : values_(values) { type = &directional_type; }
+  explicit Directional(const DirectionalLight& values) : values_(values) { type = directional_type.name; }
 
   Illumination illuminate(const Vec3&) const override {
     return {values_.to_light, values_.intensity, std::numeric_limits<double>::infinity(), values_.angle / 2};

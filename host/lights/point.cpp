@@ -1,4 +1,5 @@
 #include "host/lights/make.hpp"
+#include "host/lights/registry.hpp"
 #include "host/records/packer.hpp"
 
 namespace eyeray::lights {
@@ -31,7 +32,7 @@ constexpr Key keys[] = {
 
 class Point final : public Light {
  public:
-  explicit Point(const PointLight& values) : values_(values) { type = &point_type; }
+  explicit Point(const PointLight& values) : values_(values) { type = point_type.name; }
 
   Illumination illuminate(const Vec3& point) const override {
     const Vec3 to_light = values_.position - point;

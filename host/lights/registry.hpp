@@ -1,8 +1,24 @@
+// What a scene file and the manual know of the kinds of lights.
 #pragma once
 
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "host/reading/table_reader.hpp"
 #include "host/scene/light.hpp"
 
 namespace eyeray::lights {
+
+// The words that each kind declares its keys with, and reads them.
+using reading::Key, reading::KeyType, reading::TableReader;
+
+struct LightType {
+  std::string_view name;  // `type` in a [[light]] table, and its .glsl
+  std::string_view manual;
+  std::span<const Key> keys;                            // beside `type` and `intensity`
+  std::unique_ptr<Light> (*parse)(TableReader& table);  // null after an error, which is reported to the table
+};
 
 // Every kind of light, in registry order.
 std::span<const LightType* const> types();

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "host/lights/make.hpp"
+#include "host/lights/registry.hpp"
 #include "host/lights/versine.hpp"
 #include "host/records/packer.hpp"
 
@@ -50,7 +51,7 @@ constexpr Key keys[] = {
 
 class Spot final : public Light {
  public:
-  explicit Spot(const SpotLight& values) : values_(values) { type = &spot_type; }
+  explicit Spot(const SpotLight& values) : values_(values) { type = spot_type.name; }
 
   Illumination illuminate(const Vec3& point) const override {
     const Vec3 to_light = values_.position - point;

@@ -9,9 +9,11 @@
 #include "host/loader/keyframes.hpp"
 #include "host/loader/overrides.hpp"
 #include "host/loader/sections.hpp"
-#include "host/scene/table.hpp"
+#include "host/reading/table.hpp"
 
 namespace eyeray::loader {
+
+using reading::Key, reading::KeyType;
 namespace {
 
 constexpr std::string_view curves[] = {"step", "linear", "smooth"};
@@ -72,7 +74,7 @@ class MovedValues {
  public:
   // Moves the value at `place` (apply_track) by `track`, whose target is at `at`. Of several tracks that undo
   // the same one, the first is an error.
-  void add(const std::vector<std::string>& place, const SourcePosition& at, TableReader& track) {
+  void add(const std::vector<std::string>& place, const SourcePosition& at, reading::TableReader& track) {
     const auto earlier = tracks_.lower_bound(place);
     const bool undone = earlier != tracks_.end() && earlier->first.size() >= place.size() &&
                         std::equal(place.begin(), place.end(), earlier->first.begin());
@@ -143,7 +145,7 @@ std::span<const Key> track_keys() {
 Animation apply_animation(toml::table& root, DiagnosticLog& log) {
   const Section &settings = *find_section("animation"), &track = *find_section("track");
   const toml::node* const written = root.get(settings.name);
-  const TableReader reader = read_table(
+  const reading::TableReader reader = reading::read_table(
       {.title = settings.title, .table = written ? written->as_table() : nullptr, .keys = {settings.keys}},
       log);
   Animation animation{.frame = reader.number("frame"),
@@ -159,7 +161,8 @@ Animation apply_animation(toml::table& root, DiagnosticLog& log) {
   MovedValues moved;
   for (const toml::node& node : tracks) {
     const toml::table& table = *node.as_table();
-    TableReader one = read_table({.title = track.title, .table = &table, .keys = {track.keys}}, log);
+    reading::TableReader one =
+        reading::read_table({.title = track.title, .table = &table, .keys = {track.keys}}, log);
     if (one.failed()) continue;
     const std::string target = one.string("target"), section = target.substr(0, target.find('.'));
     if (section == settings.name || section == track.name) {

@@ -6,14 +6,14 @@
 
 #include <span>
 
-#include "host/scene/diagnostic_log.hpp"
+#include "host/core/diagnostic_log.hpp"
+#include "host/reading/table_reader.hpp"
 #include "host/scene/scene.hpp"
-#include "host/scene/table_reader.hpp"
 
 namespace eyeray::loader {
 
-std::span<const Key> animation_keys();
-std::span<const Key> track_keys();
+std::span<const reading::Key> animation_keys();
+std::span<const reading::Key> track_keys();
 extern const std::string_view track_manual;
 
 // Takes [animation] and every [[track]] out of the tree, puts the value that each track has at the frame that

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "host/scene/foreign_words.hpp"
-#include "host/scene/table.hpp"
-#include "host/scene/value.hpp"
+#include "host/reading/foreign_words.hpp"
+#include "host/reading/source_position.hpp"
+#include "host/reading/table.hpp"
 
 namespace eyeray::loader {
 
@@ -18,24 +18,25 @@ Batch read_batch(const Section& section, const toml::table& table, DiagnosticLog
   if (!node) return {};
   const toml::table* lists = node->as_table();
   if (!lists || lists->empty()) {
-    log.error(position_of(node->source()), "`batch` must be a table of lists, such as { KEY = [value, …] }");
+    log.error(reading::position_of(node->source()),
+              "`batch` must be a table of lists, such as { KEY = [value, …] }");
     return {nullptr, 0};
   }
   std::vector<std::string_view> names;
-  for (const std::span<const Key> keys :
-       {section.keys, section.shape ? section.shape->keys : std::span<const Key>()}) {
-    for (const Key& key : keys) names.push_back(key.name);
+  for (const std::span<const reading::Key> keys :
+       {section.keys, section.shape ? section.shape->keys : std::span<const reading::Key>()}) {
+    for (const reading::Key& key : keys) names.push_back(key.name);
   }
   Batch batch{lists, 0};
   bool ok = true;
   const auto fail = [&](const toml::source_region& at, std::string message) {
-    log.error(position_of(at), std::move(message));
+    log.error(reading::position_of(at), std::move(message));
     ok = false;
   };
   const toml::key* first = nullptr;
   for (const auto& [key, list] : *lists) {
     if (std::ranges::find(names, key.str()) == names.end()) {
-      const std::string nearest = suggest_name(key.str(), names);
+      const std::string nearest = reading::suggest_name(key.str(), names);
       fail(key.source(), fmt::format("unknown key `{}` in the batch of {}{}", key.str(), section.title,
                                      nearest.empty() ? "" : fmt::format("; did you mean `{}`?", nearest)));
     } else if (table.contains(key.str())) {

@@ -6,8 +6,8 @@
 
 #include <string_view>
 
+#include "host/core/diagnostic_log.hpp"
 #include "host/loader/sections.hpp"
-#include "host/scene/diagnostic_log.hpp"
 
 namespace eyeray::loader {
 

@@ -7,7 +7,7 @@ namespace eyeray::loader {
 
 namespace {
 
-void check_view(TableReader& table, const Camera& camera) {
+void check_view(reading::TableReader& table, const Camera& camera) {
   const Vec3 view = camera.target - camera.eye;
   const double reach = std::max(glm::length(camera.eye), glm::length(camera.target));
   if (!(glm::length(view) > 1e-12 * reach)) {
@@ -30,7 +30,7 @@ void check_view(TableReader& table, const Camera& camera) {
 
 }  // namespace
 
-Camera read_camera(const Section& section, const toml::table* table, const ValueSources& sources,
+Camera read_camera(const Section& section, const toml::table* table, const reading::ValueSources& sources,
                    DiagnosticLog& log) {
   auto [type, reader] = read_kind(section, table, cameras::types(), sources, log);
   const Camera camera{.eye = reader.vec3("eye"),

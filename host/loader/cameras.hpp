@@ -2,12 +2,13 @@
 #pragma once
 
 #include "host/loader/sections.hpp"
-#include "host/scene/table.hpp"
+#include "host/reading/table.hpp"
+#include "host/scene/camera.hpp"
 
 namespace eyeray::loader {
 
 // `table` null: not written. Errors are in the log; after one the camera may have no projection.
-Camera read_camera(const Section& section, const toml::table* table, const ValueSources& sources,
+Camera read_camera(const Section& section, const toml::table* table, const reading::ValueSources& sources,
                    DiagnosticLog& log);
 
 }  // namespace eyeray::loader

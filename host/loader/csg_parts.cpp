@@ -18,8 +18,8 @@ std::string why_no_part(const Section& section) {
   }
 }
 
-Blame why_not_closed(const ShapeType& type) {
-  if (std::ranges::find(type.keys, "open", &Key::name) != type.keys.end())
+Blame why_not_closed(const shapes::ShapeType& type) {
+  if (std::ranges::find(type.keys, "open", &reading::Key::name) != type.keys.end())
     return {"open", fmt::format("a CSG object is made of closed shapes: a {} that is open encloses nothing",
                                 type.name)};
   return {"material", fmt::format("a CSG object is made of closed shapes: a {} encloses nothing", type.name)};

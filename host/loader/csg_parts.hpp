@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/loader/sections.hpp"
+#include "host/scene/material.hpp"
 
 namespace eyeray::loader {
 
@@ -17,7 +18,7 @@ struct Blame {
   std::string_view key;
   std::string message;
 };
-Blame why_not_closed(const ShapeType& type);
+Blame why_not_closed(const shapes::ShapeType& type);
 
 // Why the CSG object would be filled with two media at once, or "".
 std::string why_two_media(const Shape& csg, const std::vector<std::unique_ptr<Material>>& materials);

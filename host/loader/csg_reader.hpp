@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <optional>
 
+#include "host/core/diagnostic_log.hpp"
 #include "host/loader/csg_parts.hpp"
-#include "host/scene/diagnostic_log.hpp"
-#include "host/scene/table.hpp"
+#include "host/reading/table.hpp"
 
 namespace eyeray::loader {
 
@@ -21,22 +21,23 @@ class CsgReader {
 
   // `material`: of the CSG object around it.
   template <typename Placing>
-  std::unique_ptr<Shape> read(const Section& section, const toml::table& table, TableReader& reader,
+  std::unique_ptr<Shape> read(const Section& section, const toml::table& table, reading::TableReader& reader,
                               const Placing& placing, std::optional<int> material) {
     if (reader.has("material")) material = host_.materials_.find(reader);
-    ShapeType::Shapes operands, removed;
+    shapes::ShapeType::Shapes operands, removed;
     bool ok = read_parts(table, placing, material, operands);
     if (const toml::node* minus = table.get(minus_key)) {
       if (const toml::table* held = minus->as_table()) {
         for (const auto& [key, node] : *held) {
           if (std::ranges::find(placed_names(), key.str()) != placed_names().end()) continue;
-          log_.error(position_of(key.source()),
+          log_.error(reading::position_of(key.source()),
                      fmt::format("unknown key `{}` in `minus`, which holds shapes alone", key.str()));
           ok = false;
         }
         ok = read_parts(*held, placing, material, removed) && ok;
       } else {
-        log_.error(position_of(minus->source()), "`minus` must be a table, written [[csg.minus.sphere]]");
+        log_.error(reading::position_of(minus->source()),
+                   "`minus` must be a table, written [[csg.minus.sphere]]");
         ok = false;
       }
     }
@@ -46,7 +47,7 @@ class CsgReader {
     if (const std::string why = why_two_media(*csg, host_.scene_.materials); !why.empty())
       reader.error("material", why);
     csg->material = material.value_or(0);
-    csg->type = section.shape;
+    csg->type = section.shape->name;
     csg->name = placing.name;
     csg->position = reader.position();
     return csg;
@@ -56,20 +57,20 @@ class CsgReader {
   // Adds the shapes that stand in a CSG object's table to `parts`. Returns whether all of them are right.
   template <typename Placing>
   bool read_parts(const toml::table& holder, const Placing& csg, std::optional<int> material,
-                  ShapeType::Shapes& parts) {
+                  shapes::ShapeType::Shapes& parts) {
     bool ok = true;
     for (const std::string_view name : placed_names()) {
       const auto add_part = [&](const Section& written, const toml::table& table) {
         if (const std::string why = why_no_part(written); !why.empty()) {
-          log_.error(position_of(table.source()), why);
+          log_.error(reading::position_of(table.source()), why);
           ok = false;
           return;
         }
         Section section = written;
         section.keys = part_keys();
         size_t added = 0;
-        const size_t wanted =
-            host_.for_each_placed(section, table, csg, [&](TableReader& reader, const Placing& placed) {
+        const size_t wanted = host_.for_each_placed(
+            section, table, csg, [&](reading::TableReader& reader, const Placing& placed) {
               auto part = section.is_combined() ? read(section, table, reader, placed, material)
                                                 : read_part(section, reader, placed, material);
               if (!part) return;
@@ -85,8 +86,8 @@ class CsgReader {
 
   // `material`: of the CSG object that it is in.
   template <typename Placing>
-  std::unique_ptr<Shape> read_part(const Section& section, TableReader& reader, const Placing& placing,
-                                   std::optional<int> material) {
+  std::unique_ptr<Shape> read_part(const Section& section, reading::TableReader& reader,
+                                   const Placing& placing, std::optional<int> material) {
     if (reader.has("material")) material = host_.materials_.find(reader);
     std::unique_ptr<Shape> part = host_.parse_shape(section, reader, placing, material.value_or(0));
     if (part && !part->is_closed()) {

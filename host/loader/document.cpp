@@ -5,7 +5,7 @@
 #include "host/loader/former_names.hpp"
 #include "host/loader/sections.hpp"
 #include "host/loader/toml_file.hpp"
-#include "host/scene/value.hpp"
+#include "host/reading/source_position.hpp"
 
 namespace eyeray::loader {
 
@@ -26,7 +26,7 @@ void merge_settings(toml::table& over, toml::table& below) {
 void merge(toml::table& root, toml::table& file, DiagnosticLog& log) {
   for (auto&& [key, node] : file) {
     if (key.str() == include_key) continue;
-    const SourcePosition at = position_of(key.source());
+    const SourcePosition at = reading::position_of(key.source());
     const Section* section = find_section(key.str());
     if (!section) {
       const char* brackets = node.is_table() || node.is_array_of_tables() ? "table" : "key";
@@ -65,7 +65,8 @@ void merge(toml::table& root, toml::table& file, DiagnosticLog& log) {
       if (element.is_table()) {
         known->as_array()->push_back(std::move(element));
       } else {
-        log.error(position_of(element.source()), fmt::format("every {} must be a table", section->title));
+        log.error(reading::position_of(element.source()),
+                  fmt::format("every {} must be a table", section->title));
       }
     }
   }
@@ -96,14 +97,14 @@ class Includer {
     if (node.is_string()) return include_one(node, from);
     const toml::array* list = node.as_array();
     if (!list || std::ranges::any_of(*list, [](const toml::node& element) { return !element.is_string(); })) {
-      log_.error(position_of(node.source()), "`include` must be a file name or a list of them");
+      log_.error(reading::position_of(node.source()), "`include` must be a file name or a list of them");
       return;
     }
     for (const toml::node& element : *list) include_one(element, from);
   }
 
   void include_one(const toml::node& node, const fs::path& from) {
-    const SourcePosition at = position_of(node.source());
+    const SourcePosition at = reading::position_of(node.source());
     try {
       const auto [file, whole] = folders_.find(include_key, node.value_or(std::string()), from);
       if (std::ranges::find(chain_, whole) != chain_.end()) return log_.error(at, cycle(whole));
@@ -148,7 +149,7 @@ Document parse_document(std::string_view text, const std::string& name, Diagnost
   toml::table tree = parse_toml(log.add_source(name, std::string(text)), name, budget, log);
   rename_former(tree);
   if (const toml::node* include = tree.get(include_key)) {
-    log.error(position_of(include->source()), "only a scene in a file can include others");
+    log.error(reading::position_of(include->source()), "only a scene in a file can include others");
   }
   merge(document.root, tree, log);
   return document;

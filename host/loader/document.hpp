@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <vector>
 
+#include "host/core/diagnostic_log.hpp"
 #include "host/loader/allowed_folders.hpp"
-#include "host/scene/diagnostic_log.hpp"
 
 namespace eyeray::loader {
 

@@ -9,6 +9,8 @@
 
 namespace eyeray::loader {
 
+using reading::Key, reading::KeyType;
+
 namespace {
 
 constexpr double brightest = 1e15;
@@ -58,7 +60,8 @@ std::string fault_of(const image::Image& image) {
       wrong, wrong == 1 ? "" : "s", wrong == 1 ? "is" : "are", brightest, value, x, y);
 }
 
-Surroundings parse_image(TableReader& table, const ValueSources& sources, DiagnosticLog& log) {
+Surroundings parse_image(reading::TableReader& table, const reading::ValueSources& sources,
+                         DiagnosticLog& log) {
   if (!table.valid("image")) return Surroundings();
   if (!sources.images) return table.error("image", "only a scene in a file can have images"), Surroundings();
   std::optional<image::Image> image =
@@ -109,7 +112,7 @@ constexpr Key keys_of_sky[] = {
      .fallback = "1"},
 };
 
-Surroundings parse_sky(TableReader& table, const ValueSources&, DiagnosticLog& log) {
+Surroundings parse_sky(reading::TableReader& table, const reading::ValueSources&, DiagnosticLog& log) {
   const Vec3 sun = table.vec3("sun");
   if (table.valid("sun") && !(glm::length(sun) > 1e-15)) table.error("sun", "`sun` has no length");
   if (const Vec3 scale = table.color("scale"); std::max({scale.x, scale.y, scale.z}) > 1e9)
@@ -155,8 +158,8 @@ std::span<const Key> environment_keys() {
   return keys;
 }
 
-Surroundings read_environment(const Section& section, const toml::table* table, const ValueSources& sources,
-                              DiagnosticLog& log) {
+Surroundings read_environment(const Section& section, const toml::table* table,
+                              const reading::ValueSources& sources, DiagnosticLog& log) {
   if (!table) return {};
   auto [type, reader] = read_kind(section, table, environment_types(), sources, log);
   Surroundings around = type ? type->parse(reader, sources, log) : Surroundings();

@@ -4,8 +4,9 @@
 #include <memory>
 
 #include "host/loader/sections.hpp"
+#include "host/reading/table.hpp"
 #include "host/scene/environment.hpp"
-#include "host/scene/table.hpp"
+#include "host/scene/light.hpp"
 
 namespace eyeray::loader {
 
@@ -19,16 +20,17 @@ struct Surroundings {
 struct EnvironmentType {
   std::string_view name;
   std::string_view manual;
-  std::span<const Key> keys;  // beside those that all have
+  std::span<const reading::Key> keys;  // beside those that all have
   // Nothing after an error, which is reported to the table.
-  Surroundings (*parse)(TableReader& table, const ValueSources& sources, DiagnosticLog& log);
+  Surroundings (*parse)(reading::TableReader& table, const reading::ValueSources& sources,
+                        DiagnosticLog& log);
 };
 
 std::span<const EnvironmentType* const> environment_types();
-std::span<const Key> environment_keys();
+std::span<const reading::Key> environment_keys();
 
 // Nothing where the table is not written, or after an error.
-Surroundings read_environment(const Section& section, const toml::table* table, const ValueSources& sources,
-                              DiagnosticLog& log);
+Surroundings read_environment(const Section& section, const toml::table* table,
+                              const reading::ValueSources& sources, DiagnosticLog& log);
 
 }  // namespace eyeray::loader

@@ -4,13 +4,13 @@
 #include <filesystem>
 #include <vector>
 
+#include "host/core/diagnostic_log.hpp"
 #include "host/loader/allowed_folders.hpp"
-#include "host/scene/diagnostic_log.hpp"
-#include "host/scene/formula_source.hpp"
+#include "host/reading/formula_source.hpp"
 
 namespace eyeray::loader {
 
-class FormulaFiles final : public FormulaSource {
+class FormulaFiles final : public reading::FormulaSource {
  public:
   // Names in `scene` or in one of the other `sources`, which it includes, are relative to the folder of the
   // file that they stand in; names that stand in no file (an override) are relative to the scene's.

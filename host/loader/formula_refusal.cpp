@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "host/scene/value.hpp"
+#include "host/reading/source_position.hpp"
 
 namespace eyeray::loader {
 
@@ -17,7 +17,7 @@ void refuse(const toml::node& node, bool may_have, DiagnosticLog& log) {
   if (!table) return;
   for (const auto& [key, value] : *table) {
     if (may_have && (key == "code" || key == "file"))
-      log.error(position_of(value.source()),
+      log.error(reading::position_of(value.source()),
                 fmt::format("`{}` has a function, which {} refuses", key.str(), option_text("no-formulas")));
     refuse(value, may_have || key == "implicit" || key == "formula", log);
   }

@@ -3,7 +3,7 @@
 
 #include <toml++/toml.h>
 
-#include "host/scene/diagnostic_log.hpp"
+#include "host/core/diagnostic_log.hpp"
 
 namespace eyeray::loader {
 

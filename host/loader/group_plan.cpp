@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "host/loader/sections.hpp"
-#include "host/scene/value.hpp"
+#include "host/reading/source_position.hpp"
 
 namespace eyeray::loader {
 
@@ -75,7 +75,7 @@ GroupPlan::GroupPlan(const toml::table& root, GroupStorage storage, DiagnosticLo
 }
 
 void GroupPlan::fail(const toml::node& at, std::string message) {
-  log_.error(position_of(at.source()), std::move(message));
+  log_.error(reading::position_of(at.source()), std::move(message));
   sound_ = false;
 }
 
@@ -103,7 +103,7 @@ void GroupPlan::enter_names(const toml::table& root) {
       // Names may be shared where nobody asks for one.
       if (!fresh) shared_names_.insert(name->get());
     } else if (is_pattern(group)) {
-      log_.error(position_of(group.get("pattern")->source()),
+      log_.error(reading::position_of(group.get("pattern")->source()),
                  "a pattern needs a `name`, by which an [[instance]] shows it");
     }
   }
@@ -123,7 +123,7 @@ void GroupPlan::link(Node& node) {
           if (!is_pattern(table))
             node.members.push_back({&node_of(table), batch_size(table)});
           else if (!node.is_scene)
-            log_.error(position_of(table.get("pattern")->source()),
+            log_.error(reading::position_of(table.get("pattern")->source()),
                        "only a [[group]] that is in no other can be a pattern");
           break;
         default:
@@ -139,7 +139,7 @@ void GroupPlan::link_instances(Node& node, const toml::table& table) {
   const auto add = [&](const toml::node& name, double count) {
     const auto found = name.is_string() ? by_name_.find(name.as_string()->get()) : by_name_.end();
     if (name.is_string() && shared_names_.contains(name.as_string()->get()))
-      log_.error(position_of(name.source()),
+      log_.error(reading::position_of(name.source()),
                  fmt::format("more than one [[group]] is named \"{}\"", name.as_string()->get()));
     if (found != by_name_.end())
       node.members.push_back({found->second, count * batch_size(*found->second->table)});

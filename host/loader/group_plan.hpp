@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host/scene/diagnostic_log.hpp"
+#include "host/core/diagnostic_log.hpp"
 #include "host/scene/scene.hpp"
 
 namespace eyeray::loader {

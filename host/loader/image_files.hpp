@@ -5,14 +5,14 @@
 #include <map>
 #include <vector>
 
+#include "host/core/diagnostic_log.hpp"
 #include "host/image/coded_image.hpp"
 #include "host/loader/allowed_folders.hpp"
-#include "host/scene/diagnostic_log.hpp"
-#include "host/scene/image_source.hpp"
+#include "host/reading/image_source.hpp"
 
 namespace eyeray::loader {
 
-class ImageFiles final : public ImageSource {
+class ImageFiles final : public reading::ImageSource {
  public:
   // Names in `scene` or in one of the other `sources`, which it includes, are relative to the folder of the
   // file that they stand in; names that stand in no file (an override) are relative to the scene's.

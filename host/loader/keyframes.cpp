@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "host/core/vec.hpp"
+#include "host/reading/source_position.hpp"
 #include "host/scene/scene.hpp"
-#include "host/scene/value.hpp"
 
 namespace eyeray::loader {
 namespace {
@@ -106,7 +106,7 @@ class Between {
  private:
   std::string unlike(const toml::node& node) {
     sound_ = false;
-    log_.error(position_of(node.source()),
+    log_.error(reading::position_of(node.source()),
                "this is not of the form of the keyframe before it, so nothing is between them; curve = "
                "\"step\" jumps");
     return "0";
@@ -198,23 +198,23 @@ std::optional<std::vector<Keyframe>> read(const toml::array& list, DiagnosticLog
   for (const toml::node& node : list) {
     const toml::array* pair = node.as_array();
     if (!pair || pair->size() != 2 || !is_number(*pair->get(0))) {
-      log.error(position_of(node.source()), "a keyframe must be a pair [frame, value]");
+      log.error(reading::position_of(node.source()), "a keyframe must be a pair [frame, value]");
       return std::nullopt;
     }
     const double frame = pair->get(0)->value_or(0.0);
     if (!(std::abs(frame) <= most_frames)) {
-      log.error(position_of(pair->get(0)->source()),
+      log.error(reading::position_of(pair->get(0)->source()),
                 fmt::format("a frame must be a number from -{0} to {0}", int(most_frames)));
       return std::nullopt;
     }
     if (!keyframes.empty() && !(frame > keyframes.back().frame)) {
       log.error(
-          position_of(pair->get(0)->source()),
+          reading::position_of(pair->get(0)->source()),
           fmt::format("keyframes must be in their order: {} is not after {}", frame, keyframes.back().frame));
       return std::nullopt;
     }
     if (const toml::node* fixed = immovable(*pair->get(1))) {
-      log.error(position_of(fixed->source()),
+      log.error(reading::position_of(fixed->source()),
                 "what moves is made of numbers: true and false, lists and tables of them may be there too");
       return std::nullopt;
     }

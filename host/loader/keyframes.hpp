@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "host/scene/diagnostic_log.hpp"
+#include "host/core/diagnostic_log.hpp"
 
 namespace eyeray::loader {
 

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "host/core/diagnostic_log.hpp"
 #include "host/loader/sections.hpp"
-#include "host/scene/diagnostic_log.hpp"
-#include "host/scene/table.hpp"
+#include "host/reading/table.hpp"
 
 namespace eyeray::loader {
 
@@ -20,7 +20,7 @@ namespace eyeray::loader {
 template <typename Type>
 const Type* named_type(const toml::table* table, const Section& section, std::span<const Type* const> types) {
   const toml::node* name = table ? table->get("type") : nullptr;
-  const Key& key = *std::ranges::find(section.keys, "type", &Key::name);
+  const reading::Key& key = *std::ranges::find(section.keys, "type", &reading::Key::name);
   if (!name && !key.fallback.empty()) name = &fallback_of(key);
   if (!name || !name->is_string()) return nullptr;
   const auto found = std::ranges::find(types, name->as_string()->get(), &Type::name);
@@ -32,8 +32,8 @@ template <typename Type>
 std::vector<std::string_view> keys_of_others(const Type& own, std::span<const Type* const> types) {
   std::vector<std::string_view> names;
   for (const Type* type : types)
-    for (const Key& key : type->keys)
-      if (std::ranges::find(own.keys, key.name, &Key::name) == own.keys.end() &&
+    for (const reading::Key& key : type->keys)
+      if (std::ranges::find(own.keys, key.name, &reading::Key::name) == own.keys.end() &&
           std::ranges::find(names, key.name) == names.end())
         names.push_back(key.name);
   return names;
@@ -48,9 +48,9 @@ void refuse_keys(const toml::table& table, std::span<const std::string_view> key
     if (!written) continue;
     std::vector<std::string> owners;
     for (const Type* type : types)
-      if (std::ranges::find(type->keys, name, &Key::name) != type->keys.end())
+      if (std::ranges::find(type->keys, name, &reading::Key::name) != type->keys.end())
         owners.push_back(fmt::format("\"{}\"", type->name));
-    log.error(position_of(written->source()),
+    log.error(reading::position_of(written->source()),
               fmt::format("`{}` is for type = {} only", name, fmt::join(owners, " or ")));
   }
 }
@@ -58,26 +58,27 @@ void refuse_keys(const toml::table& table, std::span<const std::string_view> key
 template <typename Type>
 struct Kind {
   const Type* type;
-  TableReader reader;
+  reading::TableReader reader;
 };
 
 // The table by the keys of its type, which comes first: it decides which other keys there are. The type is
 // null after an error in it, which is in the log. `table` null: not written.
 template <typename Type>
 Kind<Type> read_kind(const Section& section, const toml::table* table, std::span<const Type* const> types,
-                     const ValueSources& sources, DiagnosticLog& log) {
+                     const reading::ValueSources& sources, DiagnosticLog& log) {
   const Type* type = named_type(table, section, types);
   const std::string title = type ? fmt::format("{} of type {}", section.title, type->name) : section.title;
   const std::vector<std::string_view> others =
       type ? keys_of_others(*type, types) : std::vector<std::string_view>();
   if (table) refuse_keys(*table, others, types, log);
-  return {type, read_table({.title = title,
-                            .table = table,
-                            .keys = {section.keys, type ? type->keys : std::span<const Key>()},
-                            .refused_keys = others,
-                            .open = !type,
-                            .sources = sources},
-                           log)};
+  return {type,
+          reading::read_table({.title = title,
+                               .table = table,
+                               .keys = {section.keys, type ? type->keys : std::span<const reading::Key>()},
+                               .refused_keys = others,
+                               .open = !type,
+                               .sources = sources},
+                              log)};
 }
 
 }  // namespace eyeray::loader

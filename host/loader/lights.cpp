@@ -6,7 +6,7 @@
 namespace eyeray::loader {
 
 std::unique_ptr<Light> read_light(const Section& section, const toml::table& table,
-                                  const ValueSources& sources, DiagnosticLog& log) {
+                                  const reading::ValueSources& sources, DiagnosticLog& log) {
   auto [type, reader] = read_kind(section, &table, lights::types(), sources, log);
   return type ? type->parse(reader) : nullptr;
 }

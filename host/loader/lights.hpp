@@ -4,12 +4,13 @@
 #include <memory>
 
 #include "host/loader/sections.hpp"
-#include "host/scene/table.hpp"
+#include "host/reading/table.hpp"
+#include "host/scene/light.hpp"
 
 namespace eyeray::loader {
 
 // Null after an error, which is in the log.
 std::unique_ptr<Light> read_light(const Section& section, const toml::table& table,
-                                  const ValueSources& sources, DiagnosticLog& log);
+                                  const reading::ValueSources& sources, DiagnosticLog& log);
 
 }  // namespace eyeray::loader

@@ -6,27 +6,27 @@
 #include "host/loader/scene_file.hpp"
 #include "host/loader/sections.hpp"
 #include "host/materials/registry.hpp"
+#include "host/reading/table.hpp"
 #include "host/reference/integrator.hpp"
 #include "host/reference/sampler.hpp"
 #include "host/scene/integrator.hpp"
 #include "host/scene/sampler.hpp"
-#include "host/scene/table.hpp"
 #include "host/textures/registry.hpp"
 
 namespace eyeray::loader {
 
 namespace {
 
-std::string default_of(const Key& key) {
+std::string default_of(const reading::Key& key) {
   if (!key.fallback.empty()) return fmt::format("`{}`", key.fallback);
   return key.optional ? "–" : "**required**";
 }
 
 // The keys as a Markdown table.
-std::string key_table(std::initializer_list<std::span<const Key>> groups) {
+std::string key_table(std::initializer_list<std::span<const reading::Key>> groups) {
   std::string text = "| key | value | default | meaning |\n| --- | --- | --- | --- |\n";
-  for (const std::span<const Key> keys : groups) {
-    for (const Key& key : keys) {
+  for (const std::span<const reading::Key> keys : groups) {
+    for (const reading::Key& key : keys) {
       text += fmt::format("| `{}` | {} | {} | {} |\n", key.name, describe(key), default_of(key), key.doc);
     }
   }
@@ -49,7 +49,7 @@ std::string kinds_manual(std::span<const Type* const> types) {
 
 std::string textures_manual() {
   std::string text;
-  for (const TextureType* type : textures::types())
+  for (const reading::TextureType* type : textures::types())
     text += type->of_color ? "### `[r, g, b]`\n\n" + trimmed(type->manual)
                            : fmt::format("### `{{ {} = … }}`\n\n", type->name) + trimmed(type->manual) +
                                  key_table({type->keys});
@@ -102,8 +102,8 @@ std::string scene_manual() {
   text +=
       "## `transform`\n\nEach step is a table with one of these keys; steps are applied in the order "
       "written.\n\n";
-  text += key_table({transform_step_keys()});
-  text += "A rotation is a table of two:\n\n" + key_table({rotation_keys()});
+  text += key_table({reading::transform_step_keys()});
+  text += "A rotation is a table of two:\n\n" + key_table({reading::rotation_keys()});
   text +=
       "## `batch`\n\nMany shapes, or instances of a mesh or a group, from one table: each key of `batch` "
       "holds a list "

@@ -11,7 +11,7 @@ namespace {
 
 constexpr size_t most_media = 255;  // their number is a byte in the shaders' stack of media
 
-void bend_normals(TableReader& reader, Material& material) {
+void bend_normals(reading::TableReader& reader, Material& material) {
   material.normal_map = materials::read_normal_map(reader, "normal", "normal_scale");
   if (const TexturePtr bump = reader.has("bump") ? materials::as_data(reader.texture("bump")) : nullptr) {
     const double width = reader.has("bump_width") ? reader.number("bump_width") : bump->detail();
@@ -66,7 +66,7 @@ void Materials::add(const Section& section, const toml::table& table) {
   scene_.materials.push_back(std::move(material));
 }
 
-int Materials::find(TableReader& shape) {
+int Materials::find(reading::TableReader& shape) {
   if (!shape.valid("material")) return 0;
   const std::string name = shape.string("material");
   const auto found = by_name_.find(name);

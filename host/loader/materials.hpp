@@ -5,21 +5,21 @@
 #include <string>
 
 #include "host/loader/sections.hpp"
+#include "host/reading/table.hpp"
 #include "host/scene/scene.hpp"
-#include "host/scene/table.hpp"
 
 namespace eyeray::loader {
 
 class Materials {
  public:
   // They go into `scene`. All three must outlive it.
-  Materials(Scene& scene, const ValueSources& values, DiagnosticLog& log)
+  Materials(Scene& scene, const reading::ValueSources& values, DiagnosticLog& log)
       : scene_(scene), values_(values), log_(log) {}
 
   // Errors are in the log, here and below.
   void add(const Section& section, const toml::table& table);
   // The index in Scene::materials of what the table's `material` names; after an error 0.
-  int find(TableReader& shape);
+  int find(reading::TableReader& shape);
   // Says where a scene that is otherwise whole has too many of them, or some that nothing is made of.
   void check() const;
 
@@ -31,7 +31,7 @@ class Materials {
   };
 
   Scene& scene_;
-  const ValueSources& values_;
+  const reading::ValueSources& values_;
   DiagnosticLog& log_;
   std::map<std::string, Named, std::less<>> by_name_;
   size_t media_ = 0;

@@ -11,6 +11,8 @@
 
 namespace eyeray::loader {
 
+using reading::Key, reading::KeyType;
+
 namespace {
 
 constexpr std::string_view manual =
@@ -73,7 +75,7 @@ std::string_view medium_manual() {
   return manual;
 }
 
-Medium read_medium(TableReader& table, IntegratorType integrator) {
+Medium read_medium(reading::TableReader& table, IntegratorType integrator) {
   const Medium medium = materials::read_medium(table, 1);
   if (medium.absorption + medium.scattering == Vec3(0))
     for (const char* key : {"anisotropy", "min", "top", "scale_height"})
@@ -86,7 +88,7 @@ Medium read_medium(TableReader& table, IntegratorType integrator) {
   return walks_at_random(integrator) ? medium : Medium{};
 }
 
-MediumExtent read_medium_extent(TableReader& table) {
+MediumExtent read_medium_extent(reading::TableReader& table) {
   MediumExtent extent;
   for (const auto& [key, other] : {std::pair("min", "max"), std::pair("max", "min")})
     if (table.has(key) && !table.has(other))

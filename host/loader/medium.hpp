@@ -1,18 +1,19 @@
 // [medium]: what is around all shapes, and its extent.
 #pragma once
 
-#include "host/scene/diagnostic_log.hpp"
+#include "host/core/diagnostic_log.hpp"
+#include "host/reading/table_reader.hpp"
 #include "host/scene/scene.hpp"
 
 namespace eyeray::loader {
 
-std::span<const Key> medium_keys();
+std::span<const reading::Key> medium_keys();
 std::string_view medium_manual();
 
 // Read the table, and report errors between its values to it. The medium is the vacuum for
 // integrators that know no other.
-Medium read_medium(TableReader& table, IntegratorType integrator);
-MediumExtent read_medium_extent(TableReader& table);
+Medium read_medium(reading::TableReader& table, IntegratorType integrator);
+MediumExtent read_medium_extent(reading::TableReader& table);
 
 // Warns where the light of a sun, an environment or a background is lost in the medium because it has no end.
 void warn_of_endless_medium(const Scene& scene, DiagnosticLog& log);

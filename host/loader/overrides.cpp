@@ -8,7 +8,7 @@
 #include "host/loader/sections.hpp"
 #include "host/loader/statements.hpp"
 #include "host/loader/toml_file.hpp"
-#include "host/scene/value.hpp"
+#include "host/reading/source_position.hpp"
 
 namespace eyeray::loader {
 

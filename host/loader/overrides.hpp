@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "host/core/diagnostic_log.hpp"
 #include "host/loader/scene_file.hpp"
-#include "host/scene/diagnostic_log.hpp"
 
 namespace eyeray::loader {
 

@@ -1,7 +1,7 @@
 // What Whitted's pictures show and paths cannot, or not by the numbers that are given.
 #pragma once
 
-#include "host/scene/diagnostic_log.hpp"
+#include "host/core/diagnostic_log.hpp"
 #include "host/scene/scene.hpp"
 
 namespace eyeray::loader {

@@ -41,7 +41,7 @@ std::vector<bool> used_materials(const Scene& scene) {
   return used;
 }
 
-void check_surfaces(const Scene& scene, TableReader& render) {
+void check_surfaces(const Scene& scene, reading::TableReader& render) {
   const std::vector<bool> used = used_materials(scene);
   size_t tried = 0;
   for (size_t i = 0; i < used.size(); ++i) {
@@ -60,7 +60,7 @@ void check_surfaces(const Scene& scene, TableReader& render) {
                                  scene.render.photons, tried));
 }
 
-void check_lights(const Scene& scene, TableReader& render, std::span<const SourcePosition> lights,
+void check_lights(const Scene& scene, reading::TableReader& render, std::span<const SourcePosition> lights,
                   DiagnosticLog& log) {
   const Emitters lamps = emitters(scene);
   if (scene.lights.empty() && lamps.sampled.empty() && lamps.unsampled.empty() && !scene.environment)
@@ -84,12 +84,12 @@ void check_lights(const Scene& scene, TableReader& render, std::span<const Sourc
     else if (std::holds_alternative<std::monostate>(form))
       log.error(lights[i],
                 fmt::format("`sppm` does not know how a light of the type \"{}\" sends photons out",
-                            scene.lights[i]->type->name));
+                            scene.lights[i]->type));
   }
 }
 
 // Radii and numbers that no picture can be made with.
-void check_radius(const Scene& scene, const PhotonSettings& settings, TableReader& render) {
+void check_radius(const Scene& scene, const PhotonSettings& settings, reading::TableReader& render) {
   const char* const key = render.has("photon_radius") ? "photon_radius" : "integrator";
   const double reach = settings.reach + glm::length(settings.center - scene.camera.eye);
   const double share = settings.radius / settings.reach;
@@ -115,7 +115,7 @@ void check_radius(const Scene& scene, const PhotonSettings& settings, TableReade
 
 }  // namespace
 
-void prepare_for_photons(Scene& scene, TableReader& render, std::span<const SourcePosition> lights,
+void prepare_for_photons(Scene& scene, reading::TableReader& render, std::span<const SourcePosition> lights,
                          DiagnosticLog& log) {
   if (!scene.environment && scene.render.background != Vec3(0)) {
     image::Image even(1, 1, 3);

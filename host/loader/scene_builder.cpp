@@ -20,9 +20,9 @@
 #include "host/loader/photon_check.hpp"
 #include "host/loader/sections.hpp"
 #include "host/loader/settings.hpp"
+#include "host/reading/table.hpp"
 #include "host/scene/affine.hpp"
 #include "host/scene/integrator.hpp"
-#include "host/scene/table.hpp"
 #include "host/scene/tangents.hpp"
 #include "host/textures/registry.hpp"
 
@@ -61,9 +61,9 @@ class Builder {
 
   Scene build() {
     scene_.camera = read_camera(*find_section("camera"), single("camera"), values_, log_);
-    TableReader render = read_single("render");
+    reading::TableReader render = read_single("render");
     scene_.render = read_render(render);
-    TableReader image = read_single("image");
+    reading::TableReader image = read_single("image");
     scene_.image = read_image(image, scene_.render.integrator);
     const toml::table* around = single("environment");
     Surroundings surroundings = read_environment(*find_section("environment"), around, values_, log_);
@@ -71,26 +71,26 @@ class Builder {
     if (around && render.has("background"))
       render.error("background",
                    "[environment] takes the place of `background`: a scene has one or the other");
-    TableReader medium = read_single("medium");
+    reading::TableReader medium = read_single("medium");
     scene_.medium = read_medium(medium, scene_.render.integrator);
     scene_.medium_extent = read_medium_extent(medium);
-    TableReader verify = read_single("verify");
+    reading::TableReader verify = read_single("verify");
     scene_.verify = read_verify(verify);
 
     for_each(root_, "light", [&](const Section& section, const toml::table& table) {
       if (++lights_ == most_lights + 1) {
-        log_.error(position_of(table.source()),
+        log_.error(reading::position_of(table.source()),
                    fmt::format("a scene can have at most {} lights", most_lights));
       }
       if (lights_ > most_lights) return;
       if (std::unique_ptr<Light> light = read_light(section, table, values_, log_)) {
         scene_.lights.push_back(std::move(light));
-        light_positions_.push_back(position_of(table.source()));
+        light_positions_.push_back(reading::position_of(table.source()));
       }
     });
     if (surroundings.sun) {
       scene_.lights.push_back(std::move(surroundings.sun));
-      light_positions_.push_back(position_of(around->source()));
+      light_positions_.push_back(reading::position_of(around->source()));
     }
     for_each(root_, "material",
              [&](const Section& section, const toml::table& table) { materials_.add(section, table); });
@@ -113,9 +113,9 @@ class Builder {
     return node ? node->as_table() : nullptr;
   }
 
-  TableReader read_single(std::string_view name) {
+  reading::TableReader read_single(std::string_view name) {
     const Section& section = *find_section(name);
-    return read_table({section.title, single(name), {section.keys}}, log_);
+    return reading::read_table({section.title, single(name), {section.keys}}, log_);
   }
 
   // Visits the tables of a list; one that should be a list or a table and is not is an error. Returns whether
@@ -127,7 +127,7 @@ class Builder {
     if (!list) return true;
     const Section& section = *find_section(name);
     if (!list->is_array()) {
-      log_.error(position_of(list->source()),
+      log_.error(reading::position_of(list->source()),
                  fmt::format("`{0}` must be a list of tables, written [[{1}.{0}]]", name, holder_name));
       return false;
     }
@@ -136,7 +136,8 @@ class Builder {
       if (node.is_table()) {
         visit(section, *node.as_table());
       } else {
-        log_.error(position_of(node.source()), fmt::format("every {} must be a table", section.title));
+        log_.error(reading::position_of(node.source()),
+                   fmt::format("every {} must be a table", section.title));
         ok = false;
       }
     }
@@ -148,19 +149,19 @@ class Builder {
   template <typename Add>
   size_t for_each_placed(const Section& section, const toml::table& table, const Placing& group,
                          const Add& add);
-  std::unique_ptr<Shape> read_shape(const Section& section, const toml::table& table, TableReader& reader,
-                                    const Placing& placing);
-  std::unique_ptr<Shape> parse_shape(const Section& section, TableReader& reader, const Placing& placing,
-                                     int material);
-  void add_mesh(TableReader& reader, const Placing& placing);
-  void add_group(TableReader& reader, const toml::table& table, const Placing& placing);
-  void add_instance(TableReader& reader, const Placing& placing);
+  std::unique_ptr<Shape> read_shape(const Section& section, const toml::table& table,
+                                    reading::TableReader& reader, const Placing& placing);
+  std::unique_ptr<Shape> parse_shape(const Section& section, reading::TableReader& reader,
+                                     const Placing& placing, int material);
+  void add_mesh(reading::TableReader& reader, const Placing& placing);
+  void add_group(reading::TableReader& reader, const toml::table& table, const Placing& placing);
+  void add_instance(reading::TableReader& reader, const Placing& placing);
   Group build_group(const toml::table& table, const Mat4& to_world);
   void check_idle_patterns();
-  void check_whole(TableReader& render);
+  void check_whole(reading::TableReader& render);
 
   const toml::table& root_;
-  const ValueSources values_;
+  const reading::ValueSources values_;
   MeshImports* meshes_;
   DiagnosticLog& log_;
   Scene scene_;
@@ -188,7 +189,7 @@ void Builder::add_placed(const toml::table& holder, const Placing& group) {
 }
 
 void Builder::add_table(const Section& section, const toml::table& table, const Placing& group) {
-  for_each_placed(section, table, group, [&](TableReader& reader, const Placing& placed) {
+  for_each_placed(section, table, group, [&](reading::TableReader& reader, const Placing& placed) {
     switch (section.kind) {
       case Section::Kind::group:
         return add_group(reader, table, placed);
@@ -212,7 +213,7 @@ Group Builder::build_group(const toml::table& table, const Mat4& to_world) {
   return group;
 }
 
-void Builder::add_group(TableReader& reader, const toml::table& table, const Placing& placing) {
+void Builder::add_group(reading::TableReader& reader, const toml::table& table, const Placing& placing) {
   if (building_ || !plan_->is_instanced(table)) return add_placed(table, placing);
   const auto [entry, fresh] = instanced_groups_.try_emplace(&table);
   if (fresh) {
@@ -226,7 +227,7 @@ void Builder::add_group(TableReader& reader, const toml::table& table, const Pla
   group_placer_.place(entry->second, placing.to_world, reader.position(), placing.name);
 }
 
-void Builder::add_instance(TableReader& reader, const Placing& placing) {
+void Builder::add_instance(reading::TableReader& reader, const Placing& placing) {
   if (!reader.valid("group")) return;
   const std::string name = reader.string("group");
   if (const toml::table* group = plan_->find(name)) return add_table(*find_section("group"), *group, placing);
@@ -243,7 +244,7 @@ void Builder::check_idle_patterns() {
     building_ = &unused;
     add_table(*find_section("group"), *group, Placing{});
     building_ = nullptr;
-    log_.warning(position_of(group->source()),
+    log_.warning(reading::position_of(group->source()),
                  fmt::format("group \"{}\" is not shown: no [[instance]] names it",
                              (*group)["name"].value_or(std::string())));
   }
@@ -270,15 +271,16 @@ size_t Builder::for_each_placed(const Section& section, const toml::table& table
       const bool shared = batch.lists && !batch.lists->contains("name");
       placed.name = {scene_.names.add(name, shared ? uint32_t(i + 1) : 0, group.name.index), true};
     }
-    TableReader reader = read_table({.title = section.title,
-                                     .table = &table,
-                                     .keys = {section.shape ? section.shape->keys : section.keys,
-                                              section.shape ? section.keys : std::span<const Key>()},
-                                     .batch = batch.lists,
-                                     .element = i,
-                                     .extra_keys = elsewhere,
-                                     .sources = values_},
-                                    log_);
+    reading::TableReader reader =
+        reading::read_table({.title = section.title,
+                             .table = &table,
+                             .keys = {section.shape ? section.shape->keys : section.keys,
+                                      section.shape ? section.keys : std::span<const reading::Key>()},
+                             .batch = batch.lists,
+                             .element = i,
+                             .extra_keys = elsewhere,
+                             .sources = values_},
+                            log_);
     if (reader.has("name") && reader.valid("name") && reader.string("name").empty())
       reader.error("name", "a name must not be empty; leave `name` out instead");
     placed.to_world = group.to_world * reader.transform("transform");
@@ -294,14 +296,14 @@ size_t Builder::for_each_placed(const Section& section, const toml::table& table
 }
 
 std::unique_ptr<Shape> Builder::read_shape(const Section& section, const toml::table& table,
-                                           TableReader& reader, const Placing& placing) {
+                                           reading::TableReader& reader, const Placing& placing) {
   if (section.is_combined())
     return CsgReader(*this, log_).read(section, table, reader, placing, std::nullopt);
   return parse_shape(section, reader, placing, materials_.find(reader));
 }
 
 // A shape of its own, or a part.
-std::unique_ptr<Shape> Builder::parse_shape(const Section& section, TableReader& reader,
+std::unique_ptr<Shape> Builder::parse_shape(const Section& section, reading::TableReader& reader,
                                             const Placing& placing, int material) {
   std::unique_ptr<Shape> shape = section.shape->parse(reader, placing.to_world);
   if (!shape) return nullptr;
@@ -313,13 +315,13 @@ std::unique_ptr<Shape> Builder::parse_shape(const Section& section, TableReader&
             "triangles, polygons, parallelograms, disks and meshes can be of it",
             section.shape->name));
   shape->material = material;
-  shape->type = section.shape;
+  shape->type = section.shape->name;
   shape->name = placing.name;
   shape->position = reader.position();
   return shape;
 }
 
-void Builder::add_mesh(TableReader& reader, const Placing& placing) {
+void Builder::add_mesh(reading::TableReader& reader, const Placing& placing) {
   const bool own_materials = !reader.has("material");
   const int material = own_materials ? 0 : materials_.find(reader);
   if (reader.failed()) return;
@@ -346,7 +348,7 @@ void Builder::add_mesh(TableReader& reader, const Placing& placing) {
 }
 
 // Warns of what is legal but hardly meant.
-void Builder::check_whole(TableReader& render) {
+void Builder::check_whole(reading::TableReader& render) {
   const bool empty = scene_.shapes.empty() && scene_.instances.empty() && scene_.group_instances.empty();
   if (empty && !tried_shapes_) log_.warning({}, "the scene has no shapes: only background will be seen");
   if (scene_.lights.empty() && traits_of(scene_.render.integrator).shadow_rays == ShadowRays::each_light &&

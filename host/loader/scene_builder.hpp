@@ -3,19 +3,19 @@
 
 #include <toml++/toml.h>
 
+#include "host/core/diagnostic_log.hpp"
 #include "host/loader/mesh_imports.hpp"
-#include "host/scene/diagnostic_log.hpp"
-#include "host/scene/formula_source.hpp"
-#include "host/scene/image_source.hpp"
+#include "host/reading/formula_source.hpp"
+#include "host/reading/image_source.hpp"
 #include "host/scene/scene.hpp"
 
 namespace eyeray::loader {
 
 // Where what a scene names comes from; null where it may name no such files.
 struct SceneSources {
-  ImageSource* images = nullptr;
+  reading::ImageSource* images = nullptr;
   MeshImports* meshes = nullptr;
-  FormulaSource* formulas = nullptr;
+  reading::FormulaSource* formulas = nullptr;
 };
 
 // Everything but Scene::file, files and warnings; only whole when the log has no errors.

@@ -11,10 +11,12 @@
 #include "host/loader/scene_file.hpp"
 #include "host/loader/sections.hpp"
 #include "host/materials/registry.hpp"
-#include "host/scene/table.hpp"
+#include "host/reading/table.hpp"
 #include "host/textures/registry.hpp"
 
 namespace eyeray::loader {
+
+using reading::Key, reading::KeyType;
 
 namespace {
 
@@ -70,7 +72,7 @@ constexpr std::string_view texture_definition = "texture", transform_definition 
 
 Json texture_schema() {
   Json alternatives = Json::array();
-  for (const TextureType* type : textures::types()) {
+  for (const reading::TextureType* type : textures::types()) {
     if (!type->parse) continue;
     Json table = table_schema(type->keys);
     if (!type->is_flat())
@@ -84,7 +86,7 @@ Json texture_schema() {
 }
 
 Json transform_schema() {
-  Json step = table_schema(transform_step_keys());
+  Json step = table_schema(reading::transform_step_keys());
   step["minProperties"] = step["maxProperties"] = 1;
   return list_schema(std::move(step));
 }
@@ -148,7 +150,7 @@ Json value_schema(const Key& key) {
     case KeyType::scale3:
       return either(number_schema(key, "number"), vector_schema(key, 3));
     case KeyType::rotation:
-      return table_schema(rotation_keys());
+      return table_schema(reading::rotation_keys());
     case KeyType::transform:
       return reference_to(transform_definition);
     case KeyType::matrix: {

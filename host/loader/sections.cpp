@@ -11,10 +11,12 @@
 #include "host/loader/medium.hpp"
 #include "host/loader/settings.hpp"
 #include "host/materials/registry.hpp"
-#include "host/scene/foreign_words.hpp"
+#include "host/reading/foreign_words.hpp"
 #include "host/shapes/registry.hpp"
 
 namespace eyeray::loader {
+
+using reading::Key, reading::KeyType;
 
 namespace {
 
@@ -295,7 +297,7 @@ std::vector<Section> make_sections() {
       {material, "material", "[[material]]", "What surfaces are made of.", material_keys()},
       {mesh, "mesh", "[[mesh]]", "The triangles of a file.", mesh_keys, nullptr, mesh_manual},
   };
-  for (const ShapeType* type : shapes::types()) {
+  for (const shapes::ShapeType* type : shapes::types()) {
     const std::span<const Key> keys = type->combine ? part_keys() : shape_keys;
     all.push_back({shape, type->name, fmt::format("[[{}]]", type->name), "", keys, type});
   }
@@ -338,7 +340,7 @@ std::string suggest_section(std::string_view name) {
   std::vector<std::string_view> names;
   for (const Section& section : sections()) names.push_back(section.name);
   names.push_back(include_key);
-  const std::string nearest = suggest_name(name, names);
+  const std::string nearest = reading::suggest_name(name, names);
   if (nearest.empty()) return fmt::format("a scene has {}", fmt::join(names, ", "));
   const Section* section = find_section(nearest);
   return fmt::format("did you mean {}?", section ? section->title : nearest);

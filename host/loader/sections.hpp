@@ -6,10 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "host/scene/camera.hpp"
-#include "host/scene/light.hpp"
-#include "host/scene/material.hpp"
-#include "host/scene/shape.hpp"
+#include "host/reading/key.hpp"
+#include "host/shapes/registry.hpp"
 
 namespace eyeray::loader {
 
@@ -35,9 +33,9 @@ struct Section {
   std::string_view name;
   std::string title;  // "[camera]", "[[sphere]]"
   std::string_view doc;
-  std::span<const Key> keys;         // of every such table …
-  const ShapeType* shape = nullptr;  // … and where set, the shape's own
-  std::string_view manual = {};      // what the manual adds to `doc`; Markdown
+  std::span<const reading::Key> keys;        // of every such table …
+  const shapes::ShapeType* shape = nullptr;  // … and where set, the shape's own
+  std::string_view manual = {};              // what the manual adds to `doc`; Markdown
 
   bool many() const { return title.starts_with("[["); }
   // Whether it stands in the world: such tables may have a batch, and may stand in a group.
@@ -60,7 +58,7 @@ std::span<const std::string_view> placed_names();
 
 // The keys that all shapes in a CSG object share, as CSG objects do: what is of no material of its own is of
 // that around it.
-std::span<const Key> part_keys();
+std::span<const reading::Key> part_keys();
 // The table in a CSG object's of what is taken away.
 inline constexpr std::string_view minus_key = "minus";
 

@@ -7,6 +7,8 @@
 
 namespace eyeray::loader {
 
+using reading::Key, reading::KeyType;
+
 namespace {
 
 constexpr int64_t most_pixels = int64_t{1} << 28;
@@ -156,7 +158,7 @@ constexpr Key verify_table[] = {
      .max = 0.05},
 };
 
-void check_samples(TableReader& table, int samples) {
+void check_samples(reading::TableReader& table, int samples) {
   const int root = static_cast<int>(std::sqrt(static_cast<double>(samples)));
   if (root * root == samples) return;
   table.error("samples", fmt::format("`samples` must be a square number; the nearest to {} are {} and {}",
@@ -189,7 +191,7 @@ std::span<const Key> verify_keys() {
 static_assert(ImageSettings{}.pattern == SamplePattern::regular);
 static_assert(RenderSettings{}.integrator == IntegratorType::whitted);
 
-ImageSettings read_image(TableReader& table, IntegratorType integrator) {
+ImageSettings read_image(reading::TableReader& table, IntegratorType integrator) {
   ImageSettings image = image_defaults(integrator);
   image.width = static_cast<int>(table.integer("width"));
   image.height = static_cast<int>(table.integer("height"));
@@ -212,7 +214,7 @@ ImageSettings read_image(TableReader& table, IntegratorType integrator) {
   return image;
 }
 
-RenderSettings read_render(TableReader& table) {
+RenderSettings read_render(reading::TableReader& table) {
   RenderSettings render;
   render.integrator = static_cast<IntegratorType>(table.choice("integrator"));
   if (walks_at_random(render.integrator)) render.max_depth = 16;
@@ -235,7 +237,7 @@ RenderSettings read_render(TableReader& table) {
   return render;
 }
 
-VerifySettings read_verify(TableReader& table) {
+VerifySettings read_verify(reading::TableReader& table) {
   return {.max_explained = table.number("max_explained")};
 }
 

@@ -3,17 +3,18 @@
 
 #include <span>
 
+#include "host/reading/table_reader.hpp"
 #include "host/scene/scene.hpp"
 
 namespace eyeray::loader {
 
-std::span<const Key> image_keys();
-std::span<const Key> render_keys();
-std::span<const Key> verify_keys();
+std::span<const reading::Key> image_keys();
+std::span<const reading::Key> render_keys();
+std::span<const reading::Key> verify_keys();
 
 // What the table says; what is wrong between its values is reported to it.
-RenderSettings read_render(TableReader& table);
-ImageSettings read_image(TableReader& table, IntegratorType integrator);
-VerifySettings read_verify(TableReader& table);
+RenderSettings read_render(reading::TableReader& table);
+ImageSettings read_image(reading::TableReader& table, IntegratorType integrator);
+VerifySettings read_verify(reading::TableReader& table);
 
 }  // namespace eyeray::loader

@@ -9,7 +9,7 @@
 
 #include "host/core/input_file.hpp"
 #include "host/loader/statements.hpp"
-#include "host/scene/value.hpp"
+#include "host/reading/source_position.hpp"
 
 namespace eyeray::loader {
 
@@ -54,7 +54,7 @@ std::optional<SourcePosition> first_definition(const std::string& text, const St
   if (!statement.is_header) path.insert(path.end(), statement.key.begin(), statement.key.end());
   const toml::key* key = find_key(*tree, path);
   if (!key || !key->source().begin) return std::nullopt;
-  return position_of(key->source());
+  return reading::position_of(key->source());
 }
 
 // What stands in quotes in the message, or "".
@@ -66,7 +66,7 @@ std::string quoted_name(std::string_view message) {
 
 void report(const toml::parse_error& error, const std::string& text, const Statement& statement,
             const std::string& name, DiagnosticLog& log) {
-  SourcePosition at = position_of(error.source());
+  SourcePosition at = reading::position_of(error.source());
   at.file = name;
   const std::string_view line =
       std::string_view(text).substr(statement.begin, statement.end - statement.begin);

@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "host/core/diagnostic_log.hpp"
 #include "host/loader/statements.hpp"
-#include "host/scene/diagnostic_log.hpp"
 
 namespace eyeray::loader {
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "host/materials/physical.hpp"
+#include "host/materials/registry.hpp"
 #include "host/optics/metals.hpp"
 
 namespace eyeray::materials {

@@ -3,6 +3,7 @@
 #include "host/materials/highlight.hpp"
 #include "host/materials/make.hpp"
 #include "host/materials/medium_keys.hpp"
+#include "host/materials/registry.hpp"
 
 namespace eyeray::materials {
 

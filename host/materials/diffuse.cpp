@@ -1,5 +1,7 @@
 #include "host/materials/physical.hpp"
 
+#include "host/materials/registry.hpp"
+
 namespace eyeray::materials {
 
 extern const MaterialType diffuse_type;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "host/materials/registry.hpp"
+
 namespace eyeray::materials {
 
 void Highlight::apply(const TextureContext& place, Scattering& scattering) const {

@@ -1,9 +1,9 @@
 // The highlight that every material may show of a light, and the parts of its record that all share.
 #pragma once
 
+#include "host/materials/registry.hpp"
 #include "host/records/packer.hpp"
 #include "host/scene/material.hpp"
-#include "host/scene/table_reader.hpp"
 #include "host/textures/make.hpp"
 
 namespace eyeray::materials {

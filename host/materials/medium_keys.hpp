@@ -1,6 +1,7 @@
 // What every medium is said by, whatever it fills.
 #pragma once
 
+#include "host/materials/registry.hpp"
 #include "host/scene/material.hpp"
 
 namespace eyeray::materials {

@@ -1,5 +1,6 @@
 #include "host/materials/highlight.hpp"
 #include "host/materials/make.hpp"
+#include "host/materials/registry.hpp"
 
 namespace eyeray::materials {
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "host/materials/registry.hpp"
+
 namespace eyeray::materials {
 
 TexturePtr as_data(const TexturePtr& texture) {

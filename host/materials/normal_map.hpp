@@ -4,6 +4,7 @@
 #include <optional>
 #include <string_view>
 
+#include "host/materials/registry.hpp"
 #include "host/scene/material.hpp"
 
 namespace eyeray::materials {

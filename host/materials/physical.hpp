@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/materials/make.hpp"
+#include "host/materials/registry.hpp"
 #include "host/records/packer.hpp"
 
 namespace eyeray::materials {

@@ -6,6 +6,7 @@
 
 #include "host/materials/normal_map.hpp"
 #include "host/materials/physical.hpp"
+#include "host/materials/registry.hpp"
 
 namespace eyeray::materials {
 

@@ -1,8 +1,24 @@
+// What a scene file and the manual know of the kinds of materials.
 #pragma once
 
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "host/reading/table_reader.hpp"
 #include "host/scene/material.hpp"
 
 namespace eyeray::materials {
+
+// The words that each kind declares its keys with, and reads them.
+using reading::Key, reading::KeyType, reading::TableReader;
+
+struct MaterialType {
+  std::string_view name;  // `type` in a [[material]] table, and its .glsl
+  std::string_view manual;
+  std::span<const Key> keys;  // beside `name` and `type`
+  std::unique_ptr<Material> (*parse)(TableReader& table);
+};
 
 // Every kind of material, in registry order.
 std::span<const MaterialType* const> types();

@@ -58,7 +58,7 @@ void DrawList::walk(const OfShape& shape, const OfInstance& instance) const {
 void DrawList::leave_out(const Shape& shape, uint64_t id) {
   const auto& mask = scene_.materials[size_t(shape.material)]->mask;
   if (!mask && is_drawn(shape.form())) return;
-  ++not_drawn_[mask ? why_not(*mask) : std::string(shape.type ? shape.type->name : "shape")];
+  ++not_drawn_[mask ? why_not(*mask) : std::string(shape.type)];
   left_out_[id] = id + 1;
 }
 

@@ -1,9 +1,19 @@
 #include "host/scene/affine.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 namespace eyeray {
+
+namespace {
+
+double frobenius(const glm::dmat3& m) {
+  return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
+}
+
+}  // namespace
 
 double magnitude(const Vec3& v) {
   return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
@@ -32,6 +42,28 @@ std::optional<Similarity> similarity(const Mat4& transform) {
   const Vec3 x = unit(linear[0] - y * glm::dot(linear[0], y));
   const Vec3 z = affine.mirrors() ? glm::cross(y, x) : glm::cross(x, y);
   return Similarity{Mat3(x, y, z), scale, affine.offset};
+}
+
+double condition(const Mat3& linear) {
+  return frobenius(linear) * frobenius(glm::inverse(linear));
+}
+
+double thinning(const Mat3& linear) {
+  return std::fabs(glm::determinant(linear / frobenius(linear)));
+}
+
+std::string why_singular(const Mat4& map) {
+  const glm::dmat3 linear(map);
+  const double size = frobenius(linear);
+  const double determinant = glm::determinant(linear);
+  if (!std::isfinite(size) || !std::isfinite(determinant) || size > largest_number)
+    return "its numbers are too large";
+  if (!(size >= 1 / largest_number)) return "it shrinks everything to a point";
+  if (determinant == 0) return "it flattens space (its determinant is 0)";
+  if (const double stretch = condition(linear); !(stretch <= worst_condition))
+    return fmt::format("it all but flattens space (condition number {:.1e})", stretch);
+  if (!(glm::length(Vec3(map[3])) <= largest_number)) return "it moves things too far";
+  return "";
 }
 
 }  // namespace eyeray

@@ -13,6 +13,9 @@ using Mat3 = glm::dmat3;
 // Coordinates and sizes beyond these overflow float32 in the products that intersecting takes.
 inline constexpr double max_coordinate = 1e12;
 inline constexpr double min_radius = 1e-12;
+// Numbers beyond this have squares that float32 arithmetic cannot hold, and positive ones below its inverse
+// vanish.
+inline constexpr double largest_number = 1e15;
 
 // The largest magnitude of the components.
 double magnitude(const Vec3& v);

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <memory>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -11,7 +10,6 @@
 #include <vector>
 
 #include "host/core/vec.hpp"
-#include "host/scene/table_reader.hpp"
 
 namespace eyeray {
 
@@ -94,13 +92,6 @@ class Projection {
   virtual std::shared_ptr<const Projection> widened(double factor, const Vec2& size) const = 0;
   virtual std::vector<CameraFact> facts(const Vec2& size) const = 0;
   virtual CameraForm form() const { return {}; }
-};
-
-struct CameraType {
-  std::string_view name;  // `type` in a [camera] table, and its .glsl
-  std::string_view manual;
-  std::span<const Key> keys;                                       // beside `type`, `eye`, `target` and `up`
-  std::shared_ptr<const Projection> (*parse)(TableReader& table);  // null after an error, which is reported
 };
 
 struct Camera {

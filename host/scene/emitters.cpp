@@ -72,7 +72,7 @@ class Collector {
     const Material& its = material(shape.material);
     const auto own = emitter_form(shape.form());
     // A quadric has its own uv, whatever it looks like.
-    const bool other_uv = !its.constant_emission() && shape.type && shape.type->name == "quadric";
+    const bool other_uv = !its.constant_emission() && shape.type == "quadric";
     if (!own || its.mask || other_uv) return found_.unsampled.push_back(shape.position);
     Emitter emitter{.primitive = primitive,
                     .radiance = its.constant_emission().value_or(Vec3(0)),

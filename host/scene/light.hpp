@@ -3,19 +3,16 @@
 #pragma once
 
 #include <memory>
-#include <span>
 #include <string_view>
 #include <variant>
 
 #include "host/core/vec.hpp"
-#include "host/scene/table_reader.hpp"
 
 namespace eyeray {
 
 namespace records {
 class Packer;  // records/packer.hpp
 }
-struct LightType;
 
 // A light as a point sees it.
 struct Illumination {
@@ -61,14 +58,7 @@ class Light {
   virtual void pack(records::Packer& packer) const = 0;
   virtual LightForm form() const { return {}; }
 
-  const LightType* type = nullptr;
-};
-
-struct LightType {
-  std::string_view name;  // `type` in a [[light]] table, and its .glsl
-  std::string_view manual;
-  std::span<const Key> keys;                            // beside `type` and `intensity`
-  std::unique_ptr<Light> (*parse)(TableReader& table);  // null after an error, which is reported to the table
+  std::string_view type;  // as its table has it
 };
 
 }  // namespace eyeray

@@ -4,13 +4,10 @@
 
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
-#include <string_view>
 
 #include "host/core/vec.hpp"
 #include "host/scene/bsdf.hpp"
-#include "host/scene/table_reader.hpp"
 #include "host/scene/texture.hpp"
 
 namespace eyeray {
@@ -109,13 +106,6 @@ class Material {
   std::optional<NormalMap> normal_map;
   std::optional<BumpMap> bump_map;           // on top of that
   std::optional<NormalMap> coat_normal_map;  // of a coat, which the others do not bend
-};
-
-struct MaterialType {
-  std::string_view name;  // `type` in a [[material]] table, and its .glsl
-  std::string_view manual;
-  std::span<const Key> keys;  // beside `name` and `type`
-  std::unique_ptr<Material> (*parse)(TableReader& table);
 };
 
 }  // namespace eyeray

@@ -28,14 +28,7 @@ Object Objects::operator[](size_t index) const {
   if (member < shapes.size()) {
     const Shape& shape = *shapes[member];
     const uint64_t id = grouped ? ids_.of_group(group).shape + member : ids_.of_shape(member);
-    return {shape.type ? shape.type->name : "shape",
-            shape.name,
-            group_name,
-            "",
-            &shape.position,
-            shape.material,
-            id,
-            1};
+    return {shape.type, shape.name, group_name, "", &shape.position, shape.material, id, 1};
   }
   const size_t i = member - shapes.size();
   const Instance& instance = instances[i];

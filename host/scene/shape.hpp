@@ -7,7 +7,6 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -17,7 +16,6 @@
 #include "host/core/vec.hpp"
 #include "host/scene/bounds.hpp"
 #include "host/scene/names.hpp"
-#include "host/scene/table_reader.hpp"
 
 namespace eyeray {
 
@@ -27,7 +25,6 @@ class Formula;  // formula/formula.hpp
 namespace records {
 class Packer;  // records/packer.hpp
 }
-struct ShapeType;
 
 // Where a ray hits a shape: at P(t), with the shape's own two parameters there (barycentrics of a triangle,
 // …).
@@ -197,7 +194,7 @@ class Shape {
   virtual void pack(records::Packer& packer) const = 0;
 
   int material = 0;                 // index in Scene::materials
-  const ShapeType* type = nullptr;  // its kind; null where no file made it
+  std::string_view type = "shape";  // its table in a scene file; of one that no file made "shape"
   NameRef name;                     // in Scene::names
   SourcePosition position;          // of its table in the scene file
 };
@@ -212,21 +209,5 @@ void for_each_leaf(const Shape& shape, const Visit& visit) {
   for (const auto* list : {&csg->operands, &csg->removed})
     for (const Shape* each : *list) for_each_leaf(*each, visit);
 }
-
-// A row of the registry: what the loader and the manual know of a kind of shape.
-struct ShapeType {
-  std::string_view name;      // its table in a scene, its .glsl, its scene file
-  std::string_view manual;    // equation, parameters' meaning, the numeric trap, the source; Markdown
-  std::span<const Key> keys;  // beside `name`, `material` and `transform`, which every shape has
-  // Builds the shape from its table, `transform` applied; problems go to the reader, and nullptr comes back.
-  std::unique_ptr<Shape> (*parse)(TableReader& table, const Mat4& transform) = nullptr;
-  // Where shapes of this kind are made of others, instead: from those that stand in its table, already
-  // where they belong, and from those to be removed from them.
-  using Shapes = std::vector<std::unique_ptr<Shape>>;
-  std::unique_ptr<Shape> (*combine)(TableReader& table, Shapes operands, Shapes removed) = nullptr;
-  bool bounded = true;  // whether every such shape has an end in all directions
-  // Whether a ray hits it once at most, so that it may be of a material with cutouts.
-  bool flat = false;
-};
 
 }  // namespace eyeray

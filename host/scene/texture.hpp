@@ -5,11 +5,8 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
-#include <string_view>
 
 #include "host/core/vec.hpp"
-#include "host/scene/table_reader.hpp"
 
 namespace eyeray {
 
@@ -28,6 +25,9 @@ struct TextureContext {
   Vec2 second_uv;  // of a mesh that has them, else uv
   Vec3 position;
 };
+
+class Texture;
+using TexturePtr = std::shared_ptr<const Texture>;
 
 class Texture {
  public:
@@ -49,23 +49,6 @@ class Texture {
   virtual bool reads_second_uv() const { return false; }
   // The index of the texture's record, which is added unless there is an equal one.
   virtual uint32_t pack(records::Packer& packer) const = 0;
-};
-
-struct TextureType {
-  std::string_view name;  // as a scene file has it, and its .glsl
-  std::string_view manual;
-  std::span<const Key> keys = {};
-  TexturePtr (*parse)(TableReader& table) = nullptr;  // null after an error, which is reported to the table
-  // Of the kind that is written as a plain color, and has no table.
-  TexturePtr (*of_color)(const Vec3& color) = nullptr;
-
-  // Whether its name is one of its keys and the others stand beside it, { image = "a.png", wrap = … }, or
-  // they are in a table of that name, { checker = { … } }.
-  bool is_flat() const {
-    for (const Key& key : keys)
-      if (key.name == name) return true;
-    return false;
-  }
 };
 
 }  // namespace eyeray

@@ -3,6 +3,7 @@
 #include "host/records/records.hpp"
 #include "host/shapes/keys.hpp"
 #include "host/shapes/make.hpp"
+#include "host/shapes/registry.hpp"
 #include "host/shapes/revolution.hpp"
 
 namespace eyeray::shapes {

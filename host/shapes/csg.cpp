@@ -10,6 +10,7 @@
 #include "host/records/packer.hpp"
 #include "host/scene/affine.hpp"
 #include "host/shapes/make.hpp"
+#include "host/shapes/registry.hpp"
 #include "host/shapes/spans.hpp"
 
 namespace eyeray::shapes {

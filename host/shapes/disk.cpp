@@ -4,6 +4,7 @@
 #include "host/shapes/keys.hpp"
 #include "host/shapes/make.hpp"
 #include "host/shapes/object_shape.hpp"
+#include "host/shapes/registry.hpp"
 
 namespace eyeray::shapes {
 

@@ -3,14 +3,15 @@
 #include <cmath>
 
 #include "host/formula/formula.hpp"
+#include "host/reading/formula_reader.hpp"
 #include "host/records/packer.hpp"
-#include "host/scene/formula_reader.hpp"
 #include "host/shapes/cube.hpp"
 #include "host/shapes/formula_surface.hpp"
 #include "host/shapes/keys.hpp"
 #include "host/shapes/make.hpp"
 #include "host/shapes/object_shape.hpp"
 #include "host/shapes/ready_formulas.hpp"
+#include "host/shapes/registry.hpp"
 
 namespace eyeray::shapes {
 
@@ -89,13 +90,13 @@ constexpr Key keys[] = {
      .type = KeyType::formula,
      .doc = "The function, `float f(vec3 p)`, and what it calls.",
      .optional = true},
-    formula_file_key,
+    reading::formula_file_key,
     {.name = "ready",
      .type = KeyType::choice,
      .doc = "One that comes with eyeray.",
      .choices = ready_names,
      .optional = true},
-    parameters_key,
+    reading::parameters_key,
     box_min_key,
     box_max_key,
     {.name = "lipschitz",

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/scene/affine.hpp"
-#include "host/scene/table_reader.hpp"
+#include "host/shapes/registry.hpp"
 
 namespace eyeray::shapes {
 

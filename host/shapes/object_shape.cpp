@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "host/records/packer.hpp"
+#include "host/shapes/registry.hpp"
 
 namespace eyeray::shapes {
 

@@ -6,6 +6,7 @@
 
 #include "host/scene/affine.hpp"
 #include "host/scene/shape.hpp"
+#include "host/shapes/registry.hpp"
 
 namespace eyeray::shapes {
 

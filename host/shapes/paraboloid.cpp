@@ -1,5 +1,6 @@
 #include "host/records/records.hpp"
 #include "host/shapes/make.hpp"
+#include "host/shapes/registry.hpp"
 #include "host/shapes/revolution.hpp"
 
 namespace eyeray::shapes {

@@ -4,6 +4,7 @@
 #include "host/records/packer.hpp"
 #include "host/scene/triangle.hpp"
 #include "host/shapes/make.hpp"
+#include "host/shapes/registry.hpp"
 
 namespace eyeray::shapes {
 

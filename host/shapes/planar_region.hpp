@@ -8,7 +8,7 @@
 
 #include "host/core/vec.hpp"
 #include "host/scene/affine.hpp"
-#include "host/scene/table_reader.hpp"
+#include "host/shapes/registry.hpp"
 
 namespace eyeray::shapes {
 

@@ -4,6 +4,7 @@
 #include "host/scene/affine.hpp"
 #include "host/shapes/make.hpp"
 #include "host/shapes/plane_axes.hpp"
+#include "host/shapes/registry.hpp"
 
 namespace eyeray::shapes {
 

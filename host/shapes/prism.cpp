@@ -5,6 +5,7 @@
 #include "host/shapes/make.hpp"
 #include "host/shapes/object_shape.hpp"
 #include "host/shapes/plane_axes.hpp"
+#include "host/shapes/registry.hpp"
 
 namespace eyeray::shapes {
 

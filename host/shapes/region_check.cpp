@@ -5,6 +5,7 @@
 
 #include "host/shapes/planar_region.hpp"
 #include "host/shapes/plane_axes.hpp"
+#include "host/shapes/registry.hpp"
 
 namespace eyeray::shapes {
 

@@ -1,8 +1,33 @@
+// What a scene file and the manual know of the kinds of shapes.
 #pragma once
 
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "host/reading/table_reader.hpp"
 #include "host/scene/shape.hpp"
 
 namespace eyeray::shapes {
+
+// The words that each kind declares its keys with, and reads them.
+using reading::Key, reading::KeyType, reading::TableReader;
+
+struct ShapeType {
+  std::string_view name;      // its table in a scene, its .glsl, its scene file
+  std::string_view manual;    // equation, parameters' meaning, the numeric trap, the source; Markdown
+  std::span<const Key> keys;  // beside `name`, `material` and `transform`, which every shape has
+  // Builds the shape from its table, `transform` applied; problems go to the reader, and nullptr comes back.
+  std::unique_ptr<Shape> (*parse)(TableReader& table, const Mat4& transform) = nullptr;
+  // Where shapes of this kind are made of others, instead: from those that stand in its table, already
+  // where they belong, and from those to be removed from them.
+  using Shapes = std::vector<std::unique_ptr<Shape>>;
+  std::unique_ptr<Shape> (*combine)(TableReader& table, Shapes operands, Shapes removed) = nullptr;
+  bool bounded = true;  // whether every such shape has an end in all directions
+  // Whether a ray hits it once at most, so that it may be of a material with cutouts.
+  bool flat = false;
+};
 
 // Every kind of shape, in registry order: the order of Scene::shapes, hence of primitive indices.
 std::span<const ShapeType* const> types();

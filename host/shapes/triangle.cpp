@@ -7,6 +7,7 @@
 #include "host/scene/affine.hpp"
 #include "host/scene/triangle.hpp"
 #include "host/shapes/make.hpp"
+#include "host/shapes/registry.hpp"
 
 namespace eyeray::shapes {
 

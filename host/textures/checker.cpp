@@ -2,6 +2,7 @@
 
 #include "host/records/packer.hpp"
 #include "host/textures/make.hpp"
+#include "host/textures/registry.hpp"
 
 namespace eyeray::textures {
 

@@ -1,5 +1,6 @@
 #include "host/records/packer.hpp"
 #include "host/textures/make.hpp"
+#include "host/textures/registry.hpp"
 
 namespace eyeray::textures {
 

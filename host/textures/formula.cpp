@@ -1,8 +1,9 @@
 #include "host/formula/formula.hpp"
 
+#include "host/reading/formula_reader.hpp"
 #include "host/records/packer.hpp"
-#include "host/scene/formula_reader.hpp"
 #include "host/textures/make.hpp"
+#include "host/textures/registry.hpp"
 
 namespace eyeray::textures {
 
@@ -37,8 +38,8 @@ constexpr Key keys[] = {
      .type = KeyType::formula,
      .doc = "The function, `vec3 color(vec2 uv)`, and what it calls.",
      .optional = true},
-    formula_file_key,
-    parameters_key,
+    reading::formula_file_key,
+    reading::parameters_key,
     {.name = "tint", .type = KeyType::color, .doc = "What it is multiplied by.", .fallback = "1"},
 };
 

@@ -5,6 +5,7 @@
 #include "host/image/srgb.hpp"
 #include "host/records/packer.hpp"
 #include "host/textures/make.hpp"
+#include "host/textures/registry.hpp"
 
 namespace eyeray::textures {
 

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "host/textures/pattern.hpp"
+#include "host/textures/registry.hpp"
 
 namespace eyeray::textures {
 

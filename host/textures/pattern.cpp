@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "host/records/packer.hpp"
+#include "host/textures/registry.hpp"
 
 namespace eyeray::textures {
 namespace {

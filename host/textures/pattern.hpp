@@ -6,6 +6,7 @@
 #include "host/records/records.hpp"
 #include "host/scene/affine.hpp"
 #include "host/scene/texture.hpp"
+#include "host/textures/registry.hpp"
 
 namespace eyeray::textures {
 

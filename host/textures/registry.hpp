@@ -1,8 +1,14 @@
+// The kinds of textures, and the words that they have from reading.
 #pragma once
 
-#include "host/scene/texture.hpp"
+#include <span>
+
+#include "host/reading/table_reader.hpp"
+#include "host/reading/texture_type.hpp"
 
 namespace eyeray::textures {
+
+using reading::Key, reading::KeyType, reading::TableReader, reading::TextureType;
 
 // Every kind of texture, in registry order.
 std::span<const TextureType* const> types();

@@ -31,7 +31,7 @@ bool has_function(const std::vector<uint32_t>& spirv, const std::string& name) {
 }  // namespace
 
 TEST_CASE("a kernel has the shapes and textures of its scene, and no other's") {
-  for (const ShapeType* type : shapes::types()) {
+  for (const shapes::ShapeType* type : shapes::types()) {
     const std::string file = "scenes/shapes/" + std::string(type->name) + ".toml";
     CAPTURE(file);
     const PackedScene packed = pack::pack(load_scene(file));

@@ -35,7 +35,7 @@ std::string some_vector(Random& random) {
 }
 
 // A table of the shape; empty where a key is of a type that has no absurd values here.
-std::string some_table(Random& random, const ShapeType& type) {
+std::string some_table(Random& random, const shapes::ShapeType& type) {
   std::string text = fmt::format("[[{}]]\nmaterial = \"m\"\n", type.name);
   std::string vector;  // often the same again
   for (const Key& key : type.keys) {
@@ -97,7 +97,7 @@ bool can_be_met(const Shape& shape, const PackedScene& packed, Random& random) {
 }  // namespace
 
 TEST_CASE("absurd shapes are refused or can be computed with") {
-  for (const ShapeType* type : shapes::types()) {
+  for (const shapes::ShapeType* type : shapes::types()) {
     Random random{7};
     int accepted = 0, refused = 0, wrong = 0;
     std::string first_wrong;

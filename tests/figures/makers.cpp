@@ -8,6 +8,7 @@
 #include "host/formula/formula.hpp"
 #include "host/shapes/make.hpp"
 #include "host/shapes/ready_formulas.hpp"
+#include "host/shapes/registry.hpp"
 
 namespace eyeray::test {
 
@@ -195,11 +196,11 @@ std::unique_ptr<Shape> some_closed_shape(Random& random, double size) {
 // Of all closed shapes, at most 5, nested now and then.
 std::unique_ptr<Shape> some_csg(Random& random, double size) {
   for (;;) {
-    ShapeType::Shapes operands, removed;
+    shapes::ShapeType::Shapes operands, removed;
     for (int i = 2 + random.below(2); i > 0; --i) {
       operands.push_back(some_closed_shape(random, size));
       if (random.below(4) == 0) {
-        ShapeType::Shapes inner;
+        shapes::ShapeType::Shapes inner;
         for (int k = 0; k < 2; ++k) inner.push_back(some_closed_shape(random, size));
         operands.back() = shapes::make_csg(random.below(2) == 0, std::move(inner));
       }

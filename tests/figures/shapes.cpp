@@ -202,7 +202,7 @@ TEST_CASE("every closed shape as a part of CSG objects: first hits, no wrong ans
     // It joined with a ball, cut to it, without it, and taken from it.
     const MakeShape& make_part = make;
     const auto make_pair = [&make_part](Random& some, double size) {
-      ShapeType::Shapes both;
+      shapes::ShapeType::Shapes both;
       do {
         both.clear();
         both.push_back(make_part(some, size));
@@ -212,7 +212,7 @@ TEST_CASE("every closed shape as a part of CSG objects: first hits, no wrong ans
       both.push_back(make_sphere(bounds.min + half + some.point(1) * half, 0.6 * glm::length(half)));
       const int kind = some.below(4);
       if (kind < 2) return make_csg(kind == 0, std::move(both));
-      ShapeType::Shapes removed;
+      shapes::ShapeType::Shapes removed;
       removed.push_back(std::move(both[kind == 2 ? 0 : 1]));
       both.erase(both.begin() + (kind == 2 ? 0 : 1));
       return make_csg(false, std::move(both), std::move(removed));
@@ -280,6 +280,6 @@ TEST_CASE("rays that leave, sizes 1e-4 … 1e4: none hits its surface again, eve
 }
 
 TEST_CASE("every shape that has bounds has its figures") {
-  for (const ShapeType* type : shapes::types())
+  for (const shapes::ShapeType* type : shapes::types())
     if (type->name != "plane") CHECK_MESSAGE(shape_makers().contains(std::string(type->name)), type->name);
 }

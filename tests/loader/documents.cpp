@@ -7,7 +7,7 @@
 #include "host/loader/scene_file.hpp"
 #include "host/loader/sections.hpp"
 #include "host/materials/registry.hpp"
-#include "host/scene/table.hpp"
+#include "host/reading/table.hpp"
 #include "host/textures/registry.hpp"
 //
 #include "tests/support/doctest.hpp"
@@ -50,9 +50,9 @@ TEST_CASE("every default is a right value of its key") {
     check(section.keys);
     if (section.shape) check(section.shape->keys);
   }
-  for (const MaterialType* type : materials::types()) check(type->keys);
-  for (const LightType* type : lights::types()) check(type->keys);
-  for (const CameraType* type : cameras::types()) check(type->keys);
+  for (const materials::MaterialType* type : materials::types()) check(type->keys);
+  for (const lights::LightType* type : lights::types()) check(type->keys);
+  for (const cameras::CameraType* type : cameras::types()) check(type->keys);
   CHECK(defaults > 20);
 }
 

@@ -1,5 +1,5 @@
 // What other renderers call things.
-#include "host/scene/foreign_words.hpp"
+#include "host/reading/foreign_words.hpp"
 
 #include <vector>
 

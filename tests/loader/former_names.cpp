@@ -24,7 +24,7 @@ TEST_CASE("[[solid]] is [[csg]], wherever it stands") {
   const Scene now = parse_scene(scene_with("csg"), "scene.toml");
   REQUIRE(then.shapes.size() == 2);
   REQUIRE(now.shapes.size() == 2);
-  for (const size_t i : {0, 1}) CHECK(then.shapes[i]->type->name == now.shapes[i]->type->name);
+  for (const size_t i : {0, 1}) CHECK(then.shapes[i]->type == now.shapes[i]->type);
   // Both names in one file: one list.
   CHECK(parse_scene(scene_with("solid") + "[[csg]]\nmaterial = \"wall\"\n[[csg.sphere]]\ncenter = [0, 0, "
                                           "0]\nradius = 1\n",

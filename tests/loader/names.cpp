@@ -29,7 +29,7 @@ std::vector<std::string> refusals(const std::string& text) {
 
 std::vector<std::string> names(const Scene& scene) {
   std::vector<std::string> all;
-  for (const auto& shape : scene.shapes) all.push_back(describe(shape->type->name, shape->name, scene.names));
+  for (const auto& shape : scene.shapes) all.push_back(describe(shape->type, shape->name, scene.names));
   return all;
 }
 

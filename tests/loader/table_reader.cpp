@@ -1,5 +1,5 @@
 // TableReader over every KeyType, with keys of its own.
-#include "host/scene/table.hpp"
+#include "host/reading/table.hpp"
 //
 #include "tests/support/doctest.hpp"
 

@@ -22,7 +22,7 @@ using namespace eyeray::test;
 namespace {
 
 // The shapes of scenes/shapes/KIND.toml as a group that stands four times, the last time sheared.
-std::string grouped(const ShapeType& type) {
+std::string grouped(const shapes::ShapeType& type) {
   std::ifstream file(fmt::format("scenes/shapes/{}.toml", type.name));
   REQUIRE(file);
   std::string text = "[[group]]\nname = \"all\"\npattern = true\n";
@@ -97,7 +97,7 @@ TEST_CASE(
     "every kind of shape: instanced it is hit where copies are, with their ids, normals and uv; by the BVH "
     "as by "
     "brute force") {
-  for (const ShapeType* type : shapes::types()) {
+  for (const shapes::ShapeType* type : shapes::types()) {
     CAPTURE(type->name);
     const std::string text = grouped(*type);
     const Scene flat = stored(text, "flat");

@@ -211,7 +211,7 @@ class HardScene {
       add_spheres(1 + random_.below(3));
       add_object_shapes(1 + random_.below(4));
       std::swap(parts.shapes, scene_.shapes);
-      ShapeType::Shapes operands, removed;
+      shapes::ShapeType::Shapes operands, removed;
       for (auto& part : parts.shapes) {
         if (!part->is_closed()) continue;
         if (!operands.empty() && chance(0.2))

@@ -125,7 +125,7 @@ TEST_CASE(
     return pack::pack(hard.scene(), {.acceleration = Acceleration::bvh, .split = split}).primitives.size();
   };
   REQUIRE(primitives(true) > primitives(false));
-  ShapeType::Shapes lens;
+  shapes::ShapeType::Shapes lens;
   for (const bool glass : {true, false}) {
     lens.push_back(make_sphere(hard.scene().camera.eye + Vec3(glass, 0, 0), 2));
     lens.back()->material = glass ? add(hard.scene(), make_dielectric({.shadow = 0.7})) : 0;

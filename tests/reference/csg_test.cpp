@@ -5,6 +5,7 @@
 
 #include "host/formula/formula.hpp"
 #include "host/reference/media.hpp"
+#include "host/shapes/registry.hpp"
 #include "host/shapes/spans.hpp"
 #include "tests/support/empty_scene.hpp"
 #include "tests/support/scenes.hpp"
@@ -18,8 +19,8 @@ using namespace eyeray::test;
 
 namespace {
 
-ShapeType::Shapes operands(std::unique_ptr<Shape> a, std::unique_ptr<Shape> b = nullptr) {
-  ShapeType::Shapes list;
+shapes::ShapeType::Shapes operands(std::unique_ptr<Shape> a, std::unique_ptr<Shape> b = nullptr) {
+  shapes::ShapeType::Shapes list;
   list.push_back(std::move(a));
   if (b) list.push_back(std::move(b));
   return list;

@@ -34,7 +34,7 @@ constexpr int materials = 3;
 class Writer {
  public:
   Writer(Random& random, const Wildness& wildness) : random_(random), wildness_(wildness) {
-    for (const TextureType* type : textures::types())
+    for (const reading::TextureType* type : textures::types())
       if (type->parse && !type->is_flat()) tables_.push_back(type);  // flat ones name files
   }
 
@@ -61,7 +61,7 @@ class Writer {
     return fmt::format("\"{}\"", key.choices[size_t(random_.below(int(key.choices.size())))]);
   }
   // What a CSG object may be made of, if it is not open.
-  const ShapeType& closed_shape() {
+  const shapes::ShapeType& closed_shape() {
 #define NAME(name, number) number,
     constexpr uint32_t kinds[] = {CLOSED_SHAPES(NAME)};
 #undef NAME
@@ -72,7 +72,7 @@ class Writer {
 
   Random& random_;
   const Wildness wildness_;
-  std::vector<const TextureType*> tables_;  // kinds of texture that have one
+  std::vector<const reading::TextureType*> tables_;  // kinds of texture that have one
   std::string text_;
 };
 
@@ -128,7 +128,7 @@ std::string Writer::direction() {
 std::string Writer::texture(const Key& key) {
   if (chance(0.4)) return numbers(key, 3);
   if (chance(0.5)) return fmt::format("{}", number(key));
-  const TextureType& type = one_of(std::span<const TextureType* const>(tables_));
+  const reading::TextureType& type = one_of(std::span<const reading::TextureType* const>(tables_));
   std::vector<std::string> values;
   for (Key own : type.keys) {
     if (own.type == KeyType::formula_file) continue;  // there is none
@@ -245,18 +245,18 @@ std::string Writer::write() {
 
   // Most often the first.
   const double which = std::max(0.0, 1 - random_.uniform() / 0.3) * double(cameras::types().size() - 1);
-  const CameraType& camera = *cameras::types()[size_t(std::ceil(which))];
+  const cameras::CameraType& camera = *cameras::types()[size_t(std::ceil(which))];
   table("[camera]", {loader::find_section("camera")->keys, camera.keys}, {"type"},
         fmt::format("type = \"{}\"\n", camera.name));
   table("[render]", {loader::find_section("render")->keys}, {}, "");
 
   for (int i = random_.below(4); i > 0; --i) {
-    const LightType& type = one_of(lights::types());
+    const lights::LightType& type = one_of(lights::types());
     table("[[light]]", {loader::find_section("light")->keys, type.keys}, {"type"},
           fmt::format("type = \"{}\"\n", type.name));
   }
   for (int i = 0; i < materials; ++i) {
-    const MaterialType& type = one_of(materials::types());
+    const materials::MaterialType& type = one_of(materials::types());
     // Few shapes may have holes. What bends a coat asks for one, and for each other. A conductor is one of
     // several things.
     std::set<std::string_view> left_out;
@@ -268,7 +268,7 @@ std::string Writer::write() {
                       conductor ? "metal = \"gold\"\n" : ""));
   }
   for (int i = random_.below(6); i > 0; --i) {
-    const ShapeType& type = one_of(shapes::types());
+    const shapes::ShapeType& type = one_of(shapes::types());
     // A normal that points the wrong way is refused: half of all. Most triangles go without.
     std::set<std::string_view> mostly;
     if (chance(0.8)) mostly = {"normals"};
@@ -276,7 +276,7 @@ std::string Writer::write() {
     if (chance(0.5)) mostly.insert("transform");
     // A formula stands in one place; that of a file, in none.
     mostly.insert({"code", "file", "ready", "lipschitz"});
-    const auto given = [&](const ShapeType& shape) {
+    const auto given = [&](const shapes::ShapeType& shape) {
       if (shape.name != "implicit") return "";
       return chance(0.5) ? "ready = \"rounded-box\"\n"
                          : "code = \"float f(vec3 p) { return dot(p, p) - 0.25; }\"\nlipschitz = 4\n";
@@ -285,7 +285,7 @@ std::string Writer::write() {
           given(type));
     if (!type.combine) continue;
     for (int part = 1 + random_.below(3); part > 0; --part) {
-      const ShapeType& inner = closed_shape();
+      const shapes::ShapeType& inner = closed_shape();
       const char* holder = part > 1 && chance(0.3) ? "csg.minus" : "csg";
       table(fmt::format("[[{}.{}]]", holder, inner.name), {inner.keys, loader::find_section("sphere")->keys},
             mostly, given(inner));

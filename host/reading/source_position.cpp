@@ -1,8 +1,8 @@
+#include "host/reading/source_position.hpp"
+
 #include <algorithm>
 
-#include "host/scene/value.hpp"
-
-namespace eyeray {
+namespace eyeray::reading {
 
 SourcePosition position_of(const toml::source_region& source) {
   return {source.path ? *source.path : std::string(), static_cast<int>(source.begin.line),
@@ -21,4 +21,4 @@ SourcePosition start_of_text(const toml::node& node) {
   return {start.file, start.line, start.column + (triple ? 3 : 1)};
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::reading

@@ -1,4 +1,4 @@
-#include "host/scene/diagnostic_log.hpp"
+#include "host/core/diagnostic_log.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,11 +1,11 @@
-#include "host/scene/foreign_words.hpp"
+#include "host/reading/foreign_words.hpp"
 
 #include <algorithm>
 #include <cctype>
 
 #include "host/core/diagnostic.hpp"
 
-namespace eyeray {
+namespace eyeray::reading {
 
 namespace {
 
@@ -167,4 +167,4 @@ std::string suggest_name(std::string_view word, std::span<const std::string_view
   return nearest_name(word, names);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::reading

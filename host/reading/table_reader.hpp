@@ -1,75 +1,27 @@
-// Strict reading of one table of a scene file. Each key is declared once, as a Key; from that one row come
-// the type, range and default checks, "did you mean", the JSON Schema and the manual.
+// Strict reading of one table of a scene file.
 #pragma once
 
 #include <array>
 #include <initializer_list>
-#include <limits>
 #include <memory>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "host/core/diagnostic.hpp"
 #include "host/core/vec.hpp"
+#include "host/reading/key.hpp"
+#include "host/scene/texture.hpp"
 
 namespace eyeray {
-
-namespace formula {
+struct ImageTexture;  // scene/image_texture.hpp
+}
+namespace eyeray::formula {
 struct FormulaText;  // formula/formula.hpp
 struct FormulaParameter;
-}  // namespace formula
-class Texture;  // scene/texture.hpp
-using TexturePtr = std::shared_ptr<const Texture>;
-struct ImageTexture;  // scene/image_texture.hpp
+}  // namespace eyeray::formula
 
-enum class KeyType {
-  boolean,
-  integer,
-  number,
-  string,
-  choice,        // a string out of Key::choices
-  choice2,       // two of them [u, v], or one for both
-  vec2,          // [x, y]
-  vec3,          // [x, y, z]
-  vec2_list,     // [[x, y], …]
-  vec3_list,     // [[x, y, z], …]
-  outlines,      // [[[x, y, z], …], …]
-  formula,       // GLSL, best in """…"""
-  formula_file,  // the name of a file of it
-  parameters,    // { NAME = number or [2 to 4 numbers], … }
-  color_map,     // [[t, color], …], t rising from 0 to 1 at most
-  keyframes,     // [[frame, value], …], frames rising; checked by who reads them (loader/keyframes.hpp)
-  color,         // [r, g, b], each ≥ 0, or one number for all three
-  texture,       // a color, or a table of a kind of texture
-  scale2,        // [u, v], or one number for both
-  scale3,        // [x, y, z], or one number for all three
-  transform,  // [ { translate = [x,y,z] }, { rotate = { axis = [x,y,z], degrees = a } }, { scale = number or
-              // [x,y,z] },
-              //   { matrix = [[4], [4], [4]] } ], applied in the order written
-  rotation,   // { axis = [x, y, z], degrees = a }, of a transform
-  matrix,     // [[4], [4], [4]], of a transform
-};
-
-struct Key {
-  static constexpr double inf = std::numeric_limits<double>::infinity();
-
-  std::string_view name;
-  KeyType type;
-  std::string_view doc;            // one line, with the unit
-  std::string_view fallback = {};  // the default, as TOML; empty: the key must be given, unless `optional`
-  double min = -inf;               // of every number in the value; NaN and infinities are always errors
-  double max = inf;
-  bool above_min = false;  // the minimum itself is out of range
-  std::span<const std::string_view> choices = {};
-  bool optional = false;       // may be absent without a default: ask has()
-  bool below_max = false;      // the maximum itself is out of range
-  std::string_view hint = {};  // of a choice: said of a value that is none and that nothing is near to
-};
-
-// What a value of this key is, for messages and the manual: "an integer from 1 to 65536", "a number above 0".
-std::string describe(const Key& key);
+namespace eyeray::reading {
 
 class TableReader {
  public:
@@ -116,7 +68,7 @@ class TableReader {
   // Of the key's value, or of the table where the key is absent.
   SourcePosition position(std::string_view key) const;
 
-  struct Table;  // the parsed TOML behind it; scene/table_reader.cpp
+  struct Table;  // the parsed TOML behind it; reading/table_reader.cpp
   explicit TableReader(std::unique_ptr<Table> table);
   ~TableReader();
 
@@ -124,4 +76,4 @@ class TableReader {
   std::unique_ptr<Table> table_;
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::reading

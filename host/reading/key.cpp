@@ -1,10 +1,13 @@
+#include "host/reading/key.hpp"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
-#include "host/scene/texture.hpp"
 #include "host/scene/texture_rows.hpp"
 
-namespace eyeray {
+namespace eyeray::reading {
 
 namespace {
 
@@ -110,4 +113,4 @@ std::string describe(const Key& declared) {
   return "";
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::reading

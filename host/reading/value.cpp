@@ -1,15 +1,17 @@
-#include "host/scene/value.hpp"
+#include "host/reading/value.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "host/core/error.hpp"
-#include "host/scene/foreign_words.hpp"
-#include "host/scene/table.hpp"
-#include "host/scene/transform.hpp"
+#include "host/reading/foreign_words.hpp"
+#include "host/reading/source_position.hpp"
+#include "host/reading/table.hpp"
+#include "host/reading/transform.hpp"
+#include "host/scene/affine.hpp"
 
-namespace eyeray {
+namespace eyeray::reading {
 
 namespace {
 
@@ -372,4 +374,4 @@ Value stand_in(const Key& key, const ValueSources& sources) {
   return false;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::reading

@@ -1,4 +1,4 @@
-#include "host/scene/table_reader.hpp"
+#include "host/reading/table_reader.hpp"
 
 #include <fmt/ranges.h>
 #include <algorithm>
@@ -6,10 +6,11 @@
 
 #include "host/core/error.hpp"
 #include "host/formula/formula.hpp"
-#include "host/scene/foreign_words.hpp"
-#include "host/scene/table.hpp"
+#include "host/reading/foreign_words.hpp"
+#include "host/reading/source_position.hpp"
+#include "host/reading/table.hpp"
 
-namespace eyeray {
+namespace eyeray::reading {
 
 struct TableReader::Table {
   struct Row {
@@ -243,4 +244,4 @@ const toml::node& fallback_of(const Key& key) {
   return *entry->second.get("value");
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::reading

@@ -1,4 +1,4 @@
-#include "host/scene/formula_reader.hpp"
+#include "host/reading/formula_reader.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,7 +7,7 @@
 
 #include "host/core/error.hpp"
 
-namespace eyeray {
+namespace eyeray::reading {
 
 bool has_one_source(TableReader& table, std::initializer_list<std::string_view> sources,
                     std::string_view owner) {
@@ -49,4 +49,4 @@ std::shared_ptr<const formula::Formula> read_formula(TableReader& table, std::st
   }
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::reading

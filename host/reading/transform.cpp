@@ -1,12 +1,12 @@
-#include "host/scene/transform.hpp"
+#include "host/reading/transform.hpp"
 
-#include <cmath>
 #include <glm/ext/matrix_transform.hpp>
 
+#include "host/reading/source_position.hpp"
+#include "host/reading/table.hpp"
 #include "host/scene/affine.hpp"
-#include "host/scene/table.hpp"
 
-namespace eyeray {
+namespace eyeray::reading {
 
 namespace {
 
@@ -33,33 +33,7 @@ constexpr Key turn_keys[] = {
      .doc = "Angle, counter-clockwise when the axis points at the viewer."},
 };
 
-double frobenius(const glm::dmat3& m) {
-  return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
-}
-
 }  // namespace
-
-double condition(const Mat3& linear) {
-  return frobenius(linear) * frobenius(glm::inverse(linear));
-}
-
-double thinning(const Mat3& linear) {
-  return std::fabs(glm::determinant(linear / frobenius(linear)));
-}
-
-std::string why_singular(const Mat4& map) {
-  const glm::dmat3 linear(map);
-  const double size = frobenius(linear);
-  const double determinant = glm::determinant(linear);
-  if (!std::isfinite(size) || !std::isfinite(determinant) || size > largest_number)
-    return "its numbers are too large";
-  if (!(size >= 1 / largest_number)) return "it shrinks everything to a point";
-  if (determinant == 0) return "it flattens space (its determinant is 0)";
-  if (const double stretch = condition(linear); !(stretch <= worst_condition))
-    return fmt::format("it all but flattens space (condition number {:.1e})", stretch);
-  if (!(glm::length(Vec3(map[3])) <= largest_number)) return "it moves things too far";
-  return "";
-}
 
 std::span<const Key> transform_step_keys() {
   return step_keys;
@@ -109,4 +83,4 @@ std::optional<Mat4> read_transform(const toml::array& steps, DiagnosticLog& log)
   return map;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::reading

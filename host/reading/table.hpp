@@ -1,16 +1,16 @@
-// What stands behind a TableReader: the TOML of one table, read against its Keys. For the scene layer and the
-// loader.
+// What stands behind a TableReader: the TOML of one table, read against its Keys. For this layer
+// and the loader.
 #pragma once
 
 #include <toml++/toml.h>
 
 #include <array>
 
-#include "host/scene/formula_source.hpp"
-#include "host/scene/image_source.hpp"
-#include "host/scene/value.hpp"
+#include "host/reading/formula_source.hpp"
+#include "host/reading/image_source.hpp"
+#include "host/reading/value.hpp"
 
-namespace eyeray {
+namespace eyeray::reading {
 
 // A table as it stands in the file, and what may stand in it.
 struct TableSource {
@@ -35,4 +35,4 @@ const toml::node& fallback_of(const Key& key);
 std::span<const Key> transform_step_keys();
 std::span<const Key> rotation_keys();
 
-}  // namespace eyeray
+}  // namespace eyeray::reading

@@ -1,4 +1,4 @@
-// From a TOML value to a checked value of a Key's type. Private to the scene layer.
+// From a TOML value to a checked value of a Key's type. Private to this layer.
 #pragma once
 
 #include <toml++/toml.h>
@@ -7,13 +7,13 @@
 #include <optional>
 #include <variant>
 
-#include "host/scene/diagnostic_log.hpp"
-#include "host/scene/formula_source.hpp"
-#include "host/scene/image_source.hpp"
-#include "host/scene/table_reader.hpp"
-#include "host/scene/texture.hpp"
+#include "host/core/diagnostic_log.hpp"
+#include "host/reading/formula_source.hpp"
+#include "host/reading/image_source.hpp"
+#include "host/reading/table_reader.hpp"
+#include "host/reading/texture_type.hpp"
 
-namespace eyeray {
+namespace eyeray::reading {
 
 // boolean bool; integer and choice int64_t; choice2 two of them; number double; string std::string; color
 // Vec3; scale2, scale3 Vec2, Vec3.
@@ -29,10 +29,6 @@ struct ValueSources {
   std::span<const TextureType* const> textures = {};  // the kinds, one of plain colors among them
 };
 
-// Numbers beyond this have squares that float32 arithmetic cannot hold, and positive ones below its inverse
-// vanish.
-inline constexpr double largest_number = 1e15;
-
 // The value, or nothing, with an error in the log for each fault in it.
 std::optional<Value> read_value(const Key& key, const toml::node& node, DiagnosticLog& log,
                                 const ValueSources& sources);
@@ -40,8 +36,4 @@ std::optional<Value> read_value(const Key& key, const toml::node& node, Diagnost
 // Some value of the key's type and range, for going on after an error.
 Value stand_in(const Key& key, const ValueSources& sources);
 
-SourcePosition position_of(const toml::source_region& source);
-// Where the text begins that a string stands for, as far as that can be told: escapes are not looked at.
-SourcePosition start_of_text(const toml::node& node);
-
-}  // namespace eyeray
+}  // namespace eyeray::reading
