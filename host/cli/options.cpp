@@ -18,7 +18,7 @@
 #include "host/loader/scene_file.hpp"
 #include "host/loader/sections.hpp"
 #include "host/program/option_values.hpp"
-#include "host/scene/table_reader.hpp"
+#include "host/reading/table_reader.hpp"
 #include "host/session/request.hpp"
 
 namespace eyeray::cli {

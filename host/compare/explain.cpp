@@ -8,15 +8,8 @@ namespace eyeray::compare {
 
 namespace {
 
-constexpr int rings = 4;
-constexpr double radius_step = 0.001;  // pixels
 // By so much a normal differs at a crease.
 constexpr double least_crease = 0.01;
-// Rings between the innermost and those grow by this.
-constexpr double radius_growth = 3;
-// A rounding error grows from surface to surface: the neighbourhood of a path grows with the surfaces it
-// strikes, to this at most.
-constexpr double most_reach = 8;
 
 // Surfaces struck.
 double hits_per_sample(const Neighbour& neighbour) {
@@ -149,41 +142,17 @@ const char* name(Cause cause) {
   return "unknown";
 }
 
-Places places_around(double rounding, double surfaces, int angles, bool between) {
-  Places places;
-  const auto add_ring = [&](double radius, int count, double turn) {
-    for (int step = 0; step < count; ++step) {
-      const double angle = 2 * M_PI * (step + turn) / count;
-      places.all.push_back(radius * Vec2(std::cos(angle), std::sin(angle)));
-    }
-  };
-  const double reach = std::min(most_reach, 1 + surfaces / 8);
-
-  // What varies more quickly than from ring to ring, the rings within show: a caustic's rim may be a
-  // hundred-thousandth of a pixel wide.
-  if (const double least = std::min(rounding, radius_step); least > 0) {
-    add_ring(least, angles, 0.25);
-    places.innermost = places.all.size();
-    if (between)
-      for (double radius = radius_growth * least; radius < radius_step; radius *= radius_growth)
-        add_ring(radius * reach, angles / 2, 0.25);
-  }
-  // Each ring is turned a little, so that no direction is looked at twice.
-  for (int ring = 1; ring <= rings; ++ring)
-    add_ring(ring * radius_step * reach, angles, (ring - 1.0) / rings);
-  return places;
-}
-
 Neighbourhood::Neighbourhood(const Reference& reference, Pixel pixel, int angles, bool between) {
-  const auto look = [&](const Vec2& shift, Chance chance) {
+  const auto look = [&](const Vec2& shift, rounding::Chance chance) {
     neighbours_.push_back(reference(pixel.x, pixel.y, shift, chance));
   };
-  for (const Chance chance : {Chance::none, Chance::coincident}) look(Vec2(0.0), chance);
-  const Places places =
-      places_around(neighbours_.front().rounding, hits_per_sample(neighbours_.front()), angles, between);
-  for (size_t i = 0; i < places.innermost; ++i) look(places.all[i], Chance::turned);
+  for (const rounding::Chance chance : {rounding::Chance::none, rounding::Chance::coincident})
+    look(Vec2(0.0), chance);
+  const rounding::Places places = rounding::places_around(
+      neighbours_.front().rounding, hits_per_sample(neighbours_.front()), angles, between);
+  for (size_t i = 0; i < places.innermost; ++i) look(places.all[i], rounding::Chance::turned);
   innermost_ = neighbours_.size() + places.innermost;
-  for (const Vec2& place : places.all) look(place, Chance::none);
+  for (const Vec2& place : places.all) look(place, rounding::Chance::none);
 }
 
 bool Neighbourhood::explains(const Vec3& value, const Tolerances& tolerances) const {

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "host/compare/tolerance.hpp"
+#include "host/rounding/places.hpp"
+#include "host/rounding/ways.hpp"
 
 namespace eyeray::compare {
 
@@ -28,15 +30,8 @@ struct Neighbour {
   double rounding = 0;          // as many pixels as float32's arithmetic may move the eye ray; 0 if unknown
 };
 
-// What else float32 may make of a ray.
-enum class Chance {
-  none,
-  coincident,  // of two surfaces that float32 cannot tell apart, it hits the farther one
-  turned,  // an eye ray is aside as far as it is moved before what it hits, and behind it on the other side
-};
-
 // (x, y): a pixel of the whole picture; called from many threads at once.
-using Reference = std::function<Neighbour(int x, int y, const Vec2& shift, Chance chance)>;
+using Reference = std::function<Neighbour(int x, int y, const Vec2& shift, rounding::Chance chance)>;
 
 // The same for single samples whose paths are random.
 struct PathReference {
@@ -51,15 +46,6 @@ struct PathReference {
   // Samples of the same number gather the same photons within this of what they show; 0: none do.
   double shared = 0;
 };
-
-// Places around a pixel's own, in pixels: `angles` on each of four rings, and before them on one as wide as a
-// rounding error, where that is known. Of a pixel whose rays strike so many surfaces. `between`: half as many
-// on each ring between that and the four as well.
-struct Places {
-  std::vector<Vec2> all;
-  size_t innermost = 0;  // those of a rounding error
-};
-Places places_around(double rounding, double surfaces, int angles, bool between = false);
 
 enum class Cause {
   silhouette,         // another primitive is hit first
@@ -79,7 +65,7 @@ const char* name(Cause cause);
 // The reference in the neighbourhood of one pixel.
 class Neighbourhood {
  public:
-  // `angles`, `between`: see places_around.
+  // `angles`, `between`: see rounding::places_around.
   Neighbourhood(const Reference& reference, Pixel pixel, int angles, bool between = false);
 
   // Whether `value` lies within [min, max] of the neighbourhood, each bound widened by the tolerance.

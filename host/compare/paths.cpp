@@ -189,8 +189,8 @@ class PathJudge {
       }
       return false;
     };
-    const Places places =
-        places_around(paths_.rounding(pixel), reference_.samples[sample.sample].hits, angles, between);
+    const rounding::Places places = rounding::places_around(
+        paths_.rounding(pixel), reference_.samples[sample.sample].hits, angles, between);
     if (!reaches(Vec2(0.0)) && std::ranges::none_of(places.all, reaches)) return;
     sample.outcome = Outcome::explained;
     sample.cause = Cause::parted;

@@ -11,6 +11,8 @@
 #include "host/executors/executors.hpp"
 #include "host/executors/shader_files.hpp"
 #include "host/probe/judge.hpp"
+#include "host/rounding/places.hpp"
+#include "host/rounding/ways.hpp"
 #include "host/scene/objects.hpp"
 
 namespace eyeray::probe {
@@ -139,26 +141,22 @@ class Pixel {
   void add_around(Overlay& overlay) const {
     if (!renderer_) return;
     uint32_t hits = 0;
-    const auto add = [&](const Vec2& shift, const reference::RayOffset& offset) {
+    const auto add = [&](const Vec2& shift, const rounding::Displacement& way) {
       RayRecorder recorder;
-      const PixelSample sample = renderer_->sample(options_.x, options_.y, index_, shift, offset, &recorder);
+      const PixelSample sample = renderer_->sample(options_.x, options_.y, index_, shift, way, &recorder);
       hits = std::max(hits, sample.hits);
-      const FirstHit hit = renderer_->first_hit(options_.x, options_.y, shift, offset);
+      const FirstHit hit = renderer_->first_hit(options_.x, options_.y, shift, way);
       overlay.add_around(finished(std::move(recorder.tree()), sample, hit, Backend::reference));
     };
-    using reference::float32_ray_offset, reference::TextureChoice;
     const auto add_place = [&](const Vec2& shift, uint32_t seed) {
-      add(shift, {});
-      for (const bool along_normal : {false, true}) add(shift, {float32_ray_offset, along_normal, seed});
+      const bool moved = shift != Vec2(0.0);
+      for (const rounding::Displacement& way : rounding::ways_of_probe(moved, seed)) add(shift, way);
     };
     add_place({0, 0}, 0);
-    for (const TextureChoice textures : {TextureChoice::darkest, TextureChoice::brightest})
-      add({0, 0}, {float32_ray_offset, false, 0, textures});
-    add({0, 0}, {float32_ray_offset, true, 0, TextureChoice::at_hit, true});
     const double t = renderer_->first_hit(options_.x, options_.y).t;
     const double rounding = renderer_->rounding(options_.x, options_.y, t);
     uint32_t seed = 0;
-    const compare::Places places = compare::places_around(rounding, hits, angles, true);
+    const rounding::Places places = rounding::places_around(rounding, hits, angles, true);
     for (const Vec2& place : places.all) add_place(place, ++seed);
     for (size_t i = 0; i < places.innermost; ++i)
       add(places.all[i], {.pivot = renderer_->pivot(options_.x, options_.y, uint32_t(i))});

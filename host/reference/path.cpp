@@ -225,8 +225,8 @@ AuxiliarySample PathSample::auxiliary(Ray ray, MediaStack media) {
 namespace {
 
 PixelSample path(const Tracer& tracer, const SampleId& id, const Ray& ray, const MediaStack& media,
-                 const RayOffset& ray_offset, const Observer& observer) {
-  return PathSample(tracer, id, ray_offset, observer).sample(ray, media);
+                 const rounding::Displacement& displacement, const Observer& observer) {
+  return PathSample(tracer, id, displacement, observer).sample(ray, media);
 }
 
 }  // namespace

@@ -49,13 +49,14 @@ struct Flight {
 
 class PathSample {
  public:
-  PathSample(const Tracer& tracer, const SampleId& id, const RayOffset& ray_offset, const Observer& observer)
+  PathSample(const Tracer& tracer, const SampleId& id, const rounding::Displacement& displacement,
+             const Observer& observer)
       : tracer_(tracer),
         scene_(tracer.scene()),
         id_(id),
-        numbers_(ray_offset.numbers),
-        photon_nearer_(ray_offset.photon_nearer),
-        rays_(tracer, ray_offset, observer),
+        numbers_(displacement.numbers),
+        photon_nearer_(displacement.photon_nearer),
+        rays_(tracer, displacement, observer),
         observer_(observer) {}
 
   PixelSample sample(Ray ray, MediaStack media) { return follow(ray, media, &PathSample::meet_surface); }

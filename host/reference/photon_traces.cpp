@@ -4,11 +4,12 @@
 
 namespace eyeray::reference {
 
-PhotonTrace PhotonTraces::trace(uint32_t index, uint32_t number, const RayOffset& ray_offset) const {
+PhotonTrace PhotonTraces::trace(uint32_t index, uint32_t number,
+                                const rounding::Displacement& displacement) const {
   PhotonTrace trace;
   std::vector<Photon> stopped;
   const Observer observer(trace.events);
-  PathSample(tracer_, {photons_of | index, number}, ray_offset, observer).photon(sources_, stopped);
+  PathSample(tracer_, {photons_of | index, number}, displacement, observer).photon(sources_, stopped);
   for (const Photon& photon : stopped) trace.places += photon.position;
   return trace;
 }

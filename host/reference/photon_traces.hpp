@@ -19,8 +19,8 @@ class PhotonTraces {
   // `tracer` must outlive it.
   explicit PhotonTraces(const Tracer& tracer) : tracer_(tracer), sources_(tracer) {}
 
-  // Photon `number` of sample `index`, its rays as `ray_offset` rounds them. From many threads at once.
-  PhotonTrace trace(uint32_t index, uint32_t number, const RayOffset& ray_offset) const;
+  // Photon `number` of sample `index`, its rays as `displacement` rounds them. From many threads at once.
+  PhotonTrace trace(uint32_t index, uint32_t number, const rounding::Displacement& displacement) const;
 
  private:
   const Tracer& tracer_;

@@ -14,12 +14,12 @@ constexpr std::string_view manual =
     "by a lamp at the eye.";
 
 PixelSample raycast(const Tracer& tracer, const SampleId& id, const Ray& eye_ray, const MediaStack&,
-                    const RayOffset& ray_offset, const Observer& observer) {
+                    const rounding::Displacement& displacement, const Observer& observer) {
   const Scene& scene = tracer.scene();
   Ray ray = eye_ray;
   ray.alpha_key = alpha_key(id.pixel, id.index, 0, 0, scene.render.seed);
   uint32_t flags = 0;
-  const auto hit = tracer.trace(ray, flags, ray_offset.coincident);
+  const auto hit = tracer.trace(ray, flags, displacement.coincident);
   if (!hit) {
     const Vec3 color =
         scene.environment ? environment_radiance(*scene.environment, ray.d) : scene.render.background;

@@ -41,34 +41,34 @@ AuxiliarySample Renderer::auxiliary(int x, int y, uint32_t index) const {
   return path_auxiliary(tracer_, id(x, y, index), eye_ray(aim, {0, 0}, 0), media_);
 }
 
-PixelSample Renderer::sample(int x, int y, uint32_t index, Vec2 shift, const RayOffset& ray_offset,
-                             const Observer& observer) const {
+PixelSample Renderer::sample(int x, int y, uint32_t index, Vec2 shift,
+                             const rounding::Displacement& displacement, const Observer& observer) const {
   const Aim aim = this->aim(x, y, index);
   if (!camera_.sees(aim.place + shift, aim.lens)) return {};
-  const Ray ray = eye_ray(aim, shift, ray_offset.pivot);
+  const Ray ray = eye_ray(aim, shift, displacement.pivot);
   const IntegratorType type = scene_.render.integrator;
   observer.ray(RayKind::eye, ray, 0);
-  PixelSample sample = integrator(type).sample(tracer_, id(x, y, index), ray, media_, ray_offset, observer);
+  PixelSample sample = integrator(type).sample(tracer_, id(x, y, index), ray, media_, displacement, observer);
   if (traits_of(type).ways > 0) sample.flags |= flags_;
   return sample;
 }
 
-FirstHit Renderer::first_hit(int x, int y, Vec2 shift, const RayOffset& ray_offset) const {
-  return hit({Vec2(x, y) + Vec2(0.5)}, id(x, y, 0), shift, ray_offset);
+FirstHit Renderer::first_hit(int x, int y, Vec2 shift, const rounding::Displacement& displacement) const {
+  return hit({Vec2(x, y) + Vec2(0.5)}, id(x, y, 0), shift, displacement);
 }
 
 FirstHit Renderer::first_hit_of_sample(int x, int y, uint32_t index, Vec2 shift,
-                                       const RayOffset& ray_offset) const {
-  return hit(aim(x, y, index), id(x, y, index), shift, ray_offset);
+                                       const rounding::Displacement& displacement) const {
+  return hit(aim(x, y, index), id(x, y, index), shift, displacement);
 }
 
 FirstHit Renderer::hit(const Aim& aim, const SampleId& id, const Vec2& shift,
-                       const RayOffset& ray_offset) const {
+                       const rounding::Displacement& displacement) const {
   FirstHit result;
   if (!camera_.sees(aim.place + shift, aim.lens)) return result;
-  Ray ray = eye_ray(aim, shift, ray_offset.pivot);
+  Ray ray = eye_ray(aim, shift, displacement.pivot);
   ray.alpha_key = alpha_key(id.pixel, id.index, 0, 0, scene_.render.seed);
-  const auto hit = tracer_.trace(ray, result.flags, ray_offset.coincident);
+  const auto hit = tracer_.trace(ray, result.flags, displacement.coincident);
   if (!hit) return result;
   const SurfacePoint surface = tracer_.surface(ray, *hit);
   result.t = hit->at.t;

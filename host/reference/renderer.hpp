@@ -15,20 +15,22 @@ class Renderer {
   explicit Renderer(const Scene& scene, Acceleration acceleration = Acceleration::bvh);
 
   // Sample `index` of pixel (x, y), by the scene's integrator. The ray is `shift` pixels aside, at
-  // ray_offset.pivot before that (integrator.hpp).
-  PixelSample sample(int x, int y, uint32_t index, Vec2 shift = {0, 0}, const RayOffset& ray_offset = {},
-                     const Observer& observer = {}) const;
+  // displacement.pivot before that.
+  PixelSample sample(int x, int y, uint32_t index, Vec2 shift = {0, 0},
+                     const rounding::Displacement& displacement = {}, const Observer& observer = {}) const;
   // What a denoiser asks of that sample; of `path` alone.
   AuxiliarySample auxiliary(int x, int y, uint32_t index) const;
   // What the ray through the pixel's centre hits, and the lens' where there is one, `shift` aside. Of
-  // `ray_offset`, its pivot and `coincident` count.
-  FirstHit first_hit(int x, int y, Vec2 shift = {0, 0}, const RayOffset& ray_offset = {}) const;
+  // `displacement`, its pivot and `coincident` count.
+  FirstHit first_hit(int x, int y, Vec2 shift = {0, 0},
+                     const rounding::Displacement& displacement = {}) const;
   // The same of the eye ray of sample `index`.
-  FirstHit first_hit_of_sample(int x, int y, uint32_t index, Vec2 shift, const RayOffset& ray_offset) const;
+  FirstHit first_hit_of_sample(int x, int y, uint32_t index, Vec2 shift,
+                               const rounding::Displacement& displacement) const;
   // How many pixels aside float32 may take the ray through the pixel's centre, where it has come to `t`.
   double rounding(int x, int y, double t) const;
-  // A RayOffset::pivot a little behind what that ray hits: `which` of eight, modulo 8; 0 where it hits
-  // nothing.
+  // A rounding::Displacement::pivot a little behind what that ray hits: `which` of eight, modulo 8; 0 where
+  // it hits nothing.
   double pivot(int x, int y, uint32_t which) const;
 
   const Tracer& tracer() const { return tracer_; }
@@ -42,7 +44,8 @@ class Renderer {
   Aim aim(int x, int y, uint32_t index) const;
   SampleId id(int x, int y, uint32_t index) const;
   Ray eye_ray(const Aim& aim, const Vec2& shift, double pivot) const;
-  FirstHit hit(const Aim& aim, const SampleId& id, const Vec2& shift, const RayOffset& ray_offset) const;
+  FirstHit hit(const Aim& aim, const SampleId& id, const Vec2& shift,
+               const rounding::Displacement& displacement) const;
 
   const Scene& scene_;
   Tracer tracer_;

@@ -43,32 +43,34 @@ double SampleRays::medium_distance(const MediaStack& media, const Ray& ray, doub
 }
 
 Ray SampleRays::start_ray(const Ray& ray) {
-  if (ray_offset_.share == 0) return ray;
+  if (displacement_.share == 0) return ray;
   Vec3 aside;
-  for (uint32_t i = 0; i < 3; ++i) aside[int(i)] = 2 * random(ray_offset_.seed, spawned_, i, 0) - 1;
-  const Ray started{ray.o + ray_offset_.share * glm::length(ray.o - scene_.camera.eye) * aside,
+  for (uint32_t i = 0; i < 3; ++i) aside[int(i)] = 2 * random(displacement_.seed, spawned_, i, 0) - 1;
+  const Ray started{ray.o + displacement_.share * glm::length(ray.o - scene_.camera.eye) * aside,
                     rounded(ray.d)};
   ++spawned_;
   return started;
 }
 
 Ray SampleRays::spawn_ray(const SurfacePoint& point, const Vec3& d, Leaving leaving) {
-  if (ray_offset_.textures != TextureChoice::at_hit) return {spawn_origin(point, d, 0, false, leaving), d};
+  if (displacement_.textures != rounding::TextureChoice::at_hit)
+    return {spawn_origin(point, d, 0, false, leaving), d};
   const Vec3 from_eye = glm::abs(point.position - scene_.camera.eye);
   const double least =
-      ray_offset_.off * ray_offset_.share * glm::dot(glm::abs(point.normal_geometric), from_eye);
-  Ray ray{spawn_origin(point, d, least, ray_offset_.along_normal, leaving), d};
-  if (ray_offset_.share == 0) return ray;
+      displacement_.off * displacement_.share * glm::dot(glm::abs(point.normal_geometric), from_eye);
+  Ray ray{spawn_origin(point, d, least, displacement_.along_normal, leaving), d};
+  if (displacement_.share == 0) return ray;
 
   Vec3 aside;
-  for (uint32_t i = 0; i < 3; ++i) aside[int(i)] = 2 * random(ray_offset_.seed, spawned_, i, 0) - 1;
+  for (uint32_t i = 0; i < 3; ++i) aside[int(i)] = 2 * random(displacement_.seed, spawned_, i, 0) - 1;
   // Where the edges are of other shapes than triangles is not known: one ray in eight may be near any.
-  if (ray_offset_.room > 0 && random(ray_offset_.seed, spawned_, 7, 0) < 0.125 && point.weights == Vec3(0))
-    aside *= ray_offset_.room / ray_offset_.share;
+  if (displacement_.room > 0 && random(displacement_.seed, spawned_, 7, 0) < 0.125 &&
+      point.weights == Vec3(0))
+    aside *= displacement_.room / displacement_.share;
   ++spawned_;
   aside -= glm::dot(aside, point.normal_geometric) * point.normal_geometric;
-  ray.o += ray_offset_.share * glm::length(from_eye) * aside;
-  ray.o += way_inside(point, ray_offset_.room * magnitude(from_eye));
+  ray.o += displacement_.share * glm::length(from_eye) * aside;
+  ray.o += way_inside(point, displacement_.room * magnitude(from_eye));
   return ray;
 }
 
@@ -82,15 +84,15 @@ Ray SampleRays::spawn_to_light(const SurfacePoint& point, const Vec3& l, Leaving
 }
 
 Vec3 SampleRays::end_before(const Vec3& place, const Vec3& normal, const Vec3& l) const {
-  const double off = ray_offset_.share * glm::dot(glm::abs(normal), glm::abs(place - scene_.camera.eye));
+  const double off = displacement_.share * glm::dot(glm::abs(normal), glm::abs(place - scene_.camera.eye));
   return place + normal * (glm::dot(l, normal) < 0 ? off : -off);
 }
 
 Vec3 SampleRays::rounded(const Vec3& d) const {
-  if (ray_offset_.share == 0) return d;
+  if (displacement_.share == 0) return d;
   Vec3 aside;
-  for (uint32_t i = 0; i < 3; ++i) aside[int(i)] = 2 * random(ray_offset_.seed, spawned_, 4 + i, 0) - 1;
-  return glm::normalize(d + ray_offset_.share * aside);
+  for (uint32_t i = 0; i < 3; ++i) aside[int(i)] = 2 * random(displacement_.seed, spawned_, 4 + i, 0) - 1;
+  return glm::normalize(d + displacement_.share * aside);
 }
 
 Vec3 SampleRays::surroundings(const Vec3& d) const {
@@ -100,13 +102,13 @@ Vec3 SampleRays::surroundings(const Vec3& d) const {
 
 // What float32 may add at most to the cosine between a surface and what lies at that distance from it.
 double SampleRays::cosine_rounding(const SurfacePoint& point, double distance) const {
-  if (ray_offset_.share == 0) return 0;
-  return ray_offset_.share * (1 + glm::length(point.position - scene_.camera.eye) / distance);
+  if (displacement_.share == 0) return 0;
+  return displacement_.share * (1 + glm::length(point.position - scene_.camera.eye) / distance);
 }
 
 // What it may be of that.
 double SampleRays::tilt(const SurfacePoint& point, double distance) const {
-  return cosine_rounding(point, distance) * (2 * random(ray_offset_.seed, spawned_, 3, 0) - 1);
+  return cosine_rounding(point, distance) * (2 * random(displacement_.seed, spawned_, 3, 0) - 1);
 }
 
 bool SampleRays::faces(const SurfacePoint& point, const Vec3& l, double distance) const {
@@ -121,7 +123,7 @@ bool SampleRays::is_before(const SurfacePoint& point, const Vec3& l, double dist
 double SampleRays::shadow(const Ray& ray, double t_end) {
   ++rays_;
   // Of a lamp that is far away float32 cannot tell how near to it something stands.
-  const double short_of = walks_at_random(scene_.render.integrator) ? ray_offset_.share : 0;
+  const double short_of = walks_at_random(scene_.render.integrator) ? displacement_.share : 0;
   return tracer_.transmittance(ray, t_end * (1 - short_of), flags_);
 }
 
@@ -137,7 +139,7 @@ Vec3 SampleRays::through_panes(Ray ray, double t_end, bool has_extent, MediaStac
   ++rays_;
   Vec3 left(1);
   for (int crossed = 0;; ++crossed) {
-    const auto hit = tracer_.trace(ray, flags_, ray_offset_.coincident);
+    const auto hit = tracer_.trace(ray, flags_, displacement_.coincident);
     const bool arrives = !hit || hit->at.t >= t_end;
     const Medium before = medium(media);
     if (tracer_.any_interface())
@@ -175,14 +177,15 @@ Scattering SampleRays::scattering(const Ray& ray, const Hit& hit, const SurfaceP
                                   ScatteringContext context) const {
   const Material& material = *scene_.materials[size_t(hit.material)];
   Scattering result = material.scattering(context);
-  if (ray_offset_.textures == TextureChoice::at_hit) return result;
+  if (displacement_.textures == rounding::TextureChoice::at_hit) return result;
 
   const auto choose = [&](Vec3& value, const Vec3& other) {
-    value = ray_offset_.textures == TextureChoice::darkest ? glm::min(value, other) : glm::max(value, other);
+    value = displacement_.textures == rounding::TextureChoice::darkest ? glm::min(value, other)
+                                                                       : glm::max(value, other);
   };
   const Vec3 u = glm::normalize(glm::cross(ray.d, std::abs(ray.d.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)));
   const Vec3 v = glm::cross(ray.d, u);
-  const double aside = ray_offset_.share * glm::length(point.position - scene_.camera.eye);
+  const double aside = displacement_.share * glm::length(point.position - scene_.camera.eye);
   for (int i = 0; i < 8; ++i) {
     const Ray moved{ray.o + aside * (std::cos(i * M_PI / 4) * u + std::sin(i * M_PI / 4) * v), ray.d,
                     ray.alpha_key};
@@ -218,8 +221,8 @@ std::optional<Hit> SampleRays::trace(const Ray& ray) {
 
 // With random numbers that are off, float32 takes now the one, now the other.
 bool SampleRays::takes_farther() const {
-  const bool tossed = ray_offset_.numbers == 0 || random(ray_offset_.numbers, rays_, 0, 1) < 0.5;
-  return ray_offset_.coincident && tossed;
+  const bool tossed = displacement_.numbers == 0 || random(displacement_.numbers, rays_, 0, 1) < 0.5;
+  return displacement_.coincident && tossed;
 }
 
 Interaction SampleRays::interaction(const Ray& ray, const Hit& hit, const MediaStack& media,
@@ -231,7 +234,7 @@ Interaction SampleRays::interaction(const Ray& ray, const Hit& hit, const MediaS
   observer_.hit(tracer_, ray, hit, at.surface);
   const double cosine = glm::dot(at.d, at.surface.normal_geometric);
   const bool along = std::abs(cosine) < cosine_rounding(at.surface, hit.at.t);
-  const bool front = (cosine < 0) != (along && ray_offset_.along_normal);
+  const bool front = (cosine < 0) != (along && displacement_.along_normal);
   if (!front) turn_over(at.surface);
   at.cos_view = std::clamp(-glm::dot(at.d, at.surface.normal), 0.0, 1.0);
 

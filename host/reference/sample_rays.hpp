@@ -37,8 +37,8 @@ Vec3 transmittance(const Medium& medium, double length);
 
 class SampleRays {
  public:
-  SampleRays(const Tracer& tracer, const RayOffset& ray_offset, const Observer& observer)
-      : tracer_(tracer), scene_(tracer.scene()), ray_offset_(ray_offset), observer_(observer) {}
+  SampleRays(const Tracer& tracer, const rounding::Displacement& displacement, const Observer& observer)
+      : tracer_(tracer), scene_(tracer.scene()), displacement_(displacement), observer_(observer) {}
 
   // What the ray, which is in `media`, hits; nothing where it hits nothing. `throughput`: the share of its
   // light that arrives in the pixel.
@@ -95,7 +95,7 @@ class SampleRays {
 
   const Tracer& tracer_;
   const Scene& scene_;
-  RayOffset ray_offset_;
+  rounding::Displacement displacement_;
   const Observer& observer_;
   uint32_t spawned_ = 0;
   uint32_t rays_ = 0;

@@ -137,8 +137,8 @@ uint32_t PathSample::photon(const PhotonSources& sources, std::vector<Photon>& s
 namespace {
 
 PixelSample sppm(const Tracer& tracer, const SampleId& id, const Ray& ray, const MediaStack& media,
-                 const RayOffset& ray_offset, const Observer& observer) {
-  return PathSample(tracer, id, ray_offset, observer).gathering_sample(ray, media);
+                 const rounding::Displacement& displacement, const Observer& observer) {
+  return PathSample(tracer, id, displacement, observer).gathering_sample(ray, media);
 }
 
 }  // namespace

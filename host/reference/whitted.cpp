@@ -27,8 +27,9 @@ struct Path {
 
 class Recursion {
  public:
-  Recursion(const Tracer& tracer, const SampleId& id, const RayOffset& ray_offset, const Observer& observer)
-      : rays(tracer, ray_offset, observer), scene_(tracer.scene()), id_(id), observer_(observer) {}
+  Recursion(const Tracer& tracer, const SampleId& id, const rounding::Displacement& displacement,
+            const Observer& observer)
+      : rays(tracer, displacement, observer), scene_(tracer.scene()), id_(id), observer_(observer) {}
 
   Vec3 radiance(const Path& path);
 
@@ -112,8 +113,8 @@ Vec3 Recursion::direct(const Interaction& at, int depth) {
 }
 
 PixelSample whitted(const Tracer& tracer, const SampleId& id, const Ray& ray, const MediaStack& media,
-                    const RayOffset& ray_offset, const Observer& observer) {
-  Recursion recursion(tracer, id, ray_offset, observer);
+                    const rounding::Displacement& displacement, const Observer& observer) {
+  Recursion recursion(tracer, id, displacement, observer);
   const Vec3 color = recursion.radiance({ray, media, 0, Vec3(1)});
   return recursion.rays.sample(color);
 }

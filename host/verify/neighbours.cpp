@@ -3,8 +3,9 @@
 #include <bit>
 
 #include "host/reference/trail.hpp"
+#include "host/rounding/ways.hpp"
 #include "host/scene/integrator.hpp"
-#include "host/verify/photon_judge.hpp"
+#include "host/scene/photons.hpp"
 
 namespace eyeray::verify {
 namespace {
@@ -32,45 +33,20 @@ uint32_t seed_of(const Vec2& shift) {
 
 // `count` samples of pixel (x, y) from `first` on, every ray moved by `shift`.
 compare::Neighbour neighbour(const Scene& scene, const reference::Renderer& renderer, int x, int y,
-                             const Vec2& shift, compare::Chance chance, int first, int count) {
+                             const Vec2& shift, rounding::Chance chance, int first, int count) {
   compare::Neighbour result;
   result.samples.clear();
   const uint32_t seed = seed_of(shift);
-  const bool coincident = chance == compare::Chance::coincident;
-  const double pivot = chance == compare::Chance::turned ? renderer.pivot(x, y, seed) : 0;
+  const IntegratorType integrator = scene.render.integrator;
+  const bool coincident = chance == rounding::Chance::coincident;
+  const double pivot = chance == rounding::Chance::turned ? renderer.pivot(x, y, seed) : 0;
+  const std::vector<rounding::Displacement> ways = rounding::ways_of_sample(
+      {walks_at_random(integrator), sends_photons(integrator)}, chance, pivot, shift != Vec2(0.0), seed);
   for (int i = first; i < first + count; ++i) {
-    const auto rendered = [&](reference::RayOffset ray_offset) {
-      ray_offset.coincident = coincident;
-      ray_offset.pivot = pivot;
-      return renderer.sample(x, y, uint32_t(i), shift, ray_offset);
-    };
-    // From the farther surface rays would strike the nearer one, did they start as the mathematics says.
-    const PixelSample sample =
-        coincident ? rendered({reference::float32_ray_offset, true, seed}) : rendered({});
+    const PixelSample sample = renderer.sample(x, y, uint32_t(i), shift, ways.front());
     result.samples.push_back(of(sample));
-    using reference::TextureChoice;
-    const auto add_rounded = [&](bool along_normal, TextureChoice textures) {
-      result.rounded.push_back(of(rendered({reference::float32_ray_offset, along_normal, seed, textures})));
-    };
-    for (const bool along_normal : {false, true}) add_rounded(along_normal, TextureChoice::at_hit);
-    result.rounded.push_back(of(
-        rendered({.share = reference::float32_ray_offset, .seed = seed, .room = reference::float32_room})));
-    if (walks_at_random(scene.render.integrator)) {
-      // Weights ask how far off a ray starts, where a lamp or the surface's own curve is as near as that: so
-      // twice as far, and eight times, as a bilinear patch has it (docs/numerics.md). Long paths bring other
-      // light for less than that: so an eighth as well. And directions are rounded as numbers are
-      // that they are drawn by.
-      for (const double times : {8.0, 2.0, 0.125})
-        result.rounded.push_back(of(rendered({times * reference::float32_ray_offset, false, seed})));
-      result.rounded.push_back(
-          of(rendered({.share = reference::float32_ray_offset, .seed = seed, .numbers = seed | 1})));
-    }
-    if (sends_photons(scene.render.integrator))
-      for (const double nearer : {photon_aside, -photon_aside})
-        result.rounded.push_back(of(rendered({.photon_nearer = nearer})));
-    if (shift == Vec2(0.0))
-      for (const auto textures : {TextureChoice::darkest, TextureChoice::brightest})
-        add_rounded(false, textures);
+    for (size_t k = 1; k < ways.size(); ++k)
+      result.rounded.push_back(of(renderer.sample(x, y, uint32_t(i), shift, ways[k])));
     result.direct = result.direct && sample.hits <= 1;
     add_first_hit(result, scene,
                   renderer.first_hit_of_sample(x, y, uint32_t(i), shift, {.coincident = coincident}));
@@ -83,7 +59,7 @@ compare::Neighbour neighbour(const Scene& scene, const reference::Renderer& rend
 }  // namespace
 
 compare::Reference neighbours(const Scene& scene, const reference::Renderer& renderer) {
-  return [&](int x, int y, const Vec2& shift, compare::Chance chance) {
+  return [&](int x, int y, const Vec2& shift, rounding::Chance chance) {
     return neighbour(scene, renderer, x, y, shift, chance, 0, scene.image.samples);
   };
 }
@@ -92,7 +68,7 @@ compare::PathReference path_neighbours(const Scene& scene, const reference::Rend
                                        const executors::Twin* twin) {
   compare::PathReference paths;
   paths.around = [&](int sample) -> compare::Reference {
-    return [&scene, &renderer, sample](int x, int y, const Vec2& shift, compare::Chance chance) {
+    return [&scene, &renderer, sample](int x, int y, const Vec2& shift, rounding::Chance chance) {
       return neighbour(scene, renderer, x, y, shift, chance, sample, 1);
     };
   };
@@ -102,26 +78,14 @@ compare::PathReference path_neighbours(const Scene& scene, const reference::Rend
     if (reference::trail_of(events) != trail) events.clear();
     return events;
   };
-  paths.variants = 11;
+  paths.variants = rounding::path_ways;
   if (sends_photons(scene.render.integrator)) paths.shared = photon_radius(photon_settings(scene), 0);
   paths.reference = [&](compare::Pixel pixel, int sample, const Vec2& shift, int variant) {
     const uint32_t seed = seed_of(shift) | 1;
-    constexpr double share = reference::float32_ray_offset;
-    const reference::RayOffset ways[] = {
-        {},
-        {.share = share, .seed = seed},
-        {.share = share, .along_normal = true, .seed = seed},
-        {.seed = seed, .numbers = seed},
-        {.share = share, .seed = seed, .numbers = seed},
-        {.share = share, .along_normal = true, .seed = seed, .coincident = true},
-        {.share = 2 * share, .seed = seed},
-        {.share = 8 * share, .seed = seed},
-        {.share = share, .seed = seed, .room = reference::float32_room},
-        {.share = share / 8, .seed = seed, .room = reference::float32_room},
-        {.pivot = variant == 10 ? renderer.pivot(pixel.x, pixel.y, seed) : 0},
-    };
+    const double pivot = variant + 1 == rounding::path_ways ? renderer.pivot(pixel.x, pixel.y, seed) : 0;
+    const rounding::Displacement way = rounding::ways_of_path(pivot, seed)[size_t(variant)];
     std::vector<uint32_t> events;
-    renderer.sample(pixel.x, pixel.y, uint32_t(sample), shift, ways[variant], reference::Observer(events));
+    renderer.sample(pixel.x, pixel.y, uint32_t(sample), shift, way, reference::Observer(events));
     return events;
   };
   paths.rounding = [&](compare::Pixel pixel) {

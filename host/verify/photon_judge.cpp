@@ -8,14 +8,11 @@
 #include "host/reference/photon_map.hpp"
 #include "host/reference/photon_traces.hpp"
 #include "host/reference/trail.hpp"
+#include "host/rounding/ways.hpp"
 
 namespace eyeray::verify {
 namespace {
 
-// Surfaces that are round, or struck at a grazing angle, multiply what float32 rounds, one after the other.
-// The widest is 10⁻⁴ of the distance to the eye: as far aside as the places are in a picture 100 pixels wide
-// where gate B asks.
-constexpr double rounded_by[] = {1, 8, 64};
 constexpr uint32_t seeds = 64;
 // At a corner few roundings lead the way that float32 takes: one in a hundred, or fewer. So few photons as
 // these are searched for by that many seeds more; of more the gate fails soon.
@@ -35,25 +32,14 @@ struct Apart {
 // lies half as far aside or more.
 bool explained(const Apart& photon, const reference::PhotonTraces& traces, uint32_t index,
                uint32_t first_seed, uint32_t last_seed) {
-  const auto explains = [&](const reference::RayOffset& rounded) {
+  const auto explains = [&](const rounding::Displacement& rounded) {
     const reference::PhotonTrace trace = traces.trace(index, photon.number, rounded);
     return reference::trail_of(trace.events) == photon.twin.trail &&
            (photon.parted() || glm::length(trace.places - photon.reference.places) >= photon.aside() / 2);
   };
-  for (const double times : rounded_by) {
-    const double share = times * reference::float32_ray_offset;
-    for (uint32_t seed = first_seed; seed <= last_seed; ++seed) {
-      const reference::RayOffset ways[] = {
-          {.share = share, .seed = seed},
-          {.share = share, .seed = seed, .numbers = seed},
-          {.share = share, .along_normal = true, .seed = seed},
-          {.share = share, .seed = seed, .off = 1.0 / 64},  // along a ring, whose own offset is small
-          {.share = share, .along_normal = true, .seed = seed, .coincident = true},
-          {.share = share, .seed = seed, .coincident = true, .numbers = seed},
-      };
-      if (std::ranges::any_of(ways, explains)) return true;
-    }
-  }
+  for (const double scale : rounding::photon_scales)
+    for (uint32_t seed = first_seed; seed <= last_seed; ++seed)
+      if (std::ranges::any_of(rounding::ways_of_photon(scale, seed), explains)) return true;
   return false;
 }
 
@@ -81,7 +67,7 @@ JudgedPhotons judge_photons(const Scene& scene,
     // Compare ways and places.
     const std::vector<PhotonWay> a = ways(index), b = renderer.tracer().photons(index)->ways();
     CHECK_EQ(a.size(), b.size());
-    const double aside = photon_aside * photon_radius(photon_settings(scene), index);
+    const double aside = rounding::photon_aside * photon_radius(photon_settings(scene), index);
     std::vector<Apart> apart;
     for (uint32_t number = 0; number < a.size(); ++number) {
       const Apart photon{number, a[number], b[number]};

@@ -9,10 +9,6 @@
 
 namespace eyeray::verify {
 
-// How far from the reference's a photon may lie and be shown, as a share of the radius: of its light a kernel
-// tells twice that.
-inline constexpr double photon_aside = 1e-3;
-
 struct JudgedPhotons {
   LeftOutPhotons left_out;  // those that no picture may show
   compare::PhotonTally tally;

@@ -96,7 +96,7 @@ TEST_CASE("depth and weight end the recursion") {
 
 TEST_CASE("rounding that takes another check at each mirror stays within the darkest and the brightest") {
   // Between two walls that mirror a half, along a border of both their checks.
-  const auto look_with = [](double x, reference::TextureChoice choice) {
+  const auto look_with = [](double x, rounding::TextureChoice choice) {
     Scene scene = one_pixel({x, 0.5, 0}, {x, 0.5, -1});
     scene.render.ambient = Vec3(1);
     scene.render.max_depth = 3;
@@ -108,7 +108,7 @@ TEST_CASE("rounding that takes another check at each mirror stays within the dar
     add(scene, make_plane({0, 0, 1}, {0, 0, -1}), wall);
     return reference::Renderer(scene).sample(0, 0, 0, {0, 0}, {1e-6, false, 0, choice}).color;
   };
-  using enum reference::TextureChoice;
+  using enum rounding::TextureChoice;
   for (const double x : {0.0, 1.0, -3.0}) {
     CHECK(look_with(x, darkest) == 1.875 * Vec3(0.25, 0.5, 0));
     CHECK(look_with(x, brightest) == 1.875 * Vec3(1, 1, 0));

@@ -37,15 +37,15 @@ inline compare::Frame render_frame(const Scene& scene, executors::Backend backen
 // Gates B and C.
 inline compare::ReferenceComparison compare_with_reference(const Scene& scene, const compare::Frame& value) {
   const reference::Renderer renderer(scene);
-  const compare::Reference around = [&](int x, int y, const Vec2& shift, compare::Chance chance) {
+  const compare::Reference around = [&](int x, int y, const Vec2& shift, rounding::Chance chance) {
     compare::Neighbour result;
     result.samples.clear();
-    const reference::RayOffset ray_offset{.coincident = chance == compare::Chance::coincident};
+    const rounding::Displacement displacement{.coincident = chance == rounding::Chance::coincident};
     for (int i = 0; i < scene.image.samples; ++i) {
-      const PixelSample sample = renderer.sample(x, y, uint32_t(i), shift, ray_offset);
+      const PixelSample sample = renderer.sample(x, y, uint32_t(i), shift, displacement);
       result.samples.push_back({sample.color, {double(sample.hits), double(sample.rays)}});
     }
-    result.first_hit = renderer.first_hit(x, y, shift, ray_offset);
+    result.first_hit = renderer.first_hit(x, y, shift, displacement);
     return result;
   };
   return compare::compare_with_reference(value, render_frame(scene, executors::Backend::reference), around);

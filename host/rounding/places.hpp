@@ -1,0 +1,20 @@
+// How far beside a pixel's own place the reference is asked: where float32 may put the eye's ray.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "host/core/vec.hpp"
+
+namespace eyeray::rounding {
+
+// Places around a pixel's own, in pixels: `angles` on each of four rings, and before them on one as wide as a
+// rounding error, where that is known. Of a pixel whose rays strike so many surfaces. `between`: half as many
+// on each ring between that and the four as well.
+struct Places {
+  std::vector<Vec2> all;
+  size_t innermost = 0;  // those of a rounding error
+};
+Places places_around(double rounding, double surfaces, int angles, bool between = false);
+
+}  // namespace eyeray::rounding
