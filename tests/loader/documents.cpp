@@ -36,8 +36,8 @@ TEST_CASE("docs/scene-reference.md is what `eyeray check --manual` prints") {
 
 TEST_CASE("every default is a right value of its key") {
   int defaults = 0;
-  const auto check = [&](std::span<const Key> keys) {
-    for (const Key& key : keys) {
+  const auto check = [&](std::span<const reading::Key> keys) {
+    for (const reading::Key& key : keys) {
       CAPTURE(key.name);
       CHECK_FALSE(key.doc.empty());
       if (key.fallback.empty()) continue;

@@ -13,7 +13,7 @@ using namespace eyeray::loader;
 namespace {
 
 std::string suggested(std::string_view word, const std::vector<std::string_view>& names) {
-  return suggest_name(word, names);
+  return reading::suggest_name(word, names);
 }
 
 }  // namespace

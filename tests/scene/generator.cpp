@@ -20,6 +20,8 @@
 
 namespace eyeray::test {
 
+using reading::Key, reading::KeyType;
+
 namespace {
 
 constexpr double inf = Key::inf;
