@@ -18,7 +18,7 @@
 #include "host/loader/scene_file.hpp"
 #include "host/loader/sections.hpp"
 #include "host/program/option_values.hpp"
-#include "host/reading/table_reader.hpp"
+#include "host/reading/key.hpp"
 #include "host/session/request.hpp"
 
 namespace eyeray::cli {
@@ -41,8 +41,8 @@ constexpr std::array value_options = {
 
 // "Samples a pixel: an integer from 1 to 65536.", by the key's row.
 std::string description_of(const ValueOption& option) {
-  const std::span<const Key> keys = loader::find_section(option.section)->keys;
-  std::string values = describe(*std::ranges::find(keys, option.key, &Key::name));
+  const std::span<const reading::Key> keys = loader::find_section(option.section)->keys;
+  std::string values = describe(*std::ranges::find(keys, option.key, &reading::Key::name));
   std::erase(values, '"');
   return fmt::format("{}: {}.", option.text, values);
 }
