@@ -78,11 +78,11 @@ function(eyeray_in_batches target)
   endwhile()
 endfunction()
 
-# eyeray_layer(NAME [COMPUTES] LINK …): the static library of every host/NAME/*.cpp. With sanitizers in the code, optimising takes a
+# eyeray_layer(NAME [COMPUTES] LINK …): the static library of every *.cpp in host/NAME, or in benchmarks/NAME. With sanitizers in the code, optimising takes a
 # compiler longer than all else it does, and pays only for layers that compute, and for fuzzers.
 function(eyeray_layer name)
   cmake_parse_arguments(arg "COMPUTES" "" "LINK" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/host/${name}/*.cpp)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/host/${name}/*.cpp ${CMAKE_SOURCE_DIR}/benchmarks/${name}/*.cpp)
   add_library(${name} STATIC ${sources})
   target_link_libraries(${name} PRIVATE eyeray_warnings)
   target_link_libraries(${name} ${arg_LINK})
@@ -98,10 +98,10 @@ function(eyeray_layer name)
   set_property(GLOBAL APPEND PROPERTY EYERAY_LAYERS ${name})
 endfunction()
 
-# eyeray_program(NAME FOLDER): the program of host/FOLDER/*.cpp. What CLI11 and nlohmann/json unfold to takes compilers minutes to optimise, and
+# eyeray_program(NAME FOLDER): the program of every *.cpp in host/FOLDER, or in benchmarks/FOLDER. What CLI11 and nlohmann/json unfold to takes compilers minutes to optimise, and
 # hardly runs.
 function(eyeray_program name folder)
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/host/${folder}/*.cpp)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/host/${folder}/*.cpp ${CMAKE_SOURCE_DIR}/benchmarks/${folder}/*.cpp)
   add_executable(${name} ${sources})
   target_link_libraries(${name} PRIVATE eyeray_warnings)
   set(options "")

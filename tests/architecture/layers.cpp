@@ -77,7 +77,7 @@ bool allowed(const std::string& from, const std::string& include) {
 
 TEST_CASE("every folder under host/ is a layer, and includes only what it may see") {
   size_t seen = 0;
-  for (const SourceFile& file : source_files("host")) {
+  for (const SourceFile& file : layer_files()) {
     CAPTURE(file.path);
     REQUIRE(all_layers.contains(file.layer()));
     for (const Include& include : includes(file)) {
@@ -93,7 +93,7 @@ TEST_CASE("every folder under host/ is a layer, and includes only what it may se
 
 TEST_CASE("libraries stay in their layers, and out of headers that others see") {
   size_t seen = 0;
-  for (const SourceFile& file : source_files("host")) {
+  for (const SourceFile& file : layer_files()) {
     for (const Include& include : includes(file)) {
       if (!include.system) continue;
       for (const Library& library : libraries) {
@@ -110,7 +110,7 @@ TEST_CASE("libraries stay in their layers, and out of headers that others see") 
 
 TEST_CASE("the layers' headers with TOML or Vulkan in them are private") {
   // A header is tainted by such a library, or by another tainted header.
-  const std::vector<SourceFile> files = source_files("host");
+  const std::vector<SourceFile> files = layer_files();
   std::map<std::string, std::string> tainted;
   for (const char* library : {R"((volk|vulkan|glslang)[/.].*)", R"(toml\+\+/.*)"}) {
     const std::regex pattern(library);

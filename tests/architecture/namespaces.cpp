@@ -81,7 +81,7 @@ bool in_its_own_namespace(const SourceFile& file, const std::string& name) {
 
 TEST_CASE("a folder under host/ is a namespace") {
   size_t seen = 0;
-  for (const SourceFile& file : source_files("host")) {
+  for (const SourceFile& file : layer_files()) {
     for (const Opening& each : openings(file)) {
       if (!each.name.starts_with("eyeray") || each.declares_only) continue;
       ++seen;
@@ -97,7 +97,7 @@ TEST_CASE("no two files define a type of one name in one namespace") {
       R"(^(?:class|struct|union|enum|enum class) (\w+)(?: final)?(?: :.*)? \{.*$)");
   std::map<std::string, std::string> defined;
   std::smatch match;
-  for (const SourceFile& file : source_files("host")) {
+  for (const SourceFile& file : layer_files()) {
     for (const Line& line : top_level(file)) {
       if (line.scope.find("{}") != std::string::npos || !std::regex_match(line.text, match, definition))
         continue;
@@ -117,7 +117,7 @@ TEST_CASE("forward declarations do not reach where includes may not") {
   const std::set<std::pair<std::string, std::string>> handed_down = {{"scene", "Packer"}};
 
   // Headers, by the types that they define.
-  const std::vector<SourceFile> files = source_files("host");
+  const std::vector<SourceFile> files = layer_files();
   static const std::regex definition(R"(^\s*(?:class|struct) (\w+)(?: final)?(?: :.*)? \{.*$)");
   std::map<std::string, std::set<std::string>> owners;
   std::smatch match;

@@ -15,7 +15,7 @@ TEST_CASE("text for people is printed by print_lines, and JSON is made by json_t
   // The bar draws by escape sequences; a check that fails prints whatever state the program is in.
   const std::set<std::string> may_print{"host/program/bar.cpp", "host/core/error.cpp"};
   size_t printed = 0;
-  for (const SourceFile& file : source_files("host")) {
+  for (const SourceFile& file : layer_files()) {
     for (size_t i = 0; i < file.lines.size(); ++i) {
       const std::string line = code(file.lines[i]);
       INFO(file.at(i), ": ", line);

@@ -16,7 +16,7 @@ struct SourceFile {
   std::vector<std::string> lines;
 
   std::string name() const { return std::filesystem::path(path).filename().string(); }
-  // The folder below its root, which under host/ is its layer: "scene".
+  // The folder below its root, which under host/ and benchmarks/ is its layer: "scene".
   std::string layer() const { return std::next(std::filesystem::path(path).begin())->string(); }
   bool header() const { return path.ends_with(".hpp") || path.ends_with(".h"); }
   // "host/scene/key.cpp:12".
@@ -35,6 +35,13 @@ inline std::vector<SourceFile> source_files(const std::string& folder) {
     files.push_back(std::move(file));
   }
   std::ranges::sort(files, {}, &SourceFile::path);
+  return files;
+}
+
+// Of every layer.
+inline std::vector<SourceFile> layer_files() {
+  std::vector<SourceFile> files = source_files("host");
+  std::ranges::move(source_files("benchmarks"), std::back_inserter(files));
   return files;
 }
 

@@ -1,11 +1,11 @@
-#include "host/bench/batch.hpp"
+#include "benchmarks/bench/batch.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <set>
 
-#include "host/contenders/embree.hpp"
+#include "benchmarks/contenders/embree.hpp"
 #include "host/generate/octasphere.hpp"
 #include "host/loader/scene_file.hpp"
 #include "host/reference/tracer.hpp"

@@ -1,4 +1,4 @@
-#include "host/contenders/cycles_scene.hpp"
+#include "benchmarks/contenders/cycles_scene.hpp"
 
 #include "host/core/error.hpp"
 #include "host/loader/scene_file.hpp"

@@ -1,5 +1,5 @@
 // Embree's hits on our scenes are those that float64 finds one shape at a time.
-#include "host/contenders/embree.hpp"
+#include "benchmarks/contenders/embree.hpp"
 
 #include "host/generate/octasphere.hpp"
 #include "host/loader/scene_file.hpp"

@@ -1,4 +1,4 @@
-#include "host/bench/field.hpp"
+#include "benchmarks/bench/field.hpp"
 
 #include <nlohmann/json.hpp>
 

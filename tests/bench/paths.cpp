@@ -1,9 +1,9 @@
-#include "host/bench/paths.hpp"
+#include "benchmarks/bench/paths.hpp"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "host/bench/welch.hpp"
+#include "benchmarks/bench/welch.hpp"
 #include "host/core/error.hpp"
 #include "tests/support/process.hpp"
 //

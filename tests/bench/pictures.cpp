@@ -1,4 +1,4 @@
-#include "host/bench/pictures.hpp"
+#include "benchmarks/bench/pictures.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,5 +1,5 @@
-#include "host/bench/standard_scenes.hpp"
-#include "host/contenders/povray_scene.hpp"
+#include "benchmarks/bench/standard_scenes.hpp"
+#include "benchmarks/contenders/povray_scene.hpp"
 #include "host/generate/octasphere.hpp"
 #include "host/loader/scene_file.hpp"
 //

@@ -2,9 +2,9 @@
 // it.
 #include <cmath>
 
-#include "host/bench/programs.hpp"
+#include "benchmarks/bench/programs.hpp"
 #include "host/cameras/make.hpp"
-#include "host/contenders/povray_scene.hpp"
+#include "benchmarks/contenders/povray_scene.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/core/scratch_folder.hpp"
 #include "host/image/image_file.hpp"

@@ -1,9 +1,9 @@
-#include "host/bench/race.hpp"
+#include "benchmarks/bench/race.hpp"
 
 #include <cmath>
 
-#include "host/bench/field_run.hpp"
-#include "host/bench/standard_scenes.hpp"
+#include "benchmarks/bench/field_run.hpp"
+#include "benchmarks/bench/standard_scenes.hpp"
 #include "host/loader/scene_file.hpp"
 //
 #include "tests/support/doctest.hpp"

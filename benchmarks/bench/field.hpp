@@ -1,0 +1,54 @@
+// What a race on one or more scenes found: the figures that the table, the JSON and --compare show.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "benchmarks/bench/race.hpp"
+
+namespace eyeray::bench {
+
+struct BatchReport {
+  std::string name;  // primary, shadow, bounce
+  uint64_t rays = 0;
+  std::vector<Timing> timings;
+};
+
+// What a contender made of the scene before it traced it.
+struct Build {
+  std::string contender;
+  double seconds = 0;
+  uint64_t bytes = 0;  // geometry and BVH; 0 where unknown
+};
+
+struct SceneReport {
+  std::string scene;
+  std::string family;  // scenes that differ in size alone have the same
+  uint64_t primitives = 0;
+  std::vector<Build> builds;
+  std::vector<BatchReport> batches;
+};
+
+using FieldReport = std::vector<SceneReport>;
+
+// Rays a second, by the median.
+double rate(const BatchReport& batch, const Timing& timing);
+// The fastest timing of a kind, or nullptr.
+const Timing* fastest(const BatchReport& batch, ContenderKind kind);
+// How many times as fast a timing is as the fastest of a kind; 0 where that side did not run.
+double times_as_fast(const BatchReport& batch, const Timing& timing, ContenderKind kind);
+
+nlohmann::ordered_json to_json(const FieldReport& report);
+// A report out of the answer of `eyeray-bench --json`; Error (file_io) where it cannot be read, Error
+// (bad_input) where it is something else.
+FieldReport read_field_report(const std::filesystem::path& file);
+
+// As a table, for people.
+std::string to_text(const FieldReport& report);
+// What changed from `old` to `report`: a line for each contender that both have built or on
+// a batch.
+std::string changes(const FieldReport& old, const FieldReport& report);
+
+}  // namespace eyeray::bench

@@ -1,0 +1,33 @@
+// Our own executors, as they race beside Embree.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "benchmarks/bench/field.hpp"
+#include "host/executors/executor.hpp"
+
+namespace eyeray::bench {
+
+class OwnContenders {
+ public:
+  // Those of `backends`; of gpu one for each of `incoherent` (ProfileOptions::incoherent). The scene must
+  // outlive them. Error as make_executor.
+  OwnContenders(const Scene& scene, const std::vector<std::string>& backends,
+                const std::vector<std::string>& incoherent, const std::string& device);
+
+  const std::vector<Contender>& contenders() const { return contenders_; }
+  // What they spent on packing the scene, once they have raced: some of it is done when it is first needed.
+  std::vector<Build> builds() const;
+
+ private:
+  void add(const std::string& name, const Scene& scene, executors::Backend backend,
+           const executors::ExecutorOptions& options);
+
+  std::vector<std::unique_ptr<executors::Executor>> executors_;
+  std::vector<Contender> contenders_;
+  std::vector<double> seconds_;  // that making each took
+};
+
+}  // namespace eyeray::bench

@@ -1,0 +1,69 @@
+// Whole pictures: every run a process of its own, contenders in turns, POV-Ray among them.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "benchmarks/bench/spread.hpp"
+
+namespace eyeray::bench {
+
+struct PictureOptions {
+  std::vector<std::string> backends{"gpu"};
+  std::vector<std::string> defines;  // -D of render
+  std::string device = "auto";
+  int width = 1024;
+  int height = 1024;
+  int samples = 1;
+  int runs = 5;
+  bool povray = true;                  // where it is installed, and the scene is there as .pov too
+  std::filesystem::path povray_scene;  // where none is beside the scene; may be empty
+  bool start = true;                   // also cold and warm starts
+  uint64_t primitives = 0;             // of the scene, to say what memory each takes; 0: not said
+};
+
+// What the runs of one contender took.
+struct SeriesReport {
+  std::string name;                                    // "gpu", "povray", "cold start"
+  std::string device;                                  // "gpu: llvmpipe …"
+  std::vector<std::pair<std::string, Spread>> stages;  // seconds, "whole process" first
+  Spread tracing;                                      // seconds of tracing alone
+  std::optional<Spread> peak_memory;                   // bytes; absent where unknown
+  uint64_t rays = 0;                                   // of a run; 0 where unknown
+};
+
+struct PictureReport {
+  // How much less time the gpu takes than POV-Ray.
+  struct PovrayRatio {
+    double tracing = 0, whole_process = 0;
+  };
+
+  std::string scene;
+  int width = 0, height = 0;
+  int samples = 0;
+  int runs = 0;
+  uint64_t primitives = 0;
+  std::vector<SeriesReport> series;
+  std::optional<PovrayRatio> povray;  // where both ran
+};
+
+// Measures the scene file, called `name` in the report. Error when a run fails.
+PictureReport measure_pictures(const std::string& name, const std::filesystem::path& scene,
+                               const PictureOptions& options);
+
+// As a table, for people.
+std::string to_text(const PictureReport& report);
+nlohmann::ordered_json to_json(const PictureReport& report);
+// The pictures of an older answer of `eyeray-bench --json`, as far as picture_changes compares them. Error
+// (file_io) where it cannot be read, Error (bad_input) where it is something else.
+std::vector<PictureReport> read_picture_reports(const std::filesystem::path& file);
+// A line for the whole process, the tracing and the memory of each series that both have of a scene; pictures
+// of another size or other samples are not compared.
+std::string picture_changes(const std::vector<PictureReport>& old, const std::vector<PictureReport>& now);
+
+}  // namespace eyeray::bench

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "benchmarks/bench/spread.hpp"
+
+namespace eyeray::bench {
+
+nlohmann::ordered_json to_json(const Spread& spread);
+Spread spread_from(const nlohmann::ordered_json& json);
+
+}  // namespace eyeray::bench
