@@ -7,8 +7,8 @@ list(TRANSFORM SHADER_FILES PREPEND ${SHADER_ROOT}/ OUTPUT_VARIABLE SHADER_PATHS
 # The twin compiles every row of the registries; a GPU kernel, its scene's only (executors/specialise.cpp).
 set(REGISTRIES cameras samplers textures bsdf shapes materials lights emitters integrators)
 foreach(registry IN LISTS REGISTRIES)
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${SHADER_ROOT}/${registry}/registry.h)
-  file(STRINGS ${SHADER_ROOT}/${registry}/registry.h rows REGEX "^  (X\\(|R\\(X, )[a-z_]+,")
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${SHADER_ROOT}/${registry}/rows.h)
+  file(STRINGS ${SHADER_ROOT}/${registry}/rows.h rows REGEX "^  (X\\(|R\\(X, )[a-z_]+,")
   string(REGEX REPLACE "  (X\\(|R\\(X, )([a-z_]+),[^;]*" "#include \"${registry}/\\2.glsl\"\n" includes "${rows}")
   string(REPLACE ";" "" includes "${includes}")
   file(CONFIGURE OUTPUT ${GENERATED}/${registry}/all.glsl CONTENT "${includes}")

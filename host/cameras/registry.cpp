@@ -1,6 +1,6 @@
 #include "host/cameras/registry.hpp"
 
-#include "shaders/cameras/registry.h"
+#include "shaders/cameras/rows.h"
 
 namespace eyeray::cameras {
 

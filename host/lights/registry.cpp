@@ -1,6 +1,6 @@
 #include "host/lights/registry.hpp"
 
-#include "shaders/lights/registry.h"
+#include "shaders/lights/rows.h"
 
 namespace eyeray::lights {
 

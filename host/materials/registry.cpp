@@ -1,6 +1,6 @@
 #include "host/materials/registry.hpp"
 
-#include "shaders/materials/registry.h"
+#include "shaders/materials/rows.h"
 
 namespace eyeray::materials {
 

@@ -5,15 +5,15 @@
 #pragma GCC diagnostic ignored "-Wpedantic"
 #include "shaders/records.h"
 #pragma GCC diagnostic pop
-#include "shaders/bsdf/registry.h"
-#include "shaders/cameras/registry.h"
-#include "shaders/emitters/registry.h"
-#include "shaders/integrators/registry.h"
-#include "shaders/lights/registry.h"
-#include "shaders/materials/registry.h"
-#include "shaders/samplers/registry.h"
-#include "shaders/shapes/registry.h"
-#include "shaders/textures/registry.h"
+#include "shaders/bsdf/rows.h"
+#include "shaders/cameras/rows.h"
+#include "shaders/emitters/rows.h"
+#include "shaders/integrators/rows.h"
+#include "shaders/lights/rows.h"
+#include "shaders/materials/rows.h"
+#include "shaders/samplers/rows.h"
+#include "shaders/shapes/rows.h"
+#include "shaders/textures/rows.h"
 
 namespace eyeray::shader {
 

@@ -1,5 +1,5 @@
 // What an integrator computes, in float64. An integrator is one .cpp here, one .glsl in shaders/integrators
-// and one row in integrators/registry.h.
+// and one row in integrators/rows.h.
 #pragma once
 
 #include <string_view>

@@ -1,5 +1,5 @@
 // Where in a pixel its samples lie, in float64. A sampler is one .cpp here, one .glsl in shaders/samplers and
-// one row in samplers/registry.h.
+// one row in samplers/rows.h.
 #pragma once
 
 #include <string_view>

@@ -1,5 +1,5 @@
 // What every camera answers, in float64. A camera is one .cpp in host/cameras, one .glsl in shaders/cameras
-// and one row in cameras/registry.h.
+// and one row in cameras/rows.h.
 #pragma once
 
 #include <memory>
@@ -73,7 +73,7 @@ class Projection {
  public:
   virtual ~Projection() = default;
 
-  // Its number in cameras/registry.h: shader::CAMERA_NAME.
+  // Its number in cameras/rows.h: shader::CAMERA_NAME.
   virtual uint32_t kind() const = 0;
   // What the shaders' `right`, `up` and `forward` are as multiples of the axes. X·right + Y·up, with X and Y
   // in [−1, 1], spans the picture.

@@ -1,11 +1,11 @@
-// The integrators that a scene may name: the rows of shaders/integrators/registry.h. What they compute is
+// The integrators that a scene may name: the rows of shaders/integrators/rows.h. What they compute is
 // said by reference/integrator.hpp, in float64.
 #pragma once
 
 #include <cstdint>
 #include <string_view>
 
-#include "shaders/integrators/registry.h"
+#include "shaders/integrators/rows.h"
 
 namespace eyeray {
 

@@ -1,5 +1,5 @@
 // What every light answers, in float64. A light is one .cpp in host/lights, one .glsl in shaders/lights and
-// one row in lights/registry.h.
+// one row in lights/rows.h.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
 // What every material answers, in float64. A material is one .cpp in host/materials, one .glsl in
-// shaders/materials and one row in materials/registry.h.
+// shaders/materials and one row in materials/rows.h.
 #pragma once
 
 #include <memory>

@@ -1,11 +1,11 @@
-// Where in a pixel its samples may lie: the rows of shaders/samplers/registry.h. reference/sampler.hpp has
+// Where in a pixel its samples may lie: the rows of shaders/samplers/rows.h. reference/sampler.hpp has
 // them in float64.
 #pragma once
 
 #include <cstdint>
 #include <string_view>
 
-#include "shaders/samplers/registry.h"
+#include "shaders/samplers/rows.h"
 
 namespace eyeray {
 

@@ -1,6 +1,6 @@
 // What every shape answers, in float64. A shape is one .cpp in host/shapes (manual page, parse, bounds,
 // float64 intersection, pack), one .glsl in shaders/shapes, one scene in scenes/shapes and one row in
-// shapes/registry.h.
+// shapes/rows.h.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // What every texture answers, in float64: a colour that may vary over a surface. A texture is one .cpp in
-// host/textures, one .glsl in shaders/textures and one row in textures/registry.h.
+// host/textures, one .glsl in shaders/textures and one row in textures/rows.h.
 #pragma once
 
 #include <cstdint>

@@ -1,10 +1,10 @@
-// The rows of shaders/textures/registry.h, for those who ask of no texture more than they say.
+// The rows of shaders/textures/rows.h, for those who ask of no texture more than they say.
 #pragma once
 
 #include <cstdint>
 #include <string_view>
 
-#include "shaders/textures/registry.h"
+#include "shaders/textures/rows.h"
 
 namespace eyeray {
 

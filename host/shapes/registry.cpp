@@ -1,6 +1,6 @@
 #include "host/shapes/registry.hpp"
 
-#include "shaders/shapes/registry.h"
+#include "shaders/shapes/rows.h"
 
 namespace eyeray::shapes {
 

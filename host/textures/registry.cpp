@@ -1,6 +1,6 @@
 #include "host/textures/registry.hpp"
 
-#include "shaders/textures/registry.h"
+#include "shaders/textures/rows.h"
 
 namespace eyeray::textures {
 

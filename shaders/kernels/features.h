@@ -144,7 +144,7 @@
 //   END_name
 //   UV_name
 
-// ---- The registries, with the rows alone that the scene needs. Default: registry.h of each ---------------------------
+// ---- The registries, with the rows alone that the scene needs. Default: rows.h of each ---------------------------
 //   SHAPES
 //   CLOSED_SHAPES      those that the scene's CSG objects are made of …
 //   IMMEDIATE_LEAVES   … of these those that are not deferred (shapes/csg.glsl)

@@ -1,7 +1,7 @@
 // From a texture and a place on a surface to its colour, or its alpha: asks the kind of texture, of those that the scene's materials have there.
 #ifndef TEXTURE_GLSL
 #define TEXTURE_GLSL
-#include "materials/registry.h"
+#include "materials/rows.h"
 #include "records.h"
 #include "textures/place.glsl"
 

@@ -16,13 +16,13 @@ const std::map<std::string, Links> all_layers = read_layers();
 // Which shader files a layer may include: the records have the ABI, the registries' rows are the host's too,
 // and the twin has everything.
 const std::map<std::string, std::regex> visible_shaders = {
-    {"records", std::regex(R"(shaders/(records\.h|[a-z]+/registry\.h))")},
-    {"shapes", std::regex(R"(shaders/shapes/registry\.h)")},
-    {"scene", std::regex(R"(shaders/(integrators|samplers|textures)/registry\.h)")},
-    {"textures", std::regex(R"(shaders/textures/registry\.h)")},
-    {"materials", std::regex(R"(shaders/materials/registry\.h)")},
-    {"lights", std::regex(R"(shaders/lights/registry\.h)")},
-    {"cameras", std::regex(R"(shaders/cameras/registry\.h)")},
+    {"records", std::regex(R"(shaders/(records\.h|[a-z]+/rows\.h))")},
+    {"shapes", std::regex(R"(shaders/shapes/rows\.h)")},
+    {"scene", std::regex(R"(shaders/(integrators|samplers|textures)/rows\.h)")},
+    {"textures", std::regex(R"(shaders/textures/rows\.h)")},
+    {"materials", std::regex(R"(shaders/materials/rows\.h)")},
+    {"lights", std::regex(R"(shaders/lights/rows\.h)")},
+    {"cameras", std::regex(R"(shaders/cameras/rows\.h)")},
     {"twin", std::regex(".*")},
     {"formula", std::regex(R"(shaders/(language\.h|math/formula\.glsl))")},
 };

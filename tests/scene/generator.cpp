@@ -16,7 +16,7 @@
 #include "host/materials/registry.hpp"
 #include "host/shapes/registry.hpp"
 #include "host/textures/registry.hpp"
-#include "shaders/shapes/registry.h"
+#include "shaders/shapes/rows.h"
 
 namespace eyeray::test {
 

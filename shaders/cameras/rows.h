@@ -1,4 +1,4 @@
-// Every kind of camera; see shapes/registry.h. A row says where in the picture the camera sees anything: all over the picture, in a
+// Every kind of camera; see shapes/rows.h. A row says where in the picture the camera sees anything: all over the picture, in a
 // circle, whose radius, as `across` has it, is the length of `forward`, or where NAME_sees says.
 #ifndef CAMERAS
 #define CAMERAS(X)               \

@@ -1,4 +1,4 @@
-// Every kind of light; see shapes/registry.h.
+// Every kind of light; see shapes/rows.h.
 #ifndef LIGHTS
 #define LIGHTS(X) \
   X(point, 0u)       \

@@ -1,4 +1,4 @@
-// Every kind of material; see shapes/registry.h.
+// Every kind of material; see shapes/rows.h.
 #ifndef MATERIALS
 #define MATERIALS(X) \
   X(phong, 0u)       \

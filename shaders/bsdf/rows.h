@@ -1,4 +1,4 @@
-// Every lobe of a BSDF; see shapes/registry.h. Of each, bsdf/NAME.glsl has
+// Every lobe of a BSDF; see shapes/rows.h. Of each, bsdf/NAME.glsl has
 //   vec3 NAME_albedo(Bsdf bsdf)                                            about how much light it sends towards the viewer
 //   LobeValue NAME_value(Bsdf bsdf, Directions at)
 //   vec3 NAME_direction(Bsdf bsdf, vec3 o, vec2 u, float part)             by that density; part: a third random number
