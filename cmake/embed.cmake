@@ -37,7 +37,7 @@ file(WRITE ${OUT} "// Made by cmake/embed.cmake.
 // Literals know their length: counting it is more than Clang does for a constant.
 using namespace std::string_view_literals;
 
-static constexpr eyeray::EmbeddedFile files[] = {
+static constexpr eyeray::engine::EmbeddedFile files[] = {
 ${rows}};
 
 namespace ${NAMESPACE} {

@@ -2,7 +2,6 @@
 # templates …) meets nothing of the program's own. `find_package(eyeray)` finds what is installed (docs/library.md).
 configure_file(include/eyeray/version.hpp.in ${GENERATED}/include/eyeray/version.hpp @ONLY)
 target_include_directories(library PUBLIC ${CMAKE_SOURCE_DIR}/include ${GENERATED}/include)
-target_compile_definitions(library PRIVATE EYERAY_ITSELF)
 if(NOT EYERAY_LIBRARY)
   return()
 endif()

@@ -41,5 +41,5 @@ endforeach()
 
 add_library(embedded_shaders STATIC)
 target_link_libraries(embedded_shaders PRIVATE eyeray_warnings)
-eyeray_embed(embedded_shaders eyeray::embedded_shaders "${SHADER_FILES}" "${SHADER_PATHS}")
-eyeray_embed(embedded_shaders eyeray::twin_sources "${TWIN_NAMES}" "${TWIN_PATHS}")
+eyeray_embed(embedded_shaders eyeray::engine::embedded_shaders "${SHADER_FILES}" "${SHADER_PATHS}")
+eyeray_embed(embedded_shaders eyeray::engine::twin_sources "${TWIN_NAMES}" "${TWIN_PATHS}")

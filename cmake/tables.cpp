@@ -11,7 +11,7 @@
 
 #include "host/core/parallel_for.hpp"
 
-using namespace eyeray;
+using namespace eyeray::engine;
 
 namespace {
 
@@ -51,7 +51,7 @@ std::vector<double> glass_row(int j) {
 int main(int count, char** arguments) {
   if (count != 2) return 2;
   std::ofstream out(arguments[1]);
-  out << "#include \"host/tables/albedos.hpp\"\nnamespace eyeray::tables {\n"
+  out << "#include \"host/tables/albedos.hpp\"\nnamespace eyeray::engine::tables {\n"
       << array("optics::GgxAlbedo", "ggx_numbers", tables::ggx_side,
                [](int j) { return optics::ggx_albedo_row(tables::ggx_side, j / (tables::ggx_side - 1.0)); })
       << array("optics::SheenAlbedo", "sheen_numbers", tables::sheen_side,

@@ -21,7 +21,7 @@ string(SHA256 sum "${sums}")
 file(CONFIGURE OUTPUT ${OUTPUT} @ONLY CONTENT [[
 #include "host/build/build_facts.hpp"
 
-namespace eyeray::build {
+namespace eyeray::engine::build {
 
 std::string_view version() {
   return "@VERSION@";
@@ -39,5 +39,5 @@ std::string_view documents_from_built() {
   return "@TREE@";
 }
 
-}  // namespace eyeray::build
+}  // namespace eyeray::engine::build
 ]])

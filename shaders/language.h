@@ -18,7 +18,7 @@
 #define UNROLL
 #define INLINE inline
 
-namespace eyeray::shader {
+namespace eyeray::engine::shader {
 
 using uint = uint32_t;
 using glm::uvec2;
@@ -35,9 +35,9 @@ inline uint floatBitsToUint(float x) { return __builtin_bit_cast(uint, x); }
 inline int floatBitsToInt(float x) { return __builtin_bit_cast(int, x); }
 inline float uintBitsToFloat(uint x) { return __builtin_bit_cast(float, x); }
 
-}  // namespace eyeray::shader
+}  // namespace eyeray::engine::shader
 
-#define SHADER_BEGIN namespace eyeray::shader {
+#define SHADER_BEGIN namespace eyeray::engine::shader {
 #define SHADER_END }
 
 #else

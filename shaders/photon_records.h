@@ -46,8 +46,8 @@ struct PhotonPass {
 SHADER_END
 
 #ifdef __cplusplus
-static_assert(sizeof(eyeray::shader::Photon) == 64);
-static_assert(sizeof(eyeray::shader::PhotonResult) == 16);
-static_assert(sizeof(eyeray::shader::PhotonPass) == 304);
+static_assert(sizeof(eyeray::engine::shader::Photon) == 64);
+static_assert(sizeof(eyeray::engine::shader::PhotonResult) == 16);
+static_assert(sizeof(eyeray::engine::shader::PhotonPass) == 304);
 #endif
 #endif

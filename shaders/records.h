@@ -337,16 +337,16 @@ struct Dispatch {
 SHADER_END
 
 #ifdef __cplusplus
-static_assert(sizeof(eyeray::shader::Primitive) == 64);
-static_assert(sizeof(eyeray::shader::Bvh) == 64);
-static_assert(sizeof(eyeray::shader::Instance) == 112);
-static_assert(sizeof(eyeray::shader::Material) == 160);
-static_assert(sizeof(eyeray::shader::Medium) == 32);
-static_assert(sizeof(eyeray::shader::Texture) == 64);
-static_assert(sizeof(eyeray::shader::Light) == 48);
-static_assert(sizeof(eyeray::shader::Emitter) == 96);
-static_assert(sizeof(eyeray::shader::LightNode) == 48);
-static_assert(sizeof(eyeray::shader::Frame) == 208);
-static_assert(sizeof(eyeray::shader::Dispatch) == 32);
+static_assert(sizeof(eyeray::engine::shader::Primitive) == 64);
+static_assert(sizeof(eyeray::engine::shader::Bvh) == 64);
+static_assert(sizeof(eyeray::engine::shader::Instance) == 112);
+static_assert(sizeof(eyeray::engine::shader::Material) == 160);
+static_assert(sizeof(eyeray::engine::shader::Medium) == 32);
+static_assert(sizeof(eyeray::engine::shader::Texture) == 64);
+static_assert(sizeof(eyeray::engine::shader::Light) == 48);
+static_assert(sizeof(eyeray::engine::shader::Emitter) == 96);
+static_assert(sizeof(eyeray::engine::shader::LightNode) == 48);
+static_assert(sizeof(eyeray::engine::shader::Frame) == 208);
+static_assert(sizeof(eyeray::engine::shader::Dispatch) == 32);
 #endif
 #endif

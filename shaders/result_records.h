@@ -136,13 +136,13 @@ struct ProbeRecord {
 SHADER_END
 
 #ifdef __cplusplus
-static_assert(sizeof(eyeray::shader::SampleResult) == 32);
-static_assert(sizeof(eyeray::shader::AuxiliaryResult) == 32);
-static_assert(sizeof(eyeray::shader::HitResult) == 80);
-static_assert(sizeof(eyeray::shader::QueryRay) == 32);
-static_assert(sizeof(eyeray::shader::QueryHit) == 16);
-static_assert(sizeof(eyeray::shader::PacketHit) == 32);
-static_assert(sizeof(eyeray::shader::PathState) == 64);
-static_assert(sizeof(eyeray::shader::ProbeRecord) == 32);
+static_assert(sizeof(eyeray::engine::shader::SampleResult) == 32);
+static_assert(sizeof(eyeray::engine::shader::AuxiliaryResult) == 32);
+static_assert(sizeof(eyeray::engine::shader::HitResult) == 80);
+static_assert(sizeof(eyeray::engine::shader::QueryRay) == 32);
+static_assert(sizeof(eyeray::engine::shader::QueryHit) == 16);
+static_assert(sizeof(eyeray::engine::shader::PacketHit) == 32);
+static_assert(sizeof(eyeray::engine::shader::PathState) == 64);
+static_assert(sizeof(eyeray::engine::shader::ProbeRecord) == 32);
 #endif
 #endif

@@ -10,7 +10,7 @@
 #include "host/scene/affine.hpp"
 #include "host/scene/primitive_ids.hpp"
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 namespace {
 
 constexpr int block = 8;
@@ -126,4 +126,4 @@ Batch bounce_batch(std::span<const SurfacePosition> surface_positions, uint32_t 
   return batch;
 }
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

@@ -8,7 +8,7 @@
 #include "host/scene/query.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 
 struct Batch {
   std::string name;
@@ -37,4 +37,4 @@ Batch shadow_batch(const Scene& scene, std::span<const SurfacePosition> surface_
 // From each surface position into one direction, distributed as the cosine to its normal.
 Batch bounce_batch(std::span<const SurfacePosition> surface_positions, uint32_t seed);
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

@@ -13,7 +13,7 @@
 
 namespace fs = std::filesystem;
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 namespace {
 
 // More primitives would take POV-Ray gigabytes and a minute to parse.
@@ -139,4 +139,4 @@ std::string changes(const Report& old, const Report& now) {
          path_changes(old.paths, now.paths);
 }
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

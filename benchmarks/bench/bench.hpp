@@ -14,7 +14,7 @@
 #include "benchmarks/bench/paths.hpp"
 #include "benchmarks/bench/pictures.hpp"
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 
 // Measured beside the standard scenes when none is named, where it is there.
 inline constexpr std::string_view default_scene = "scenes/whitted.toml";
@@ -57,4 +57,4 @@ Report read_report(const std::filesystem::path& file);
 // What changed from `old` to `now`: a line for each contender that both have; "" when there is none.
 std::string changes(const Report& old, const Report& now);
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

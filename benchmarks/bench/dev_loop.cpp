@@ -18,7 +18,7 @@
 #include "host/core/termination.hpp"
 #include "host/dev/supervisor.hpp"
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 namespace {
 
 namespace fs = std::filesystem;
@@ -277,4 +277,4 @@ nlohmann::ordered_json to_json(const DevLoopReport& report) {
           {"formula", list(report.formula)}};
 }
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

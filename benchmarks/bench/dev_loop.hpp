@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 
 // One save, in seconds.
 struct Edit {
@@ -31,4 +31,4 @@ std::string to_text(const DevLoopReport& report);
 // "scene": […], "formula": […]}, seconds.
 nlohmann::ordered_json to_json(const DevLoopReport& report);
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

@@ -1,6 +1,6 @@
 #include "benchmarks/bench/field.hpp"
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 
 double rate(const BatchReport& batch, const Timing& timing) {
   return timing.seconds.median > 0 ? double(batch.rays) / timing.seconds.median : 0;
@@ -19,4 +19,4 @@ double times_as_fast(const BatchReport& batch, const Timing& timing, ContenderKi
   return other && timing.seconds.median > 0 ? other->seconds.median / timing.seconds.median : 0;
 }
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

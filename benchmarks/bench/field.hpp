@@ -8,7 +8,7 @@
 
 #include "benchmarks/bench/race.hpp"
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 
 struct BatchReport {
   std::string name;  // primary, shadow, bounce
@@ -51,4 +51,4 @@ std::string to_text(const FieldReport& report);
 // a batch.
 std::string changes(const FieldReport& old, const FieldReport& report);
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

@@ -5,7 +5,7 @@
 #include "host/core/error.hpp"
 #include "host/core/json_depth.hpp"
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 
 // Beside the type, where the library looks for it.
 NLOHMANN_JSON_SERIALIZE_ENUM(ContenderKind, {{ContenderKind::ours, "ours"},
@@ -82,4 +82,4 @@ FieldReport read_field_report(const std::filesystem::path& file) {
   }
 }
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

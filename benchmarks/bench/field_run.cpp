@@ -2,7 +2,7 @@
 
 #include "benchmarks/contenders/embree.hpp"
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 namespace {
 
 Contender contender(const contenders::Embree& embree, contenders::EmbreeCalls calls) {
@@ -40,4 +40,4 @@ SceneReport run_field(const std::string& name, const std::string& family, const 
   return report;
 }
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

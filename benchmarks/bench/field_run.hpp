@@ -2,7 +2,7 @@
 
 #include "benchmarks/bench/field.hpp"
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 
 struct FieldOptions {
   int width = 1024;  // of the picture whose eye rays are traced
@@ -16,4 +16,4 @@ struct FieldOptions {
 SceneReport run_field(const std::string& name, const std::string& family, const Scene& scene,
                       const FieldOptions& options, std::span<const Contender> ours);
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

@@ -5,7 +5,7 @@
 
 #include "benchmarks/bench/field.hpp"
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 namespace {
 
 std::string millions(double rays_per_second) {
@@ -88,4 +88,4 @@ std::string changes(const FieldReport& old, const FieldReport& report) {
   return text;
 }
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

@@ -2,7 +2,7 @@
 
 #include "host/core/stopwatch.hpp"
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 
 OwnContenders::OwnContenders(const Scene& scene, const std::vector<std::string>& backends,
                              const std::vector<std::string>& incoherent, const std::string& device) {
@@ -46,4 +46,4 @@ std::vector<Build> OwnContenders::builds() const {
   return builds;
 }
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

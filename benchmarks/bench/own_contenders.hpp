@@ -8,7 +8,7 @@
 #include "benchmarks/bench/field.hpp"
 #include "host/executors/executor.hpp"
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 
 class OwnContenders {
  public:
@@ -30,4 +30,4 @@ class OwnContenders {
   std::vector<double> seconds_;  // that making each took
 };
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

@@ -6,7 +6,7 @@
 #include "host/core/error.hpp"
 #include "host/core/json_depth.hpp"
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -94,4 +94,4 @@ std::vector<PathReport> read_path_reports(const std::filesystem::path& file) {
   }
 }
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

@@ -20,7 +20,7 @@
 
 namespace fs = std::filesystem;
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 namespace {
 
 constexpr int least_samples = 4;
@@ -252,4 +252,4 @@ PathReport measure_paths(const std::string& scene_file, const PathOptions& optio
   return report;
 }
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

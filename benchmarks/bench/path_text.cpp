@@ -6,7 +6,7 @@
 
 #include "benchmarks/bench/paths.hpp"
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 namespace {
 
 void add_path_row(std::string& text, const char* name, const PathSeries& series,
@@ -112,4 +112,4 @@ std::string path_changes(const std::vector<PathReport>& old, const std::vector<P
   return text;
 }
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

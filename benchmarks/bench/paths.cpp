@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 namespace {
 
 // y at x on the straight line through two points, all of it logarithms.
@@ -50,4 +50,4 @@ EqualTime at_equal_time(const PathSeries& first, const PathSeries& second) {
   return {processor, std::sqrt(first.error_after(processor) / second.error_after(processor))};
 }
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

@@ -10,7 +10,7 @@
 
 #include "benchmarks/bench/spread.hpp"
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 
 struct PathOptions {
   std::vector<std::string> defines;  // -D of render
@@ -99,4 +99,4 @@ std::vector<PathReport> read_path_reports(const std::filesystem::path& file);
 // A line for rays and error of each series that both have with as many samples.
 std::string path_changes(const std::vector<PathReport>& old, const std::vector<PathReport>& now);
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

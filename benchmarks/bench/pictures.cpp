@@ -9,7 +9,7 @@
 
 namespace fs = std::filesystem;
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 namespace {
 
 // What takes longer is run once: POV-Ray parses a million triangles anew each time.
@@ -116,4 +116,4 @@ PictureReport measure_pictures(const std::string& name, const fs::path& scene,
   return report;
 }
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

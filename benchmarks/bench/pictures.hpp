@@ -11,7 +11,7 @@
 
 #include "benchmarks/bench/spread.hpp"
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 
 struct PictureOptions {
   std::vector<std::string> backends{"gpu"};
@@ -66,4 +66,4 @@ std::vector<PictureReport> read_picture_reports(const std::filesystem::path& fil
 // of another size or other samples are not compared.
 std::string picture_changes(const std::vector<PictureReport>& old, const std::vector<PictureReport>& now);
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

@@ -6,7 +6,7 @@
 #include "host/core/error.hpp"
 #include "host/core/json_depth.hpp"
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -68,4 +68,4 @@ std::vector<PictureReport> read_picture_reports(const std::filesystem::path& fil
   }
 }
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

@@ -5,7 +5,7 @@
 #include "benchmarks/bench/pictures.hpp"
 #include "host/core/readable.hpp"
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 namespace {
 
 // As measure_pictures names them.
@@ -88,4 +88,4 @@ std::string picture_changes(const std::vector<PictureReport>& old, const std::ve
   return text;
 }
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

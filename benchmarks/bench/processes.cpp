@@ -9,7 +9,7 @@
 #include "host/core/scratch_folder.hpp"
 #include "host/core/termination.hpp"
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -107,4 +107,4 @@ nlohmann::ordered_json to_json(const ProcessReport& report) {
   return json;
 }
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

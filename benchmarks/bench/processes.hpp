@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 
 // Seconds, from the start of the first process to the end of the last; one runs after the other.
 struct ProcessCost {
@@ -39,4 +39,4 @@ ProcessReport measure_shards(const std::filesystem::path& scene, int shards, int
 std::string to_text(const ProcessReport& report);
 nlohmann::ordered_json to_json(const ProcessReport& report);
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

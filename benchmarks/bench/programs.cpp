@@ -9,7 +9,7 @@
 
 namespace fs = std::filesystem;
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 namespace {
 
 constexpr double longest_run_seconds = 3600;
@@ -151,4 +151,4 @@ TimedRun run_cycles(const fs::path& script, int samples, int seed, const fs::pat
   return run;
 }
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

@@ -10,7 +10,7 @@
 #include "benchmarks/bench/spread.hpp"
 #include "host/core/process.hpp"
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 
 // What one run took.
 struct TimedRun {
@@ -58,4 +58,4 @@ TimedRun run_povray_radiosity(const std::filesystem::path& scene, int width, int
 TimedRun run_cycles(const std::filesystem::path& script, int samples, int seed,
                     const std::filesystem::path& output);
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

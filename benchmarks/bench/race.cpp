@@ -6,7 +6,7 @@
 #include "host/core/error.hpp"
 #include "host/core/termination.hpp"
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 
 bool agree(const QueryHit& a, const QueryHit& b) {
   if (std::isinf(a.t) || std::isinf(b.t)) return std::isinf(a.t) && std::isinf(b.t);
@@ -34,4 +34,4 @@ std::vector<Timing> race(const Batch& batch, std::span<const Contender> contende
   return timings;
 }
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

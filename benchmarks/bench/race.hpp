@@ -9,7 +9,7 @@
 #include "benchmarks/bench/batch.hpp"
 #include "benchmarks/bench/spread.hpp"
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 
 enum class ContenderKind {
   ours,
@@ -39,4 +39,4 @@ bool agree(const QueryHit& a, const QueryHit& b);
 // Ctrl-C.
 std::vector<Timing> race(const Batch& batch, std::span<const Contender> contenders, int runs);
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

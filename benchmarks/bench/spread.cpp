@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 
 Spread spread(std::vector<double> values) {
   if (values.empty()) return {};
@@ -12,4 +12,4 @@ Spread spread(std::vector<double> values) {
   return {median, values.front(), values.back()};
 }
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 
 // Median and extremes of something measured several times.
 struct Spread {
@@ -14,4 +14,4 @@ struct Spread {
 // All zero for no values.
 Spread spread(std::vector<double> values);
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

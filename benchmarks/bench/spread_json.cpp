@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 
 nlohmann::ordered_json to_json(const Spread& spread) {
   return {{"median", spread.median}, {"min", spread.min}, {"max", spread.max}};
@@ -12,4 +12,4 @@ Spread spread_from(const nlohmann::ordered_json& json) {
   return {json.at("median"), json.at("min"), json.at("max")};
 }
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

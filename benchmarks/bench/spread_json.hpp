@@ -4,9 +4,9 @@
 
 #include "benchmarks/bench/spread.hpp"
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 
 nlohmann::ordered_json to_json(const Spread& spread);
 Spread spread_from(const nlohmann::ordered_json& json);
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

@@ -10,7 +10,7 @@
 #include "host/generate/terrain.hpp"
 #include "host/loader/scene_file.hpp"
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 
 namespace fs = std::filesystem;
 
@@ -98,4 +98,4 @@ const StandardScene* find_standard_scene(std::string_view name) {
   return found == std::end(scenes) ? nullptr : &*found;
 }
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

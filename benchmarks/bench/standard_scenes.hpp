@@ -9,7 +9,7 @@
 
 #include "host/scene/scene.hpp"
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 
 struct StandardScene {
   std::string_view name;    // "terrain-1m"
@@ -23,4 +23,4 @@ std::span<const StandardScene> standard_scenes();
 // nullptr for another name.
 const StandardScene* find_standard_scene(std::string_view name);
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 namespace {
 
 // The continued fraction of the incomplete beta function, by Lentz' method (DLMF 8.17.22).
@@ -66,4 +66,4 @@ WelchTest welch(const Moments& a, const Moments& b) {
   return test;
 }
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

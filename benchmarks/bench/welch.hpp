@@ -3,7 +3,7 @@
 
 #include <span>
 
-namespace eyeray::bench {
+namespace eyeray::engine::bench {
 
 struct Moments {
   double mean = 0;
@@ -24,4 +24,4 @@ WelchTest welch(const Moments& a, const Moments& b);
 // How likely |t| or more is with so many degrees of freedom: Student's distribution, both sides.
 double student_tails(double t, double freedom);
 
-}  // namespace eyeray::bench
+}  // namespace eyeray::engine::bench

@@ -19,7 +19,7 @@
 #include "host/program/option_values.hpp"
 #include "host/program/usage.hpp"
 
-namespace eyeray::bench_cli {
+namespace eyeray::engine::bench_cli {
 namespace {
 
 using namespace program;
@@ -216,8 +216,9 @@ int run_command_line(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace eyeray::bench_cli
+}  // namespace eyeray::engine::bench_cli
 
 int main(int argc, char** argv) {
-  return eyeray::program::run_main(argc, argv, "eyeray-bench", eyeray::bench_cli::run_command_line);
+  return eyeray::engine::program::run_main(argc, argv, "eyeray-bench",
+                                           eyeray::engine::bench_cli::run_command_line);
 }

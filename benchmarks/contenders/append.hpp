@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-namespace eyeray::contenders {
+namespace eyeray::engine::contenders {
 
 // Formats onto the end of a string.
 template <typename... Args>
@@ -14,4 +14,4 @@ void append(std::string& text, fmt::format_string<Args...> format, Args&&... arg
   fmt::format_to(std::back_inserter(text), format, std::forward<Args>(args)...);
 }
 
-}  // namespace eyeray::contenders
+}  // namespace eyeray::engine::contenders

@@ -12,7 +12,7 @@
 #include "host/scene/affine.hpp"
 #include "host/scene/environment.hpp"
 
-namespace eyeray::contenders {
+namespace eyeray::engine::contenders {
 
 std::span<const EmbeddedFile> script_files();  // cycles.py
 
@@ -279,4 +279,4 @@ std::optional<image::Image> cycles_environment(const Scene& scene) {
   return picture;
 }
 
-}  // namespace eyeray::contenders
+}  // namespace eyeray::engine::contenders

@@ -6,7 +6,7 @@
 #include "host/image/image.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray::contenders {
+namespace eyeray::engine::contenders {
 
 // The name under which Blender looks for the environment, in the folder of its script.
 inline constexpr std::string_view cycles_environment_file = "environment.exr";
@@ -23,4 +23,4 @@ std::string cycles_scene(const Scene& scene, int width, int height);
 // What the script takes for the environment; nothing where there is none.
 std::optional<image::Image> cycles_environment(const Scene& scene);
 
-}  // namespace eyeray::contenders
+}  // namespace eyeray::engine::contenders

@@ -5,13 +5,13 @@
 
 #include <limits>
 
-#include "host/bvh/embree_version.hpp"
 #include "benchmarks/contenders/embree_world.hpp"
+#include "host/bvh/embree_version.hpp"
 #include "host/core/error.hpp"
 #include "host/core/parallel_for.hpp"
 #include "host/core/stopwatch.hpp"
 
-namespace eyeray::contenders {
+namespace eyeray::engine::contenders {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -267,4 +267,4 @@ std::string Embree::version() {
   return "Embree " RTC_VERSION_STRING;
 }
 
-}  // namespace eyeray::contenders
+}  // namespace eyeray::engine::contenders

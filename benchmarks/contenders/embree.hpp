@@ -9,7 +9,7 @@
 #include "host/scene/query.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray::contenders {
+namespace eyeray::engine::contenders {
 
 class EmbreeWorld;
 
@@ -42,4 +42,4 @@ class Embree {
   std::unique_ptr<EmbreeWorld> world_;
 };
 
-}  // namespace eyeray::contenders
+}  // namespace eyeray::engine::contenders

@@ -6,7 +6,7 @@
 #include "host/core/error.hpp"
 #include "host/core/stopwatch.hpp"
 
-namespace eyeray::contenders {
+namespace eyeray::engine::contenders {
 namespace {
 
 // Set while a faulty call is on its way back to us.
@@ -168,4 +168,4 @@ void EmbreeWorld::add_meshes(const Scene& scene) {
   }
 }
 
-}  // namespace eyeray::contenders
+}  // namespace eyeray::engine::contenders

@@ -11,7 +11,7 @@ struct RTCDeviceTy;
 struct RTCSceneTy;
 struct RTCGeometryTy;
 
-namespace eyeray::contenders {
+namespace eyeray::engine::contenders {
 
 struct EmbreeRelease {
   void operator()(RTCDeviceTy* device) const;
@@ -59,4 +59,4 @@ class EmbreeWorld {
   std::vector<std::unique_ptr<RTCSceneTy, EmbreeRelease>> meshes_;  // those with several instances
 };
 
-}  // namespace eyeray::contenders
+}  // namespace eyeray::engine::contenders

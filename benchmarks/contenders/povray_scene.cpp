@@ -5,7 +5,7 @@
 #include "benchmarks/contenders/append.hpp"
 #include "host/core/error.hpp"
 
-namespace eyeray::contenders {
+namespace eyeray::engine::contenders {
 namespace {
 
 std::string vector(const Vec3& v) {
@@ -292,4 +292,4 @@ std::string povray_radiosity(const Scene& scene, int width, int height) {
   return written(scene, width, height, true);
 }
 
-}  // namespace eyeray::contenders
+}  // namespace eyeray::engine::contenders

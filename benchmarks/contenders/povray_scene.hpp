@@ -4,7 +4,7 @@
 
 #include "host/scene/scene.hpp"
 
-namespace eyeray::contenders {
+namespace eyeray::engine::contenders {
 
 // The scene in POV-Ray 3.7's language, for a picture of width × height: geometry, camera, lights and depth
 // are the same, and so is what phong and mirror materials scatter, but for textures (their colour at uv 0
@@ -15,4 +15,4 @@ std::string povray_scene(const Scene& scene, int width, int height);
 // for an environment as well.
 std::string povray_radiosity(const Scene& scene, int width, int height);
 
-}  // namespace eyeray::contenders
+}  // namespace eyeray::engine::contenders

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-namespace eyeray::build {
+namespace eyeray::engine::build {
 
 // "0.1.0".
 std::string_view version();
@@ -17,4 +17,4 @@ std::string_view sum_of_sources();
 std::string_view documents_from_installed();
 std::string_view documents_from_built();
 
-}  // namespace eyeray::build
+}  // namespace eyeray::engine::build

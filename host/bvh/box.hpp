@@ -6,7 +6,7 @@
 #include <glm/glm.hpp>
 #include <limits>
 
-namespace eyeray::bvh {
+namespace eyeray::engine::bvh {
 
 struct Box {
   glm::vec3 lower{std::numeric_limits<float>::infinity()};
@@ -33,4 +33,4 @@ struct Box {
   }
 };
 
-}  // namespace eyeray::bvh
+}  // namespace eyeray::engine::bvh

@@ -10,7 +10,7 @@
 #include "host/core/free_memory.hpp"
 #include "host/core/parallel_for.hpp"
 
-namespace eyeray::bvh {
+namespace eyeray::engine::bvh {
 namespace {
 
 // How much more a test of an item costs than one of a node's two boxes.
@@ -265,4 +265,4 @@ Bvh build_bvh(std::span<const Box> boxes, const BvhOptions& options) {
   return Flattener(boxes, static_cast<const BuildInner*>(root)).take();
 }
 
-}  // namespace eyeray::bvh
+}  // namespace eyeray::engine::bvh

@@ -11,7 +11,7 @@
 #include "host/bvh/box.hpp"
 #include "host/core/raw_vector.hpp"
 
-namespace eyeray::bvh {
+namespace eyeray::engine::bvh {
 
 inline constexpr uint32_t most_in_leaf = 4;
 
@@ -49,4 +49,4 @@ struct BvhOptions {
 // Parallel, and yet the same BVH every time.
 Bvh build_bvh(std::span<const Box> boxes, const BvhOptions& options = {});
 
-}  // namespace eyeray::bvh
+}  // namespace eyeray::engine::bvh

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace eyeray::bvh {
+namespace eyeray::engine::bvh {
 namespace {
 
 // A refitted BVH is kept while it costs rays no more than this times what it did when it was built.
@@ -69,4 +69,4 @@ Bvh BvhHistory::build(std::span<const Box> boxes, const BvhOptions& options) {
   return built;
 }
 
-}  // namespace eyeray::bvh
+}  // namespace eyeray::engine::bvh

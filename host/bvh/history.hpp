@@ -7,7 +7,7 @@
 
 #include "host/bvh/bvh.hpp"
 
-namespace eyeray::bvh {
+namespace eyeray::engine::bvh {
 
 // The surface area heuristic's cost of a ray that hits the root: nodes visited, and items tested.
 double sah_cost(const Bvh& bvh);
@@ -36,4 +36,4 @@ class BvhHistory {
   size_t next_ = 0;
 };
 
-}  // namespace eyeray::bvh
+}  // namespace eyeray::engine::bvh

@@ -4,7 +4,7 @@
 #include "host/cameras/round.hpp"
 #include "host/records/records.hpp"
 
-namespace eyeray::cameras {
+namespace eyeray::engine::cameras {
 
 extern const CameraType cylindrical_type;
 
@@ -64,4 +64,4 @@ std::shared_ptr<const Projection> make_projection(const CylindricalCamera& value
   return std::make_shared<Cylindrical>(values);
 }
 
-}  // namespace eyeray::cameras
+}  // namespace eyeray::engine::cameras

@@ -8,7 +8,7 @@
 #include "host/cameras/registry.hpp"
 #include "host/records/records.hpp"
 
-namespace eyeray::cameras {
+namespace eyeray::engine::cameras {
 
 extern const CameraType fisheye_type;
 
@@ -109,4 +109,4 @@ std::shared_ptr<const Projection> make_projection(const FisheyeCamera& values) {
   return std::make_shared<Fisheye>(values);
 }
 
-}  // namespace eyeray::cameras
+}  // namespace eyeray::engine::cameras

@@ -7,7 +7,7 @@
 #include "host/reading/formula_reader.hpp"
 #include "host/records/records.hpp"
 
-namespace eyeray::cameras {
+namespace eyeray::engine::cameras {
 
 extern const CameraType formula_type;
 
@@ -114,4 +114,4 @@ std::shared_ptr<const Projection> make_projection(std::shared_ptr<const formula:
   return std::make_shared<FormulaProjection>(std::move(formula), 1);
 }
 
-}  // namespace eyeray::cameras
+}  // namespace eyeray::engine::cameras

@@ -3,7 +3,7 @@
 
 #include "host/scene/camera.hpp"
 
-namespace eyeray::cameras {
+namespace eyeray::engine::cameras {
 
 std::shared_ptr<const Projection> make_projection(const PerspectiveCamera& values);
 std::shared_ptr<const Projection> make_projection(const OrthographicCamera& values);
@@ -13,4 +13,4 @@ std::shared_ptr<const Projection> make_projection(const CylindricalCamera& value
 // `formula`: a camera's.
 std::shared_ptr<const Projection> make_projection(std::shared_ptr<const formula::Formula> formula);
 
-}  // namespace eyeray::cameras
+}  // namespace eyeray::engine::cameras

@@ -4,7 +4,7 @@
 #include "host/cameras/registry.hpp"
 #include "host/records/records.hpp"
 
-namespace eyeray::cameras {
+namespace eyeray::engine::cameras {
 
 extern const CameraType orthographic_type;
 
@@ -73,4 +73,4 @@ std::shared_ptr<const Projection> make_projection(const OrthographicCamera& valu
   return std::make_shared<Orthographic>(values);
 }
 
-}  // namespace eyeray::cameras
+}  // namespace eyeray::engine::cameras

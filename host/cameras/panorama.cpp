@@ -4,7 +4,7 @@
 #include "host/cameras/round.hpp"
 #include "host/records/records.hpp"
 
-namespace eyeray::cameras {
+namespace eyeray::engine::cameras {
 
 extern const CameraType panorama_type;
 
@@ -63,4 +63,4 @@ std::shared_ptr<const Projection> make_projection(const PanoramaCamera& values) 
   return std::make_shared<Panorama>(values);
 }
 
-}  // namespace eyeray::cameras
+}  // namespace eyeray::engine::cameras

@@ -8,7 +8,7 @@
 #include "host/cameras/registry.hpp"
 #include "host/records/records.hpp"
 
-namespace eyeray::cameras {
+namespace eyeray::engine::cameras {
 
 extern const CameraType perspective_type;
 
@@ -189,4 +189,4 @@ std::shared_ptr<const Projection> make_projection(const PerspectiveCamera& value
   return std::make_shared<Perspective>(values);
 }
 
-}  // namespace eyeray::cameras
+}  // namespace eyeray::engine::cameras

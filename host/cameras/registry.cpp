@@ -2,7 +2,7 @@
 
 #include "shaders/cameras/rows.h"
 
-namespace eyeray::cameras {
+namespace eyeray::engine::cameras {
 
 // Each camera's .cpp defines its own; one that is missing is a link error that bears its name.
 #define X(name, ...) extern const CameraType name##_type;
@@ -16,4 +16,4 @@ std::span<const CameraType* const> types() {
   return types;
 }
 
-}  // namespace eyeray::cameras
+}  // namespace eyeray::engine::cameras

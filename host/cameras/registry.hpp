@@ -8,7 +8,7 @@
 #include "host/reading/table_reader.hpp"
 #include "host/scene/camera.hpp"
 
-namespace eyeray::cameras {
+namespace eyeray::engine::cameras {
 
 // The words that each kind declares its keys with, and reads them.
 using reading::Key, reading::KeyType, reading::TableReader;
@@ -23,4 +23,4 @@ struct CameraType {
 // Every kind of camera, in registry order.
 std::span<const CameraType* const> types();
 
-}  // namespace eyeray::cameras
+}  // namespace eyeray::engine::cameras

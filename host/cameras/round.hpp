@@ -5,7 +5,7 @@
 
 #include "host/cameras/make.hpp"
 
-namespace eyeray::cameras {
+namespace eyeray::engine::cameras {
 
 // Form: the camera's values, whose one number is `fov_degrees`.
 template <class Form>
@@ -35,4 +35,4 @@ class RoundProjection : public Projection {
   Form values_;
 };
 
-}  // namespace eyeray::cameras
+}  // namespace eyeray::engine::cameras

@@ -9,7 +9,7 @@
 #include "host/core/make_folder.hpp"
 #include "host/program/option_values.hpp"
 
-namespace eyeray::cli {
+namespace eyeray::engine::cli {
 namespace {
 
 ExitCode print_completion(const CLI::App& app, const std::string& shell) {
@@ -53,4 +53,4 @@ void add_manual(CLI::App& app, Run& run) {
   command->callback([&app, folder, &run] { run = [&app, folder] { return write_manual(app, *folder); }; });
 }
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::engine::cli

@@ -20,7 +20,7 @@
 #include "host/scene/sampler.hpp"
 #include "host/shapes/registry.hpp"
 
-namespace eyeray::cli {
+namespace eyeray::engine::cli {
 namespace {
 
 struct CheckCommand {
@@ -304,4 +304,4 @@ void add_check(CLI::App& app, Run& run) {
   command->callback([options, &run] { run = [options] { return options->run(); }; });
 }
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::engine::cli

@@ -23,7 +23,7 @@ namespace CLI {
 class App;  // a second or more to compile: <CLI/CLI.hpp> is for the .cpp files that describe options
 }
 
-namespace eyeray::cli {
+namespace eyeray::engine::cli {
 
 using namespace program;
 
@@ -100,4 +100,4 @@ void add_crop_option(CLI::App& command, Rect& crop);
 // a terminal then shows that kernels compile.
 std::function<void(const render::Progress&)> progress_reporter(bool quiet);
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::engine::cli

@@ -13,7 +13,7 @@
 #include "host/program/json.hpp"
 #include "host/program/option_values.hpp"
 
-namespace eyeray::cli {
+namespace eyeray::engine::cli {
 namespace {
 
 struct CompareCommand {
@@ -224,4 +224,4 @@ void add_compare(CLI::App& app, Run& run) {
   command->callback([options, &run] { run = [options] { return options->run(); }; });
 }
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::engine::cli

@@ -7,7 +7,7 @@
 #include "host/cli/option_table.hpp"
 #include "host/core/escaped_text.hpp"
 
-namespace eyeray::cli {
+namespace eyeray::engine::cli {
 namespace {
 
 // The first sentence of a description, for lists of completions.
@@ -176,4 +176,4 @@ std::string fish_completion(const CommandRow& table) {
   return text;
 }
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::engine::cli

@@ -16,7 +16,7 @@
 #include "host/image/image_file.hpp"
 #include "host/program/json.hpp"
 
-namespace eyeray::cli {
+namespace eyeray::engine::cli {
 namespace {
 
 constexpr int usual_port = 7447;
@@ -199,4 +199,4 @@ void add_dev(CLI::App& app, Run& run) {
   command->callback([options, &run] { run = [options] { return options->run(); }; });
 }
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::engine::cli

@@ -8,7 +8,7 @@
 #include "host/gpu/device.hpp"
 #include "host/program/json.hpp"
 
-namespace eyeray::cli {
+namespace eyeray::engine::cli {
 namespace {
 
 std::string_view type_name(gpu::DeviceType type) {
@@ -95,4 +95,4 @@ void add_devices(CLI::App& app, Run& run) {
   command->callback([json, &run] { run = [json] { return list(*json); }; });
 }
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::engine::cli

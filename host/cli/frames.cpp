@@ -16,7 +16,7 @@
 
 namespace fs = std::filesystem;
 
-namespace eyeray::cli {
+namespace eyeray::engine::cli {
 namespace {
 
 constexpr int most_frames_at_once = 1'000'000;
@@ -129,4 +129,4 @@ void make_video(const std::vector<fs::path>& pictures, double frames_per_second,
               result.err.empty() ? "it says nothing" : result.err.substr(0, 500));
 }
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::engine::cli

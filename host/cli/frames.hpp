@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace eyeray::cli {
+namespace eyeray::engine::cli {
 
 // "0:48", or "0:48:2" for every second one, as their numbers, the last with them. Error (bad_input) for
 // anything else, and for more than a million.
@@ -24,4 +24,4 @@ void check_video(const std::string& output);
 void make_video(const std::vector<std::filesystem::path>& pictures, double frames_per_second,
                 const std::string& output);
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::engine::cli

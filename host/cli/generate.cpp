@@ -7,7 +7,7 @@
 #include "host/image/image_file.hpp"
 #include "host/program/option_values.hpp"
 
-namespace eyeray::cli {
+namespace eyeray::engine::cli {
 namespace {
 
 // Beyond, the spheres' TOML is larger than the loader reads.
@@ -162,4 +162,4 @@ void add_generate(CLI::App& app, Run& run) {
       "         eyeray generate sphereflake -o balls.toml");
 }
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::engine::cli

@@ -16,7 +16,7 @@
 
 namespace fs = std::filesystem;
 
-namespace eyeray::cli {
+namespace eyeray::engine::cli {
 namespace {
 
 constexpr std::string_view made_by = "Made by eyeray generate";
@@ -98,4 +98,4 @@ void write_generated(const GenerateOutput& output, bool with_mesh, const std::fu
   report(output, made, mesh, mesh.bytes + scene.size(), watch.seconds());
 }
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::engine::cli

@@ -9,7 +9,7 @@
 
 #include "host/generate/mesh_sink.hpp"
 
-namespace eyeray::cli {
+namespace eyeray::engine::cli {
 
 struct GenerateOutput {
   std::filesystem::path scene;
@@ -40,4 +40,4 @@ void check_triangles(double triangles);
 // somebody else made, unless forced.
 void write_generated(const GenerateOutput& output, bool with_mesh, const std::function<Generated()>& make);
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::engine::cli

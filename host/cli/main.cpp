@@ -7,7 +7,7 @@
 #include "host/program/main.hpp"
 #include "host/program/usage.hpp"
 
-namespace eyeray::cli {
+namespace eyeray::engine::cli {
 namespace {
 
 constexpr const char* footer =
@@ -83,8 +83,8 @@ int run_command_line(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace eyeray::cli
+}  // namespace eyeray::engine::cli
 
 int main(int argc, char** argv) {
-  return eyeray::program::run_main(argc, argv, "eyeray", eyeray::cli::run_command_line);
+  return eyeray::engine::program::run_main(argc, argv, "eyeray", eyeray::engine::cli::run_command_line);
 }

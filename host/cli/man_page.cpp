@@ -5,7 +5,7 @@
 
 #include "host/cli/option_table.hpp"
 
-namespace eyeray::cli {
+namespace eyeray::engine::cli {
 namespace {
 
 // Text as roff prints it: no command at the start of a line, no hyphen that a terminal would change.
@@ -97,4 +97,4 @@ std::string man_page(const CommandRow& command) {
   return text + see_also(command);
 }
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::engine::cli

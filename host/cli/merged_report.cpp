@@ -11,7 +11,7 @@
 #include "host/core/json_number.hpp"
 #include "host/shards/part_set.hpp"
 
-namespace eyeray::cli {
+namespace eyeray::engine::cli {
 namespace {
 
 struct ShardReport {
@@ -90,4 +90,4 @@ Json merged_report(const std::vector<std::string>& files) {
   return {{"passed", passed && all > 0}, {"scenes", std::move(scenes)}};
 }
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::engine::cli

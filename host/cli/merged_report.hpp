@@ -7,7 +7,7 @@
 #include "host/program/json.hpp"
 #include "host/render/tiling.hpp"
 
-namespace eyeray::cli {
+namespace eyeray::engine::cli {
 
 using program::Json;
 
@@ -19,4 +19,4 @@ Json shard_of_report(const render::Shard& shard, size_t scenes, const std::strin
 // report.
 Json merged_report(const std::vector<std::string>& files);
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::engine::cli

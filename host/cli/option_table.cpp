@@ -8,7 +8,7 @@
 #include "host/executors/tuning.hpp"
 #include "host/program/help.hpp"
 
-namespace eyeray::cli {
+namespace eyeray::engine::cli {
 namespace {
 
 // "rays=packets", "rays=lanes", …
@@ -69,4 +69,4 @@ std::string last_word(const CommandRow& command) {
   return command.words.substr(command.words.rfind(' ') + 1);
 }
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::engine::cli

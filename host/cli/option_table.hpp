@@ -9,7 +9,7 @@ namespace CLI {
 class App;
 }
 
-namespace eyeray::cli {
+namespace eyeray::engine::cli {
 
 struct OptionRow {
   std::vector<std::string> names;    // "-o", "--output"; of an argument its own, "SCENE"
@@ -44,4 +44,4 @@ std::string bash_completion(const CommandRow& table);
 std::string zsh_completion(const CommandRow& table);
 std::string fish_completion(const CommandRow& table);
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::engine::cli

@@ -21,7 +21,7 @@
 #include "host/reading/key.hpp"
 #include "host/session/request.hpp"
 
-namespace eyeray::cli {
+namespace eyeray::engine::cli {
 namespace {
 
 // Options that each lay one value over the scene.
@@ -248,4 +248,4 @@ void add_crop_option(CLI::App& command, Rect& crop) {
       ->group("Scene");
 }
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::engine::cli

@@ -7,7 +7,7 @@
 
 namespace fs = std::filesystem;
 
-namespace eyeray::cli {
+namespace eyeray::engine::cli {
 
 void PictureOptions::add_to(CLI::App& command) {
   scene.add_to(command);
@@ -73,4 +73,4 @@ Scene PictureOptions::load() {
   return loaded;
 }
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::engine::cli

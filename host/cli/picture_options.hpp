@@ -8,7 +8,7 @@
 #include "host/cli/command.hpp"
 #include "host/session/request.hpp"
 
-namespace eyeray::cli {
+namespace eyeray::engine::cli {
 
 // The most samples of a pixel that does not reach the noise that is wanted, where nothing else is said.
 constexpr int most_samples_by_default = 1 << 14;
@@ -31,4 +31,4 @@ struct PictureOptions {
   void check_shard();
 };
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::engine::cli

@@ -9,7 +9,7 @@
 #include "host/core/standard_streams.hpp"
 #include "host/render/flags.hpp"
 
-namespace eyeray::cli {
+namespace eyeray::engine::cli {
 namespace {
 
 using program::Json;
@@ -104,4 +104,4 @@ void print_warnings(const Result& picture) {
   for (const Diagnostic& each : picture.warnings) print_lines(stderr, "eyeray: warning: {}\n", each.message);
 }
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::engine::cli

@@ -9,7 +9,7 @@
 #include "host/cli/command.hpp"
 #include "host/program/option_values.hpp"
 
-namespace eyeray::cli {
+namespace eyeray::engine::cli {
 namespace {
 
 struct ProbeCommand {
@@ -63,4 +63,4 @@ void add_probe(CLI::App& app, Run& run) {
   command->callback([options, &run] { run = [options] { return options->run(); }; });
 }
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::engine::cli

@@ -11,7 +11,7 @@
 #include "host/core/readable.hpp"
 #include "host/program/bar.hpp"
 
-namespace eyeray::cli {
+namespace eyeray::engine::cli {
 namespace {
 
 constexpr double seconds_between_bars = 0.1;
@@ -67,4 +67,4 @@ std::function<void(const render::Progress&)> progress_reporter(bool quiet) {
   };
 }
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::engine::cli

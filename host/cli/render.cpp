@@ -16,7 +16,7 @@
 #include "host/session/session.hpp"
 #include "host/shards/part.hpp"
 
-namespace eyeray::cli {
+namespace eyeray::engine::cli {
 namespace {
 
 struct RenderCommand {
@@ -294,4 +294,4 @@ void add_render(CLI::App& app, Run& run) {
   command->callback([render, &run] { run = [render] { return render->run(); }; });
 }
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::engine::cli

@@ -16,7 +16,7 @@
 
 namespace fs = std::filesystem;
 
-namespace eyeray::cli {
+namespace eyeray::engine::cli {
 namespace {
 
 struct SlurmCommand {
@@ -192,4 +192,4 @@ void add_slurm(CLI::App& app, Run& run, const std::vector<std::string>& sbatch_w
   });
 }
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::engine::cli

@@ -24,7 +24,7 @@
 
 namespace fs = std::filesystem;
 
-namespace eyeray::cli {
+namespace eyeray::engine::cli {
 namespace {
 
 constexpr double most_explained = 0.05;
@@ -329,4 +329,4 @@ void add_verify(CLI::App& app, Run& run) {
   command->callback([options, &run] { run = [options] { return options->run(); }; });
 }
 
-}  // namespace eyeray::cli
+}  // namespace eyeray::engine::cli

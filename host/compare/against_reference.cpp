@@ -7,7 +7,7 @@
 #include "host/compare/paths.hpp"
 #include "host/core/parallel_for.hpp"
 
-namespace eyeray::compare {
+namespace eyeray::engine::compare {
 
 namespace {
 
@@ -250,4 +250,4 @@ ReferenceComparison compare_with_reference(const Frame& value, const Frame& refe
   return result;
 }
 
-}  // namespace eyeray::compare
+}  // namespace eyeray::engine::compare

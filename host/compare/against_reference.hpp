@@ -9,7 +9,7 @@
 #include "host/compare/explain.hpp"
 #include "host/compare/paired_sums.hpp"
 
-namespace eyeray::compare {
+namespace eyeray::engine::compare {
 
 // How a pixel came out, the worse the greater; the cause of an explained one.
 enum class Outcome : uint8_t { equal, matching, explained, unexplained, unexamined };
@@ -82,4 +82,4 @@ ReferenceComparison compare_with_reference(const Frame& value, const Frame& refe
 // Tally::may_be_explained of so many pixels, or samples.
 int64_t explained_cap(const Tolerances& tolerances, int64_t pixels);
 
-}  // namespace eyeray::compare
+}  // namespace eyeray::engine::compare

@@ -10,7 +10,7 @@
 #include "host/core/escaped_text.hpp"
 #include "host/image/srgb.hpp"
 
-namespace eyeray::compare {
+namespace eyeray::engine::compare {
 
 namespace {
 
@@ -65,4 +65,4 @@ std::string cause_legend(const std::vector<PixelOutcome>& outcomes) {
   return json_text(legend, 2) + "\n";
 }
 
-}  // namespace eyeray::compare
+}  // namespace eyeray::engine::compare

@@ -7,7 +7,7 @@
 
 #include "host/compare/against_reference.hpp"
 
-namespace eyeray::compare {
+namespace eyeray::engine::compare {
 
 // `background`, linear, dark and grey, and over it each pixel that does not match in the colour of its cause:
 // unexplained ones red, others as Okabe and Ito choose for all kinds of eyes (docs/verification.md). One
@@ -17,4 +17,4 @@ image::Image cause_picture(const image::Image& background, const std::vector<Pix
 // What is in such a picture, as JSON: {"silhouette": {"color": "#0072b2", "pixels": 8}, …}.
 std::string cause_legend(const std::vector<PixelOutcome>& outcomes);
 
-}  // namespace eyeray::compare
+}  // namespace eyeray::engine::compare

@@ -5,7 +5,7 @@
 
 #include "host/compare/report.hpp"
 
-namespace eyeray::compare {
+namespace eyeray::engine::compare {
 
 namespace {
 
@@ -104,4 +104,4 @@ std::string Report::diagnosis() const {
   return text;
 }
 
-}  // namespace eyeray::compare
+}  // namespace eyeray::engine::compare

@@ -9,7 +9,7 @@
 
 #include "host/core/error.hpp"
 
-namespace eyeray::compare {
+namespace eyeray::engine::compare {
 
 namespace {
 
@@ -141,4 +141,4 @@ ExactComparison compare_exactly(const Frame& value, const Frame& other) {
   return result;
 }
 
-}  // namespace eyeray::compare
+}  // namespace eyeray::engine::compare

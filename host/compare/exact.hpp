@@ -4,7 +4,7 @@
 #include "host/compare/frame.hpp"
 #include "host/compare/seam.hpp"
 
-namespace eyeray::compare {
+namespace eyeray::engine::compare {
 
 struct ExactComparison {
   std::string incomparable;      // why nothing was compared; empty when everything was
@@ -27,4 +27,4 @@ ExactComparison compare_exactly(const Frame& value, const Frame& other);
 // The number of float32 values from a to b; the greatest int64 when just one of them is NaN.
 int64_t ulp_distance(float a, float b);
 
-}  // namespace eyeray::compare
+}  // namespace eyeray::engine::compare

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace eyeray::compare {
+namespace eyeray::engine::compare {
 
 namespace {
 
@@ -214,4 +214,4 @@ Cause Neighbourhood::cause_of_first_hit(const Tolerances& tolerances) const {
   return glm::distance(normal.low, normal.high) > least_crease ? Cause::crease : Cause::texture_edge;
 }
 
-}  // namespace eyeray::compare
+}  // namespace eyeray::engine::compare

@@ -11,7 +11,7 @@
 #include "host/rounding/places.hpp"
 #include "host/rounding/ways.hpp"
 
-namespace eyeray::compare {
+namespace eyeray::engine::compare {
 
 // The reference at one pixel, every ray of it moved by a fraction of a pixel.
 struct Neighbour {
@@ -94,4 +94,4 @@ class Neighbourhood {
   size_t innermost_ = 0;
 };
 
-}  // namespace eyeray::compare
+}  // namespace eyeray::engine::compare

@@ -10,7 +10,7 @@
 #include "host/core/error.hpp"
 #include "host/core/parallel_for.hpp"
 
-namespace eyeray::compare {
+namespace eyeray::engine::compare {
 
 namespace {
 
@@ -217,4 +217,4 @@ Flip summary(std::vector<double> map) {
   return {.mean = mean, .p95 = percentile(map, 0.95), .p99 = percentile(map, 0.99)};
 }
 
-}  // namespace eyeray::compare
+}  // namespace eyeray::engine::compare

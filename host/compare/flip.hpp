@@ -6,7 +6,7 @@
 
 #include "host/image/image.hpp"
 
-namespace eyeray::compare {
+namespace eyeray::engine::compare {
 
 // Over all pixels, 0 (the same) … 1.
 struct Flip {
@@ -22,4 +22,4 @@ Flip flip(const image::Image& a, const image::Image& b);
 // Of such a map.
 Flip summary(std::vector<double> map);
 
-}  // namespace eyeray::compare
+}  // namespace eyeray::engine::compare

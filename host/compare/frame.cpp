@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace eyeray::compare {
+namespace eyeray::engine::compare {
 
 namespace {
 
@@ -39,4 +39,4 @@ std::string why_incomparable(const Frame& value, const Frame& reference) {
   return "";
 }
 
-}  // namespace eyeray::compare
+}  // namespace eyeray::engine::compare

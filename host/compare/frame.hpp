@@ -9,7 +9,7 @@
 #include "host/core/rect.hpp"
 #include "host/image/image.hpp"
 
-namespace eyeray::compare {
+namespace eyeray::engine::compare {
 
 // One sample of a pixel whose path is random.
 struct TracedSample {
@@ -63,4 +63,4 @@ inline constexpr Vec3 luma_weights(0.2126, 0.7152, 0.0722);
 // Why two frames cannot be compared at all ("its picture is 95×72, not 96×72"); empty when they can.
 std::string why_incomparable(const Frame& value, const Frame& reference);
 
-}  // namespace eyeray::compare
+}  // namespace eyeray::engine::compare

@@ -7,7 +7,7 @@
 #include "host/core/error.hpp"
 #include "host/core/parallel_for.hpp"
 
-namespace eyeray::compare {
+namespace eyeray::engine::compare {
 
 namespace {
 
@@ -95,4 +95,4 @@ std::optional<HdrFlip> hdr_flip(const image::Image& a, const image::Image& b) {
   return result;
 }
 
-}  // namespace eyeray::compare
+}  // namespace eyeray::engine::compare

@@ -8,7 +8,7 @@
 
 #include "host/compare/flip.hpp"
 
-namespace eyeray::compare {
+namespace eyeray::engine::compare {
 
 // In stops: from where the brightest of the reference comes out at 0.85 of white, to where its median does.
 struct Exposures {
@@ -38,4 +38,4 @@ struct HdrFlip {
 // not finite.
 std::optional<HdrFlip> hdr_flip(const image::Image& a, const image::Image& b);
 
-}  // namespace eyeray::compare
+}  // namespace eyeray::engine::compare

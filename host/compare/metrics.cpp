@@ -11,7 +11,7 @@
 #include "host/core/parallel_for.hpp"
 #include "host/image/srgb.hpp"
 
-namespace eyeray::compare {
+namespace eyeray::engine::compare {
 
 namespace {
 
@@ -146,4 +146,4 @@ image::Image log_difference(const image::Image& a, const image::Image& b) {
   return result;
 }
 
-}  // namespace eyeray::compare
+}  // namespace eyeray::engine::compare

@@ -8,7 +8,7 @@
 #include "host/compare/frame.hpp"
 #include "host/compare/hdr_flip.hpp"
 
-namespace eyeray::compare {
+namespace eyeray::engine::compare {
 
 // Differences are of linear values, a pixel's that of its worst channel, unless said otherwise.
 struct Metrics {
@@ -45,4 +45,4 @@ int64_t count_different(const image::Image& a, const image::Image& b, double tol
 // For a false-colour picture: log10 of each pixel's worst |difference|, no less than −8; 1 channel.
 image::Image log_difference(const image::Image& a, const image::Image& b);
 
-}  // namespace eyeray::compare
+}  // namespace eyeray::engine::compare

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace eyeray::compare {
+namespace eyeray::engine::compare {
 
 namespace {
 
@@ -89,4 +89,4 @@ PairedSum worst_paired_sum(const Frame& value, const Frame& reference, double sh
   return worst;
 }
 
-}  // namespace eyeray::compare
+}  // namespace eyeray::engine::compare

@@ -4,7 +4,7 @@
 
 #include "host/compare/frame.hpp"
 
-namespace eyeray::compare {
+namespace eyeray::engine::compare {
 
 // A sum of differences: of one channel of a tile, or of all.
 struct PairedSum {
@@ -29,4 +29,4 @@ inline constexpr double paired_false_alarms = 1e-3;  // of all sums of a picture
 // one of them.
 PairedSum worst_paired_sum(const Frame& value, const Frame& reference, double shared = 0);
 
-}  // namespace eyeray::compare
+}  // namespace eyeray::engine::compare

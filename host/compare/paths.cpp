@@ -7,7 +7,7 @@
 
 #include "host/core/parallel_for.hpp"
 
-namespace eyeray::compare {
+namespace eyeray::engine::compare {
 
 namespace {
 
@@ -217,4 +217,4 @@ Tally compare_paths(const Frame& value, const Frame& reference, const PathRefere
   return judge.tally(outcomes);
 }
 
-}  // namespace eyeray::compare
+}  // namespace eyeray::engine::compare

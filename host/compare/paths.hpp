@@ -3,7 +3,7 @@
 
 #include "host/compare/against_reference.hpp"
 
-namespace eyeray::compare {
+namespace eyeray::engine::compare {
 
 // How the samples of both frames came out. A sample whose path decides what the reference's does must have
 // its colour, and its counts, or one within the neighbourhood's; one whose path parts must do where some path
@@ -12,4 +12,4 @@ namespace eyeray::compare {
 Tally compare_paths(const Frame& value, const Frame& reference, const PathReference& paths,
                     const Tolerances& tolerances, std::vector<PixelOutcome>& outcomes);
 
-}  // namespace eyeray::compare
+}  // namespace eyeray::engine::compare

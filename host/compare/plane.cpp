@@ -8,7 +8,7 @@
 
 #include "host/core/parallel_for.hpp"
 
-namespace eyeray::compare {
+namespace eyeray::engine::compare {
 
 Kernel gaussian(double sigma, int radius) {
   Kernel kernel(size_t(2 * radius + 1));
@@ -82,4 +82,4 @@ double percentile(std::vector<double>& values, double share) {
   return *at;
 }
 
-}  // namespace eyeray::compare
+}  // namespace eyeray::engine::compare

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace eyeray::compare {
+namespace eyeray::engine::compare {
 
 struct Plane {
   int width = 0;
@@ -28,4 +28,4 @@ Plane convolve(const Plane& plane, const Kernel& horizontal, const Kernel& verti
 // The least of `values` that `share` of them do not exceed; reorders them.
 double percentile(std::vector<double>& values, double share);
 
-}  // namespace eyeray::compare
+}  // namespace eyeray::engine::compare

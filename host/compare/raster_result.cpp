@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-namespace eyeray::compare {
+namespace eyeray::engine::compare {
 
 const char* name(RasterCause cause) {
   constexpr const char* names[raster_cause_count] = {"edge", "depth", "tessellation"};
@@ -13,4 +13,4 @@ int64_t RasterResult::explained_pixels() const {
   return std::accumulate(explained.begin(), explained.end(), int64_t{0});
 }
 
-}  // namespace eyeray::compare
+}  // namespace eyeray::engine::compare

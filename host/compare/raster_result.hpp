@@ -8,7 +8,7 @@
 
 #include "host/compare/frame.hpp"
 
-namespace eyeray::compare {
+namespace eyeray::engine::compare {
 
 // Why an id or a depth that was traced may differ from the one that was drawn.
 enum class RasterCause {
@@ -41,4 +41,4 @@ struct RasterResult {
   bool passes() const { return unexplained == 0 && pixels > 0; }
 };
 
-}  // namespace eyeray::compare
+}  // namespace eyeray::engine::compare

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace eyeray::compare {
+namespace eyeray::engine::compare {
 
 namespace {
 
@@ -216,4 +216,4 @@ int64_t Report::count(int64_t (*of)(const Tally&)) const {
   return most;
 }
 
-}  // namespace eyeray::compare
+}  // namespace eyeray::engine::compare

@@ -17,7 +17,7 @@
 #include "host/compare/soundness.hpp"
 #include "host/image/image.hpp"
 
-namespace eyeray::compare {
+namespace eyeray::engine::compare {
 
 // One executor that took part.
 struct Participant {
@@ -150,4 +150,4 @@ std::string to_text(const Metrics& metrics);
 std::string to_lines(const Metrics& metrics, const std::string& indent);
 nlohmann::ordered_json metrics_json(const Metrics& metrics);
 
-}  // namespace eyeray::compare
+}  // namespace eyeray::engine::compare

@@ -4,7 +4,7 @@
 #include "host/compare/report.hpp"
 #include "host/core/escaped_text.hpp"
 
-namespace eyeray::compare {
+namespace eyeray::engine::compare {
 
 using Json = nlohmann::ordered_json;
 
@@ -230,4 +230,4 @@ std::string to_json(std::span<const Report> reports) {
   return json_text(Json{{"passed", passed}, {"scenes", scenes}}) + "\n";
 }
 
-}  // namespace eyeray::compare
+}  // namespace eyeray::engine::compare

@@ -7,7 +7,7 @@
 #include "host/core/escaped_text.hpp"
 #include "host/core/github_text.hpp"
 
-namespace eyeray::compare {
+namespace eyeray::engine::compare {
 
 namespace {
 
@@ -133,4 +133,4 @@ std::string to_markdown(std::span<const Report> reports) {
   return text;
 }
 
-}  // namespace eyeray::compare
+}  // namespace eyeray::engine::compare

@@ -7,7 +7,7 @@
 #include "host/compare/report.hpp"
 #include "host/core/github_text.hpp"
 
-namespace eyeray::compare {
+namespace eyeray::engine::compare {
 
 namespace {
 
@@ -227,4 +227,4 @@ std::string to_text(const Report& report) {
   return log_lines(text);
 }
 
-}  // namespace eyeray::compare
+}  // namespace eyeray::engine::compare

@@ -5,7 +5,7 @@
 
 #include "host/compare/frame.hpp"
 
-namespace eyeray::compare {
+namespace eyeray::engine::compare {
 
 enum class Seam {
   none,
@@ -36,4 +36,4 @@ struct WorstPixel {
 // For reports: "first hit's t".
 const char* name(Seam seam);
 
-}  // namespace eyeray::compare
+}  // namespace eyeray::engine::compare

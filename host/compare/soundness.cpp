@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace eyeray::compare {
+namespace eyeray::engine::compare {
 
 namespace {
 
@@ -103,4 +103,4 @@ std::string describe(const Soundness& soundness) {
   return text;
 }
 
-}  // namespace eyeray::compare
+}  // namespace eyeray::engine::compare

@@ -3,7 +3,7 @@
 
 #include "host/compare/frame.hpp"
 
-namespace eyeray::compare {
+namespace eyeray::engine::compare {
 
 struct Soundness {
   int64_t nan = 0;       // values that are not a number
@@ -23,4 +23,4 @@ Soundness inspect(const Frame& frame);
 // "3 NaN, 1 negative (first at 12,7)", or "" when ok.
 std::string describe(const Soundness& soundness);
 
-}  // namespace eyeray::compare
+}  // namespace eyeray::engine::compare

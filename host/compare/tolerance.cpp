@@ -6,7 +6,7 @@
 
 #include "host/core/error.hpp"
 
-namespace eyeray::compare {
+namespace eyeray::engine::compare {
 
 namespace {
 
@@ -126,4 +126,4 @@ const char* name(Seam seam) {
   return "none";
 }
 
-}  // namespace eyeray::compare
+}  // namespace eyeray::engine::compare

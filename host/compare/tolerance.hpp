@@ -3,7 +3,7 @@
 
 #include "host/compare/seam.hpp"
 
-namespace eyeray::compare {
+namespace eyeray::engine::compare {
 
 struct Tolerances {
   double color = 1e-4;           // of each channel, × max(1, |reference|)
@@ -34,4 +34,4 @@ double counts_excess(const Counts& value, const Counts& reference);
 // The first value along the life of a ray, in the order of Seam, that is out of tolerance.
 Seam first_seam(const WorstPixel& pixel, const Tolerances& tolerances);
 
-}  // namespace eyeray::compare
+}  // namespace eyeray::engine::compare

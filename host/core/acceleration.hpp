@@ -1,6 +1,6 @@
 #pragma once
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // How an executor finds hits; which hits they are does not depend on it.
 enum class Acceleration {
@@ -9,4 +9,4 @@ enum class Acceleration {
   brute_force,  // every ray is tested against every primitive
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

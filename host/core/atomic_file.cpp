@@ -13,7 +13,7 @@
 #include "host/core/error.hpp"
 #include "host/core/unfinished_files.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 namespace {
 
@@ -166,4 +166,4 @@ std::string read_file(const fs::path& path) {
   }
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

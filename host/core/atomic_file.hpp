@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // A file that grows as PATH.part.PID beside `path`, so that the rename stays within one file system, and
 // takes its place at commit(). Without that the part file goes with its scope, and what stood at `path` is
@@ -49,4 +49,4 @@ void check_writable(const std::filesystem::path& path);
 // The whole file; Error (file_io) when it cannot be read.
 std::string read_file(const std::filesystem::path& path);
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 std::string base64(std::string_view bytes) {
   constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -16,4 +16,4 @@ std::string base64(std::string_view bytes) {
   return text;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -3,9 +3,9 @@
 #include <string>
 #include <string_view>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // The bytes in base64 (RFC 4648), padded.
 std::string base64(std::string_view bytes);
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -2,7 +2,7 @@
 
 #include <zlib.h>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 uint32_t crc32(std::span<const std::byte> bytes, uint32_t so_far) {
   // Of no address zlib makes the sum of nothing.
@@ -10,4 +10,4 @@ uint32_t crc32(std::span<const std::byte> bytes, uint32_t so_far) {
   return uint32_t(crc32_z(so_far, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -4,7 +4,7 @@
 
 #include "host/core/atomic_file.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 ContentHash& ContentHash::add(std::span<const std::byte> bytes) {
   for (uint64_t length = bytes.size(), i = 0; i < 8; ++i) add_byte(uint8_t(length >> 8 * i));
@@ -35,4 +35,4 @@ std::string hash_of_files(std::span<const std::filesystem::path> files) {
   return hash.hex();
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

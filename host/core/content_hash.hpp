@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // FNV-1a over 128 bits: names contents so that equal names mean equal contents, barring malice.
 // Source: Fowler, Noll, Vo, Eastlake, "The FNV Non-Cryptographic Hash Algorithm" (IETF draft-eastlake-fnv).
@@ -31,4 +31,4 @@ class ContentHash {
 // one cannot be read.
 std::string hash_of_files(std::span<const std::filesystem::path> files);
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

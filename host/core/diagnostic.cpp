@@ -5,7 +5,7 @@
 
 #include "host/core/github_text.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 namespace {
 
@@ -163,4 +163,4 @@ std::string nearest_name(std::string_view word, std::span<const std::string_view
   return std::string(nearest);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

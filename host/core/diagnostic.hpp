@@ -8,7 +8,7 @@
 
 #include "host/core/error.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // A place in a text; line and column count from 1, 0 where unknown.
 struct SourcePosition {
@@ -56,4 +56,4 @@ class InputError : public Error {
 // length, at least 1), or "" when none is near.
 std::string nearest_name(std::string_view word, std::span<const std::string_view> candidates);
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

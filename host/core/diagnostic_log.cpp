@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 namespace {
 
@@ -97,4 +97,4 @@ std::vector<Diagnostic> DiagnosticLog::sorted() const {
   return chosen;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -11,7 +11,7 @@
 
 #include "host/core/diagnostic.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 class DiagnosticLog {
  public:
@@ -71,4 +71,4 @@ class DiagnosticLog {
   bool damaged_ = false;
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -11,7 +11,7 @@
 #include "host/core/input_file.hpp"
 #include "host/core/private_folder.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 namespace {
 
 constexpr std::string_view ending = ".eyeray-cache";
@@ -94,4 +94,4 @@ void DiskCache::drop_old_entries() const {
     std::filesystem::remove(entries[i].second, failed);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // Named bytes in a folder. A cache may forget: damaged entries are as good as absent, old ones are dropped
 // when there are many, and a folder that cannot be written is a cache that remembers nothing. So is a folder,
@@ -37,4 +37,4 @@ class DiskCache {
   std::filesystem::path folder_;
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

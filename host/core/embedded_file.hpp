@@ -3,11 +3,11 @@
 
 #include <string_view>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 struct EmbeddedFile {
   std::string_view name;  // its path below the folder that it is from
   std::string_view text;
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -4,7 +4,7 @@
 
 #include "host/core/embedded_file.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // Every file of shaders/, "shapes/sphere.glsl", as it was when eyeray was built.
 std::span<const EmbeddedFile> embedded_shaders();
@@ -13,4 +13,4 @@ std::span<const EmbeddedFile> embedded_shaders();
 // CMake writes. Names are paths below a folder that has them under "shaders".
 std::span<const EmbeddedFile> twin_sources();
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

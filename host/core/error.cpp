@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 namespace {
 constexpr const char* please_report = "This is a bug in eyeray; please report it with the command line.";
@@ -20,4 +20,4 @@ void detail::check_failed(const char* file, int line, const char* expression, co
   std::abort();
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

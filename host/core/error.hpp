@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // What the process answers to its caller; docs/command-line.md lists the same numbers.
 enum class ExitCode : int {
@@ -58,17 +58,17 @@ namespace detail {
 
 // Ends the program with both values when a promise inside it is broken; on in every build.
 #define CHECK(condition) \
-  ((condition) ? void() : ::eyeray::detail::check_failed(__FILE__, __LINE__, #condition, ""))
-#define CHECK_OP_(a, b, op)                                                                \
-  do {                                                                                     \
-    const auto& check_a_ = (a);                                                            \
-    const auto& check_b_ = (b);                                                            \
-    if (!(check_a_ op check_b_))                                                           \
-      ::eyeray::detail::check_failed(__FILE__, __LINE__, #a " " #op " " #b,                \
-                                     fmt::format(" ({} against {})", check_a_, check_b_)); \
+  ((condition) ? void() : ::eyeray::engine::detail::check_failed(__FILE__, __LINE__, #condition, ""))
+#define CHECK_OP_(a, b, op)                                                                        \
+  do {                                                                                             \
+    const auto& check_a_ = (a);                                                                    \
+    const auto& check_b_ = (b);                                                                    \
+    if (!(check_a_ op check_b_))                                                                   \
+      ::eyeray::engine::detail::check_failed(__FILE__, __LINE__, #a " " #op " " #b,                \
+                                             fmt::format(" ({} against {})", check_a_, check_b_)); \
   } while (false)
 #define CHECK_EQ(a, b) CHECK_OP_(a, b, ==)
 #define CHECK_LT(a, b) CHECK_OP_(a, b, <)
 #define CHECK_LE(a, b) CHECK_OP_(a, b, <=)
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

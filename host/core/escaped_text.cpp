@@ -6,7 +6,7 @@
 
 #include "host/core/diagnostic.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 namespace {
 
 bool stands_in_any_shell(char c) {
@@ -85,4 +85,4 @@ std::string harmless_json(std::string json) {
   return harmless;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // The text of an element or attribute of XML. Line breaks stay; what XML cannot hold becomes a question mark.
 std::string xml_text(std::string_view text);
@@ -25,4 +25,4 @@ std::string json_text(const Json& value, int indent = -1) {
   return harmless_json(value.dump(indent, ' ', false, Json::error_handler_t::replace));
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

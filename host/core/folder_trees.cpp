@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 namespace fs = std::filesystem;
 
@@ -20,4 +20,4 @@ bool FolderTrees::hold(const fs::path& file) const {
       trees_, [&](const fs::path& tree) { return std::ranges::mismatch(tree, whole).in1 == tree.end(); });
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 class FolderTrees {
  public:
@@ -18,4 +18,4 @@ class FolderTrees {
   std::vector<std::filesystem::path> trees_;  // canonical
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // Empties a vector or a string and gives its memory back, which `all = {}` would keep.
 template <typename Container>
@@ -20,4 +20,4 @@ inline void keep_freed_memory() {
   mallopt(M_TOP_PAD, 64 << 20);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -4,7 +4,7 @@
 
 #include "host/core/diagnostic.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 std::string github_text(std::string_view text, bool property) {
   std::string escaped;
@@ -37,4 +37,4 @@ std::string log_lines(std::string_view text) {
   return lines;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // Of any bytes, what a command of GitHub's workflows can hold ("::error file=…::…"): a property's end at ,
 // and : too.
@@ -17,4 +17,4 @@ std::string log_line(std::string_view text);
 // `text` with each of its lines so; its line ends stay.
 std::string log_lines(std::string_view text);
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

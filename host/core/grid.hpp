@@ -2,7 +2,7 @@
 
 #include "host/core/rect.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // Every stride-th pixel of every stride-th row of an area, from its top left on.
 struct Grid {
@@ -16,4 +16,4 @@ struct Grid {
   int64_t pixels() const { return int64_t{width()} * height(); }
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

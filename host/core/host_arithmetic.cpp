@@ -6,7 +6,7 @@
 
 #include "host/core/content_hash.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 namespace {
 
 using OfOne = double (*)(double);
@@ -37,4 +37,4 @@ std::string host_arithmetic() {
   return ContentHash().add(std::as_bytes(std::span(values))).hex();
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

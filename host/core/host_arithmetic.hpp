@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // Names what the C library's functions of float64 answer here, so that equal names mean, as far as a few
 // thousand arguments tell, equal bits: libraries differ in the last place, and one library between processors
@@ -10,4 +10,4 @@ namespace eyeray {
 // them.
 std::string host_arithmetic();
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -11,7 +11,7 @@
 
 #include "host/core/diagnostic.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 namespace {
 
@@ -90,4 +90,4 @@ void drop_byte_order_mark(std::string& text) {
   if (text.starts_with(mark)) text.erase(0, mark.size());
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

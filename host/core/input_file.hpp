@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // The bytes of a regular file of at most `most_bytes`. Error (file_io) "cannot read the scene a.toml:
 // reason", where `what` is "the scene", and a name in the same folder that the user may have meant.
@@ -15,4 +15,4 @@ std::string read_input_file(const std::filesystem::path& file, std::string_view 
 // Removes the byte order mark that some editors put before text in UTF-8.
 void drop_byte_order_mark(std::string& text);
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

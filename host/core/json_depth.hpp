@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string_view>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 constexpr size_t deepest_json = 64;
 
@@ -26,4 +26,4 @@ inline std::string_view unless_too_deep(std::string_view text) {
   return text;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // The whole number that `json` is. std::out_of_range where it is none from `least` to `most`: Json::get would
 // wrap it around or cut it off.
@@ -23,4 +23,4 @@ T whole_number(const Json& json, T least = 0, T most = std::numeric_limits<T>::m
   throw std::out_of_range("a number of the JSON");
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -2,8 +2,8 @@
 // again.
 #undef SHADER_BEGIN
 #undef SHADER_END
-#define SHADER_BEGIN         \
-  namespace eyeray::shader { \
+#define SHADER_BEGIN                 \
+  namespace eyeray::engine::shader { \
   namespace {
 #define SHADER_END \
   }                \

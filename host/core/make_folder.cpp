@@ -2,7 +2,7 @@
 
 #include "host/core/error.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
@@ -11,4 +11,4 @@ void make_folder(const std::filesystem::path& folder) {
     throw Error(ExitCode::file_io, "cannot make the folder {}: {}", folder.string(), error.message());
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -9,7 +9,7 @@
 #include "host/core/error.hpp"
 #include "host/core/termination.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 namespace {
 
 // Drivers take tens of megabytes at a time, and a thread's heap begins with 128 MiB of addresses.
@@ -56,4 +56,4 @@ void report_memory_shortage() {
   CHECK_EQ(::sigaction(SIGSEGV, &action, &usual_fault), 0);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

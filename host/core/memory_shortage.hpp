@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // Whether so many bytes of address space can still be had (ulimit -v).
 bool address_space_left(size_t bytes);
@@ -12,4 +12,4 @@ bool address_space_left(size_t bytes);
 // exit code 3. Any other crash stays what it is. Needs the watch of core/termination.
 void report_memory_shortage();
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

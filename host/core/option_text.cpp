@@ -4,7 +4,7 @@
 
 #include <atomic>
 
-namespace eyeray {
+namespace eyeray::engine {
 namespace {
 
 std::atomic<bool> to_library = false;
@@ -26,4 +26,4 @@ void speak_to_library() {
   to_library = true;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

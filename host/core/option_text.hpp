@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // "timeout" is "--timeout" on the command line, and "`timeout`" for callers of the library, from any thread.
 std::string option_text(std::string_view name);
@@ -14,4 +14,4 @@ std::string option_text(std::string_view name, std::string_view value);
 // From now on the library's callers read what this process says.
 void speak_to_library();
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -8,7 +8,7 @@
 
 #include <functional>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // Calls body(i) for every i in [begin, end), on all cores, in no order. The first exception out of a body
 // ends the others soon and goes to the caller.
@@ -45,4 +45,4 @@ void parallel_invoke(const A& a, const B& b) {
   tbb::parallel_invoke(a, b);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -4,7 +4,7 @@
 #include <limits>
 #include <string>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 uint64_t peak_memory() {
   std::ifstream status("/proc/self/status");
@@ -16,4 +16,4 @@ uint64_t peak_memory() {
   return 0;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

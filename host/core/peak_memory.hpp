@@ -2,10 +2,10 @@
 
 #include <cstdint>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // The most memory that this process has held at a time, in bytes; 0 where the system does not say. Of a
 // program that was started by another it counts its own alone, which getrusage's does not.
 uint64_t peak_memory();
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -6,7 +6,7 @@
 
 #include "host/core/vec.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // One sample of one pixel. Float32 executors widen exactly, so that bits survive.
 struct PixelSample {
@@ -64,4 +64,4 @@ struct FirstHit {
   SearchCost cost{};  // the search's own, whatever is hit: gates do not compare it
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -6,7 +6,7 @@
 
 #include <system_error>
 
-namespace eyeray {
+namespace eyeray::engine {
 namespace {
 
 bool is_private(const std::filesystem::path& path, mode_t type) {
@@ -42,4 +42,4 @@ bool make_private_folder(const std::filesystem::path& folder) {
   return is_private_folder(folder);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

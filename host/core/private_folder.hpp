@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // True if the path itself, not a link there, is a folder (a regular file) of this user that nobody else may
 // write to.
@@ -18,4 +18,4 @@ std::string why_not_private(const std::filesystem::path& folder);
 // Makes the folder, and its parents, where there is none. False if there is then no private folder.
 bool make_private_folder(const std::filesystem::path& folder);
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -16,7 +16,7 @@
 
 #include "host/core/error.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 namespace {
 
 // The caller's environment with `changes` laid over it, as NAME=VALUE.
@@ -180,4 +180,4 @@ ProcessResult run_process(const std::vector<std::string>& argv, const Environmen
           process.processor_seconds(), process.page_faults()};
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -10,7 +10,7 @@
 
 #include "host/core/stopwatch.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 using Environment = std::vector<std::pair<std::string, std::string>>;  // laid over the caller's own
 
@@ -73,4 +73,4 @@ struct ProcessResult {
 ProcessResult run_process(const std::vector<std::string>& argv, const Environment& environment = {},
                           double timeout_seconds = 60, int signal_after_ms = -1);
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -2,7 +2,7 @@
 
 #include <ctime>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // Seconds that all threads of this process, those of drivers included, have spent on processors until now.
 inline double processor_seconds() {
@@ -11,4 +11,4 @@ inline double processor_seconds() {
   return double(time.tv_sec) + double(time.tv_nsec) * 1e-9;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // Leaves uninitialised what is made without a value.
 template <typename T>
@@ -33,4 +33,4 @@ struct RawAllocator : std::allocator<T> {
 template <typename T>
 using RawVector = std::vector<T, RawAllocator<T>>;
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -5,7 +5,7 @@
 
 #include "host/core/pixel.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 struct RayCounts {
   uint64_t eye = 0;
@@ -44,4 +44,4 @@ struct RayCounts {
   friend bool operator==(const RayCounts&, const RayCounts&) = default;
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

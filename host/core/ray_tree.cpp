@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 bool RayRecorder::has_room() {
   if (kept_ < most) return ++kept_, true;
@@ -33,4 +33,4 @@ void RayRecorder::value(ProbedValue value) {
   tree_.rays[current_].values.push_back(std::move(value));
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -11,7 +11,7 @@
 
 #include "host/core/vec.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // `pixel`: no ray; what does not belong to one belongs to it.
 enum class RayKind : uint32_t { pixel, eye, reflected, refracted, shadow };
@@ -80,4 +80,4 @@ class RayRecorder {
   uint32_t kept_ = 0;
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 std::string format_rate(double rays_per_second) {
   if (!(rays_per_second >= 0)) return "– rays/s";
@@ -23,4 +23,4 @@ std::string format_seconds(double seconds) {
   return fmt::format("{} h {} min", whole / 3600, whole / 60 % 60);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // Pixels [x, x + width) × [y, y + height); row 0 is an image's top.
 struct Rect {
@@ -15,4 +15,4 @@ struct Rect {
   friend bool operator==(const Rect&, const Rect&) = default;
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -10,7 +10,7 @@
 #include "host/core/error.hpp"
 #include "host/core/unfinished_files.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // A folder that is gone at the end, with all that is in it, however the program ends. Error (file_io) where
 // none can be made.
@@ -39,4 +39,4 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -11,7 +11,7 @@
 
 #include "host/core/github_text.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 namespace {
 
 // Writes as much as can be written; 0 when all was, else the reason.
@@ -65,4 +65,4 @@ void print_text(std::FILE* stream, std::string_view text) {
   std::fwrite(lines.data(), 1, lines.size(), stream);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // Makes the standard streams what a program can rely on, whatever it was started with; to be called first.
 //
@@ -24,4 +24,4 @@ void print_lines(std::FILE* stream, fmt::format_string<Args...> format, Args&&..
   print_text(stream, fmt::format(format, std::forward<Args>(args)...));
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // Seconds since construction, on the monotonic clock.
 class Stopwatch {
@@ -63,4 +63,4 @@ class StageTimes {
   std::vector<std::pair<std::string, double>> stages_;
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

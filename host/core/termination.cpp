@@ -20,7 +20,7 @@
 #include "host/core/stopwatch.hpp"
 #include "host/core/unfinished_files.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 namespace {
 
 constexpr int64_t second = 1'000'000'000;  // in nanoseconds
@@ -229,4 +229,4 @@ bool ForeignCall::passed() const {
   return call->clock.seconds() >= call->limit;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -9,7 +9,7 @@
 
 #include "host/core/error.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // Starts the watch; main calls it, once, and so does a forked child that is to have one. SIGINT, SIGTERM and
 // SIGHUP (unless that is ignored, as under nohup) then end the process from whatever state it is in,
@@ -73,4 +73,4 @@ class ForeignCall {
   bool passed() const;
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

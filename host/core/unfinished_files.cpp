@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace eyeray {
+namespace eyeray::engine {
 namespace {
 
 struct List {
@@ -39,4 +39,4 @@ void remove_unfinished_files() {
   lock.release();
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

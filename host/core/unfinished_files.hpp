@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <mutex>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // The list of them; hold it while one is made, renamed or removed, so that list and disk agree.
 class UnfinishedFiles {
@@ -21,4 +21,4 @@ class UnfinishedFiles {
 // about to end. Gives up where another thread holds the list for longer than a moment.
 void remove_unfinished_files();
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

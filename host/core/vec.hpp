@@ -5,7 +5,7 @@
 
 #include <glm/glm.hpp>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 using Vec2 = glm::dvec2;
 using Vec3 = glm::dvec3;
@@ -19,4 +19,4 @@ struct Ray {
   uint32_t alpha_key = 0;  // decides which blended surfaces it hits (reference/rng.hpp)
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

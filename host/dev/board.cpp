@@ -10,7 +10,7 @@
 #include "host/core/escaped_text.hpp"
 #include "host/image/image_file.hpp"
 
-namespace eyeray::dev {
+namespace eyeray::engine::dev {
 
 void Board::publish() {
   ++version_;
@@ -112,4 +112,4 @@ bool Board::closed() const {
   return closed_;
 }
 
-}  // namespace eyeray::dev
+}  // namespace eyeray::engine::dev

@@ -11,7 +11,7 @@
 #include "host/image/false_color.hpp"
 #include "host/image/image.hpp"
 
-namespace eyeray::dev {
+namespace eyeray::engine::dev {
 
 class Board {
  public:
@@ -68,4 +68,4 @@ class Board {
   bool closed_ = false;
 };
 
-}  // namespace eyeray::dev
+}  // namespace eyeray::engine::dev

@@ -14,7 +14,7 @@
 
 namespace fs = std::filesystem;
 
-namespace eyeray::dev {
+namespace eyeray::engine::dev {
 namespace {
 
 constexpr uint32_t appeared = IN_CLOSE_WRITE | IN_MOVED_TO | IN_CREATE;
@@ -129,4 +129,4 @@ std::set<std::string> FileWatcher::wait() {
   return {};
 }
 
-}  // namespace eyeray::dev
+}  // namespace eyeray::engine::dev

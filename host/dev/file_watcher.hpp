@@ -10,7 +10,7 @@
 
 #include "host/core/stopwatch.hpp"
 
-namespace eyeray::dev {
+namespace eyeray::engine::dev {
 
 // What to watch. A file that does not exist (yet) counts as changed once it appears.
 struct WatchList {
@@ -60,4 +60,4 @@ class FileWatcher {
   Stopwatch since_change_;
 };
 
-}  // namespace eyeray::dev
+}  // namespace eyeray::engine::dev

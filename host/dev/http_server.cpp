@@ -20,7 +20,7 @@
 #include "host/core/error.hpp"
 #include "host/core/stopwatch.hpp"
 
-namespace eyeray::dev {
+namespace eyeray::engine::dev {
 namespace {
 
 constexpr int ports_to_try = 32;
@@ -380,4 +380,4 @@ void HttpServer::publish(std::string text) {
   loop_->publish(std::move(text));
 }
 
-}  // namespace eyeray::dev
+}  // namespace eyeray::engine::dev

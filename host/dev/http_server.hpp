@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-namespace eyeray::dev {
+namespace eyeray::engine::dev {
 
 struct WebLimits {
   size_t header_bytes = 16 << 10;  // of a request
@@ -56,4 +56,4 @@ class HttpServer {
   std::unique_ptr<Loop> loop_;
 };
 
-}  // namespace eyeray::dev
+}  // namespace eyeray::engine::dev

@@ -15,7 +15,7 @@
 #include "host/core/json_depth.hpp"
 #include "host/core/stopwatch.hpp"
 
-namespace eyeray::dev {
+namespace eyeray::engine::dev {
 namespace {
 
 using Sizes = std::array<uint32_t, 2>;  // of the text and of the bytes
@@ -110,4 +110,4 @@ std::optional<Message> MessageSocket::receive(double seconds) {
   return std::nullopt;
 }
 
-}  // namespace eyeray::dev
+}  // namespace eyeray::engine::dev

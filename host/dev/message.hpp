@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-namespace eyeray::dev {
+namespace eyeray::engine::dev {
 
 using Json = nlohmann::ordered_json;
 
@@ -46,4 +46,4 @@ class MessageSocket {
   std::string pending_;
 };
 
-}  // namespace eyeray::dev
+}  // namespace eyeray::engine::dev

@@ -8,7 +8,7 @@
 #include "host/render/legibility.hpp"
 #include "host/scene/integrator.hpp"
 
-namespace eyeray::dev {
+namespace eyeray::engine::dev {
 namespace {
 
 // How long a band of rows should take: what is seen grows so smoothly, and an edit waits so long.
@@ -121,4 +121,4 @@ std::optional<Painted> paint(const View& view, const Scene& scene, executors::Ex
   return paint_samples(view, scene, executor, sink);
 }
 
-}  // namespace eyeray::dev
+}  // namespace eyeray::engine::dev

@@ -9,7 +9,7 @@
 #include "host/film/channel.hpp"
 #include "host/session/warnings.hpp"
 
-namespace eyeray::dev {
+namespace eyeray::engine::dev {
 
 // What is looked at: the colours of an executor, or an AOV of the GPU's.
 struct View {
@@ -44,4 +44,4 @@ struct Painted {
 std::optional<Painted> paint(const View& view, const Scene& scene, executors::Executor& executor,
                              const RowsSink& sink);
 
-}  // namespace eyeray::dev
+}  // namespace eyeray::engine::dev

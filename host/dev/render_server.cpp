@@ -14,7 +14,7 @@
 #include "host/scene/integrator.hpp"
 #include "host/session/request.hpp"
 
-namespace eyeray::dev {
+namespace eyeray::engine::dev {
 namespace {
 
 constexpr std::pair colors_of_gpu(executors::Backend::gpu, film::Needs::nothing);
@@ -342,4 +342,4 @@ void RenderServer::probe(const Json& request) {
   send("probed", std::move(answer));
 }
 
-}  // namespace eyeray::dev
+}  // namespace eyeray::engine::dev

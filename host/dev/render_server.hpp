@@ -14,7 +14,7 @@
 #include "host/executors/executor.hpp"
 #include "host/executors/tunables.hpp"
 
-namespace eyeray::dev {
+namespace eyeray::engine::dev {
 
 // Answers messages until the socket is closed. A newer message ends the work on an older one: at once between
 // two bands of rows, else when what was begun is done.
@@ -93,4 +93,4 @@ class RenderServer {
   std::future<std::unique_ptr<executors::Executor>> being_made_;
 };
 
-}  // namespace eyeray::dev
+}  // namespace eyeray::engine::dev

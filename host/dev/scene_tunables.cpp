@@ -7,7 +7,7 @@
 #include <regex>
 #include <sstream>
 
-namespace eyeray::dev {
+namespace eyeray::engine::dev {
 namespace {
 
 const std::regex header(R"(^\s*(\[\[?)\s*([\w.-]+)\s*\]\]?\s*(#.*)?$)");
@@ -111,4 +111,4 @@ std::vector<SceneTunable> scene_tunables(std::string_view text) {
   return found;
 }
 
-}  // namespace eyeray::dev
+}  // namespace eyeray::engine::dev

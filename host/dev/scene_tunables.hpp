@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace eyeray::dev {
+namespace eyeray::engine::dev {
 
 struct SceneTunable {
   std::string key;  // as -D takes it: "material.2.diffuse.formula.parameters.size"
@@ -25,4 +25,4 @@ struct SceneTunable {
 // Those of a scene file's text, where each stands on a line of its own.
 std::vector<SceneTunable> scene_tunables(std::string_view text);
 
-}  // namespace eyeray::dev
+}  // namespace eyeray::engine::dev

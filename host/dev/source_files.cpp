@@ -9,7 +9,7 @@
 #include "host/core/content_hash.hpp"
 #include "host/core/error.hpp"
 
-namespace eyeray::dev {
+namespace eyeray::engine::dev {
 namespace {
 
 constexpr uint64_t hashed_always = 1 << 20;  // bytes
@@ -86,4 +86,4 @@ std::set<std::filesystem::path> SourceFiles::changed_unnoticed() {
   return settled ? changed() : std::set<std::filesystem::path>();
 }
 
-}  // namespace eyeray::dev
+}  // namespace eyeray::engine::dev

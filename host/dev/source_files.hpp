@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-namespace eyeray::dev {
+namespace eyeray::engine::dev {
 
 class SourceFiles {
  public:
@@ -47,4 +47,4 @@ class SourceFiles {
   std::map<std::filesystem::path, State> states_;
 };
 
-}  // namespace eyeray::dev
+}  // namespace eyeray::engine::dev

@@ -16,7 +16,7 @@
 
 namespace fs = std::filesystem;
 
-namespace eyeray::dev {
+namespace eyeray::engine::dev {
 namespace {
 
 constexpr double seconds_between_looks = 1;
@@ -345,4 +345,4 @@ void Supervisor::send_probe() {
   worker_.socket().send({{{"do", "probe"}, {"x", probe_->first}, {"y", probe_->second}}, ""});
 }
 
-}  // namespace eyeray::dev
+}  // namespace eyeray::engine::dev

@@ -16,7 +16,7 @@
 #include "host/dev/web_server.hpp"
 #include "host/dev/worker.hpp"
 
-namespace eyeray::dev {
+namespace eyeray::engine::dev {
 
 struct SupervisorOptions {
   std::vector<std::string> worker;      // the command line of a RenderServer
@@ -95,4 +95,4 @@ class Supervisor {
   std::optional<WebServer> server_;  // the last member: its threads use the others
 };
 
-}  // namespace eyeray::dev
+}  // namespace eyeray::engine::dev

@@ -16,7 +16,7 @@
 #include "host/core/json_depth.hpp"
 #include "host/image/image_file.hpp"
 
-namespace eyeray::dev {
+namespace eyeray::engine::dev {
 
 std::span<const EmbeddedFile> page_files();  // dev/web
 
@@ -185,4 +185,4 @@ std::string WebServer::address() const {
   return fmt::format("http://127.0.0.1:{}/{}/", port(), site_->token);
 }
 
-}  // namespace eyeray::dev
+}  // namespace eyeray::engine::dev

@@ -13,7 +13,7 @@
 #include "host/dev/board.hpp"
 #include "host/dev/http_server.hpp"
 
-namespace eyeray::dev {
+namespace eyeray::engine::dev {
 
 class WebServer {
  public:
@@ -34,4 +34,4 @@ class WebServer {
   std::unique_ptr<Site> site_;
 };
 
-}  // namespace eyeray::dev
+}  // namespace eyeray::engine::dev

@@ -16,7 +16,7 @@
 #include "host/core/stopwatch.hpp"
 #include "host/core/termination.hpp"
 
-namespace eyeray::dev {
+namespace eyeray::engine::dev {
 namespace {
 
 constexpr double longest_farewell = 2;  // seconds
@@ -88,4 +88,4 @@ void be_a_worker() {
   end_silently();
 }
 
-}  // namespace eyeray::dev
+}  // namespace eyeray::engine::dev

@@ -8,7 +8,7 @@
 
 #include "host/dev/message.hpp"
 
-namespace eyeray::dev {
+namespace eyeray::engine::dev {
 
 // The supervisor's hand on it.
 class Worker {
@@ -41,4 +41,4 @@ class Worker {
 // and is called eyeray-worker.
 void be_a_worker();
 
-}  // namespace eyeray::dev
+}  // namespace eyeray::engine::dev

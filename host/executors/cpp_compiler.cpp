@@ -11,7 +11,7 @@
 
 namespace fs = std::filesystem;
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -114,4 +114,4 @@ Environment sanitizer_environment(const std::string& sanitizers) {
   return environment;
 }
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

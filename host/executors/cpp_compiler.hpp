@@ -6,7 +6,7 @@
 
 #include "host/core/process.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 // $CXX, else the first of c++, g++ and clang++ in $PATH, as the words of a command; empty: there is none.
 std::vector<std::string> cpp_compiler();
@@ -25,4 +25,4 @@ Environment compiler_environment();
 // is no compiler, or none that has them.
 Environment sanitizer_environment(const std::string& sanitizers);
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

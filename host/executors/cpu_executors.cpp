@@ -20,7 +20,7 @@
 #include "host/scene/integrator.hpp"
 #include "host/twin/twin.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 namespace {
 
 // Makes out[i] = pixel(x, y) for every pixel of the grid. Returns false when interrupted.
@@ -270,4 +270,4 @@ std::unique_ptr<Executor> make_reference_executor(std::shared_ptr<const referenc
   return std::make_unique<ReferenceExecutor>(std::move(renderer));
 }
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 // The most pixels of one dispatch: 32 MiB of samples.
 inline constexpr int64_t most_pixels = 1 << 20;
@@ -24,4 +24,4 @@ class DispatchSize {
   int64_t pixels_ = 1 << 14;
 };
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

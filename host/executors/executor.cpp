@@ -3,7 +3,7 @@
 #include "host/core/error.hpp"
 #include "host/executors/executors.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 Backend parse_backend(std::string_view name) {
   for (const Backend backend : {Backend::gpu, Backend::twin, Backend::reference}) {
@@ -30,4 +30,4 @@ std::unique_ptr<Executor> make_executor(Backend backend, const Scene& scene, con
   return make_reference_executor(scene, options);
 }
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

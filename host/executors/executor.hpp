@@ -16,7 +16,7 @@
 #include "host/scene/query.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 enum class Backend { gpu, twin, reference };
 // "gpu", "twin", "reference", both ways; Error (bad_input) for another name.
@@ -76,4 +76,4 @@ class Executor {
 // compile.
 std::unique_ptr<Executor> make_executor(Backend backend, const Scene& scene, const ExecutorOptions& options);
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

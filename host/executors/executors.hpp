@@ -4,7 +4,7 @@
 #include "host/executors/executor.hpp"
 #include "host/reference/renderer.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 // The twin can say what its samples decided, too.
 class Twin : public Executor {
@@ -22,4 +22,4 @@ std::unique_ptr<Executor> make_reference_executor(const Scene& scene, const Exec
 // The same by a renderer that others use too: its BVHs are built once.
 std::unique_ptr<Executor> make_reference_executor(std::shared_ptr<const reference::Renderer> renderer);
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

@@ -9,7 +9,7 @@
 
 #include "host/formula/formula.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 namespace {
 
 // Each formula once, with the first shape that it is used by.
@@ -94,4 +94,4 @@ std::vector<Diagnostic> doubt_lipschitz_constants(const Scene& scene) {
   return warnings;
 }
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

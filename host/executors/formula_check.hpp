@@ -6,7 +6,7 @@
 #include "host/core/diagnostic.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 // InputError, at the place in the user's text, where a formula has no Lipschitz constant and cannot be
 // bounded by affine forms. No device is needed.
@@ -16,4 +16,4 @@ void check_formulas(const Scene& scene);
 // the same samples. Error (timed_out) where one does not end.
 std::vector<Diagnostic> doubt_lipschitz_constants(const Scene& scene);
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

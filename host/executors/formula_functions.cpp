@@ -7,7 +7,7 @@
 #include "host/expression/emit.hpp"
 #include "host/formula/formula.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 namespace {
 
 using expression::LoadedNumbers;
@@ -102,4 +102,4 @@ std::string formula_functions(const records::PackedScene& scene, expression::Loa
          "#define FORMULAS(X)" + rows + "\n";
 }
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

@@ -7,9 +7,9 @@
 #include "host/expression/loaded_numbers.hpp"
 #include "host/records/packer.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 // With `numbers`, they load their numbers (FORMULA_NUMBERS of kernels/features.h).
 std::string formula_functions(const records::PackedScene& scene, expression::LoadedNumbers* numbers);
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

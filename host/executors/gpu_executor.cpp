@@ -27,7 +27,7 @@
 #include "host/pack/pack.hpp"
 #include "host/scene/integrator.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 namespace {
 
 class GpuExecutor final : public Executor {
@@ -299,4 +299,4 @@ std::unique_ptr<Executor> make_gpu_executor(const Scene& scene, const ExecutorOp
   return std::make_unique<GpuExecutor>(scene, std::move(packed), std::move(device), times, options);
 }
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

@@ -8,7 +8,7 @@
 #include "host/executors/samples.hpp"
 #include "host/gpu/command_list.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 double GpuQueries::ask(const QueryBatch& batch, std::span<QueryHit> hits) {
   CHECK_EQ(batch.rays.size(), hits.size());
@@ -55,4 +55,4 @@ double GpuQueries::ask_some(gpu::Kernel& kernel, Rays how, std::span<const Query
   return time.seconds;
 }
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

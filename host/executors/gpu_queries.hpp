@@ -9,7 +9,7 @@
 #include "host/executors/workgroups.hpp"
 #include "host/scene/query.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 class GpuQueries {
  public:
@@ -34,4 +34,4 @@ class GpuQueries {
   std::shared_ptr<gpu::Kernel> made_[2][3];  // by whether any hit will do, and by Rays
 };
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

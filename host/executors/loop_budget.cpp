@@ -3,7 +3,7 @@
 #include "host/core/error.hpp"
 #include "host/core/option_text.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 namespace {
 
 // Of the 65 535 iterations that a capped driver grants an invocation, what we count on (docs/lavapipe.md).
@@ -38,4 +38,4 @@ void check_traced(uint32_t flags, std::string_view driver) {
                 driver, option_text("backend", "twin"));
 }
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

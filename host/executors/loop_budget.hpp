@@ -6,7 +6,7 @@
 
 #include "host/records/packer.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 // How many loop iterations a ray takes at most through what is in no BVH. Through a BVH it takes far fewer
 // than there are primitives, nobody knows how many.
@@ -19,4 +19,4 @@ uint32_t loop_budget_of(const records::PackedScene& scene, std::string_view driv
 // Error (no_device), which names the driver, where the flags of a ray say that it ended loops all the same.
 void check_traced(uint32_t flags, std::string_view driver);
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

@@ -9,7 +9,7 @@
 
 #include "host/records/packer.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 namespace {
 
 constexpr uint32_t first_bit = REFRACTED_SHIFT, bits = 32 - first_bit;
@@ -209,4 +209,4 @@ Error LoopGuard::explained(const Error& time_out) const {
   return {ExitCode::timed_out, "{}; the loops of your shaders are:\n{}", time_out.what(), list(~0u)};
 }
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

@@ -9,7 +9,7 @@
 
 #include "host/core/error.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 class LoopGuard {
  public:
@@ -52,4 +52,4 @@ class LoopGuard {
   std::vector<Loop> loops_;
 };
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

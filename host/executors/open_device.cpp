@@ -5,7 +5,7 @@
 #include "host/core/content_hash.hpp"
 #include "host/executors/shader_files.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 namespace {
 
 constexpr size_t most_kernels = 8;
@@ -48,4 +48,4 @@ std::shared_ptr<OpenDevice> open_device(const GpuOptions& options) {
   return std::make_shared<OpenDevice>(options, false, times);
 }
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

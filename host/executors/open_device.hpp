@@ -13,7 +13,7 @@
 #include "host/gpu/kernel.hpp"
 #include "host/gpu/self_test.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 gpu::DeviceOptions device_options(const GpuOptions& options, bool wide_vectors);
 
@@ -45,4 +45,4 @@ class OpenDevice {
 // For GpuOptions::open_device. Error (no_device) when no device will do.
 std::shared_ptr<OpenDevice> open_device(const GpuOptions& options);
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

@@ -2,7 +2,7 @@
 
 #include "host/bvh/history.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 bool repay_kernels(int64_t samples) {
   // From there on, what a second of compiling saves is more than a second.
@@ -15,4 +15,4 @@ ExecutorOptions for_frames(ExecutorOptions options, int64_t samples) {
   return options;
 }
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

@@ -9,7 +9,7 @@
 #include "host/pack/options.hpp"
 #include "host/scene/photons.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 class OpenDevice;
 class Tunables;
@@ -53,4 +53,4 @@ bool repay_kernels(int64_t samples);
 // their BVHs are refitted where that will do, and they share kernels where samples do not repay others.
 ExecutorOptions for_frames(ExecutorOptions options, int64_t samples);
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

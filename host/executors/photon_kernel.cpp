@@ -7,7 +7,7 @@
 #include "host/executors/samples.hpp"
 #include "host/gpu/command_list.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 namespace {
 
 // Two surfaces that scatter light widely stop each photon, more or less; where they do more often, there is
@@ -130,4 +130,4 @@ bool PhotonKernel::send_out(uint32_t index, std::span<const uint32_t> left_out) 
   return true;
 }
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

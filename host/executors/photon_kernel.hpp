@@ -10,7 +10,7 @@
 #include "host/executors/scene_kernels.hpp"
 #include "host/executors/workgroups.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 class PhotonKernel {
  public:
@@ -48,4 +48,4 @@ class PhotonKernel {
   uint32_t flags_ = 0;
 };
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

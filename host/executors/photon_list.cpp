@@ -5,7 +5,7 @@
 #include <cmath>
 #include <tuple>
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 namespace {
 
 static_assert(most_photon_targets == MOST_PHOTON_TARGETS);
@@ -55,4 +55,4 @@ shader::PhotonPass photon_pass(const PhotonSettings& settings, uint32_t index, c
   return pass;
 }
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

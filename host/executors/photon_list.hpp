@@ -8,7 +8,7 @@
 #include "host/records/records.hpp"
 #include "host/scene/photons.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 struct PhotonList {
   std::vector<shader::Photon> photons;  // by key; of the same key by number, then by depth
@@ -23,4 +23,4 @@ PhotonList photon_list(std::span<const shader::Photon> stored, uint32_t key_mask
 shader::PhotonPass photon_pass(const PhotonSettings& settings, uint32_t index, const Vec3& eye,
                                uint32_t capacity);
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 namespace {
 
 // Empty: by the scene where `cpu`, else lanes.
@@ -51,4 +51,4 @@ std::string describe(const Profile& profile) {
                      profile.constants ? "" : ", no constants", profile.flatten ? ", flattened" : "");
 }
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

@@ -8,7 +8,7 @@
 #include "host/executors/profile_options.hpp"
 #include "host/gpu/device.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 // How rays are traced: each alone on its lane (kernels/query.comp.glsl), many together
 // (kernels/cooperative/packet.comp.glsl), or each by four lanes (kernels/cooperative/bvh4.comp.glsl).
@@ -31,4 +31,4 @@ Profile choose_profile(const ProfileOptions& options, const gpu::DeviceInfo& dev
 // "flattened" where that is so.
 std::string describe(const Profile& profile);
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

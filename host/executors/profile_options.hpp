@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 // The kernels' profile (executors/profile.hpp); an empty choice is the profile's.
 struct ProfileOptions {
@@ -14,4 +14,4 @@ struct ProfileOptions {
   std::string incoherent;        // incoherent rays: cooperative (four lanes a ray) | lanes | packets
 };
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

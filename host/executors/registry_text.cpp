@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 std::string list_text(std::string_view list, std::span<const Row> rows, const std::set<uint32_t>& used) {
   std::string text = fmt::format("#define {}(X)", list);
@@ -21,4 +21,4 @@ std::string registry_text(std::string_view list, std::string_view folder, std::s
   return text;
 }
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

@@ -10,7 +10,7 @@
 
 #include "host/records/records.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 struct Row {
   std::string_view name;
@@ -52,4 +52,4 @@ std::string registry_text(std::string_view list, std::string_view folder, std::s
 // The macro alone.
 std::string list_text(std::string_view list, std::span<const Row> rows, const std::set<uint32_t>& used);
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

@@ -5,7 +5,7 @@
 #include "host/core/error.hpp"
 #include "host/formula/formula.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 // The host names the shaders' flags where it knows no records (core/pixel.hpp).
 static_assert(media_overflow == FLAG_MEDIA_OVERFLOW && stack_overflow == FLAG_STACK_OVERFLOW);
@@ -50,4 +50,4 @@ FirstHit to_first_hit(const shader::HitResult& result, const Vec3& eye, bool sea
   return hit;
 }
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

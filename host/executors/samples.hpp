@@ -5,7 +5,7 @@
 #include "host/executors/executor.hpp"
 #include "host/records/packer.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 // Error (timed_out) where the flags say that a formula's loops did not end; so do the three below.
 void check_ended(uint32_t flags);
@@ -36,4 +36,4 @@ QueryHit to_query_hit(const shader::QueryHit& result);
 // `eye`: the origin of the shaders' world; `search_cost`: whether the kernel counted it.
 FirstHit to_first_hit(const shader::HitResult& result, const Vec3& eye, bool search_cost);
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

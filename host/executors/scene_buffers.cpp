@@ -1,6 +1,6 @@
 #include "host/executors/scene_buffers.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 namespace {
 
 enum class Kind { storage, texels };
@@ -45,4 +45,4 @@ SceneBuffer bvh4_buffer(std::span<const shader::uvec4> nodes) {
   return buffer(BINDING_BVH4_NODES, "BVH4 nodes", nodes, Kind::texels, Part::geometry);
 }
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

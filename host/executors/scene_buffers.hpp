@@ -8,7 +8,7 @@
 
 #include "host/records/packer.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 struct SceneBuffer {
   uint32_t binding;  // records.h
@@ -29,4 +29,4 @@ SceneBuffer formula_numbers_buffer(std::span<const uint32_t> words);
 // What kernels/cooperative/bvh4.comp.glsl needs besides; `nodes` must stay.
 SceneBuffer bvh4_buffer(std::span<const shader::uvec4> nodes);
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

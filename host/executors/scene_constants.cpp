@@ -10,7 +10,7 @@
 
 #include "host/executors/registry_text.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 namespace {
 
 // Above this many records of a kind the code outgrows what it saves, and its compilation what a frame saves.
@@ -131,4 +131,4 @@ std::string primitives_as_constants(const records::PackedScene& scene) {
   return text + "\n";
 }
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

@@ -7,7 +7,7 @@
 
 #include "host/records/packer.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 // Whether these are so few that the code does not outgrow what it saves.
 bool few_shading_records(const records::PackedScene& scene);
@@ -24,4 +24,4 @@ std::string frame_as_constant(const shader::Frame& frame);
 // ids.
 std::string primitives_as_constants(const records::PackedScene& scene);
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

@@ -7,7 +7,7 @@
 #include "host/scene/texture.hpp"
 #include "host/scene/texture_rows.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 namespace {
 
 bool texture_varies(const shader::Texture& texture) {
@@ -152,7 +152,7 @@ uint32_t shadow_rays(const records::PackedScene& scene) {
 }
 
 bool walks_at_random(const records::PackedScene& scene) {
-  return eyeray::walks_at_random(IntegratorType(scene.frame.integrator));
+  return eyeray::engine::walks_at_random(IntegratorType(scene.frame.integrator));
 }
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

@@ -5,7 +5,7 @@
 
 #include "host/records/packer.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 // Whether any texture of the material varies over a surface.
 bool varies(const records::PackedScene& scene, const shader::Material& material);
@@ -39,4 +39,4 @@ uint32_t shadow_rays(const records::PackedScene& scene);
 // Whether paths draw random numbers on their way.
 bool walks_at_random(const records::PackedScene& scene);
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

@@ -7,7 +7,7 @@
 #include "host/executors/profile.hpp"
 #include "host/pack/collapse.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 std::shared_ptr<gpu::Kernel> SceneKernels::make(const std::string& entry, std::string defines) {
   if (entry == trace_entries[size_t(Rays::cooperative)]) {
@@ -78,4 +78,4 @@ void SceneKernels::upload_bvh4() {
   scene_.add(bvh4_buffer(bvh4.nodes));
 }
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

@@ -18,7 +18,7 @@
 #include "host/gpu/kernel_compiler.hpp"
 #include "host/records/packer.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 // The entries that trace the rays they are given, by Rays.
 inline constexpr const char* trace_entries[] = {
@@ -89,4 +89,4 @@ class SceneKernels {
   uint64_t uploaded_ = 0;  // the choice that the buffer has
 };
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

@@ -13,7 +13,7 @@
 #include "host/core/input_file.hpp"
 #include "host/core/option_text.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 namespace {
 
 constexpr std::string_view shared_files[] = {"records.h", "result_records.h"};  // by shaders and host
@@ -115,4 +115,4 @@ std::vector<std::string> changed_shaders(const std::filesystem::path& folder) {
   return changed;
 }
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

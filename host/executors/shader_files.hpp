@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 class ShaderFiles {
  public:
@@ -41,4 +41,4 @@ class ShaderFiles {
 // is empty.
 std::vector<std::string> changed_shaders(const std::filesystem::path& folder);
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

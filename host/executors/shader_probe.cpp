@@ -7,7 +7,7 @@
 #include <regex>
 #include <sstream>
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 namespace {
 
 // The host names the shaders' kinds of rays where it knows no records (core/ray_tree.hpp).
@@ -90,4 +90,4 @@ void ShaderProbe::name_files(RayTree& tree) const {
   }
 }
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

@@ -9,7 +9,7 @@
 #include "host/core/ray_tree.hpp"
 #include "host/records/packer.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 // Every PROBE in shader files.
 class ShaderProbe {
@@ -35,4 +35,4 @@ class ShaderProbe {
   std::map<std::string, std::vector<Place>, std::less<>> places_;  // by name
 };
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

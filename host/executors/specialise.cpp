@@ -14,7 +14,7 @@
 #include "host/executors/scene_facts.hpp"
 #include "host/scene/integrator.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 namespace {
 
 // The kinds of a scene, which alone its kernels have; and of `materials` those that anything is made of.
@@ -200,4 +200,4 @@ std::string specialise(const records::PackedScene& scene, const Specialisation& 
          registries(scene, used);
 }
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

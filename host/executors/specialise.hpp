@@ -9,7 +9,7 @@
 #include "host/pack/collapse.hpp"
 #include "host/records/packer.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 struct Specialisation {
   bool constants = true;  // compile a small scene in, instead of loading it
@@ -28,4 +28,4 @@ struct Specialisation {
 
 std::string specialise(const records::PackedScene& scene, const Specialisation& options);
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

@@ -5,7 +5,7 @@
 #include "host/pack/collapse.hpp"
 #include "host/scene/integrator.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 namespace {
 
 // Where a triangle is less than a pixel, rays of a packet hardly share a leaf: beyond so many primitives each
@@ -76,4 +76,4 @@ bool wants_wide_vectors(const ProfileOptions& asked, const ImageSettings& image,
   return image.all_samples() >= least_samples_in_wide_vectors && !(narrow.wavefront && suits_packets);
 }
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

@@ -5,7 +5,7 @@
 #include "host/records/packer.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 struct TracePlan {
   Rays coherent = Rays::lanes;  // or packets
@@ -24,4 +24,4 @@ TracePlan plan_tracing(const Profile& profile, const ProfileOptions& asked, cons
 bool wants_wide_vectors(const ProfileOptions& asked, const ImageSettings& image,
                         const records::PackedScene& scene);
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

@@ -6,7 +6,7 @@
 #include <optional>
 #include <regex>
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 namespace {
 
 // 1: what stands before it, 2: type, 3: name, 4: value, 5: comment, 6: kind of control, 7: its numbers.
@@ -148,4 +148,4 @@ std::array<std::array<float, 4>, Tunables::most> Tunables::records() const {
   return records;
 }
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

@@ -18,7 +18,7 @@
 
 #include "host/core/diagnostic.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 struct Tunable {
   enum class Type { floating, integer, boolean, vector };
@@ -63,4 +63,4 @@ class Tunables {
   std::vector<std::string> places_;  // ids, as they lie in the buffer: once given, for ever
 };
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

@@ -8,7 +8,7 @@
 #include "host/core/error.hpp"
 #include "host/executors/options.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 namespace {
 
 template <std::string ProfileOptions::* part>
@@ -89,4 +89,4 @@ void tune(ExecutorOptions& options, std::string_view setting) {
   tuning.choose(options, value);
 }
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 struct ExecutorOptions;
 
@@ -21,4 +21,4 @@ std::span<const Tuning> tunings();
 // "rays=lanes"; Error (bad_input) for an unknown key or value.
 void tune(ExecutorOptions& options, std::string_view setting);
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

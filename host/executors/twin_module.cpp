@@ -24,7 +24,7 @@
 
 namespace fs = std::filesystem;
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 namespace {
 
 constexpr double longest_compilation = 300;  // seconds
@@ -213,4 +213,4 @@ TwinModule::~TwinModule() {
   if (handle_) ::dlclose(handle_);
 }
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

@@ -11,7 +11,7 @@
 #include "host/executors/loop_guard.hpp"
 #include "host/twin/scene_view.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 class TwinModule {
  public:
@@ -39,4 +39,4 @@ class TwinModule {
   const twin::Functions* functions_ = nullptr;
 };
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

@@ -2,7 +2,7 @@
 
 #include "host/core/error.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 void UploadedScene::add(const SceneBuffer& source) {
   gpu::Buffer buffer(device_, source.size(), source.name,
@@ -21,4 +21,4 @@ void UploadedScene::bind(gpu::Kernel& kernel) const {
   for (const auto& [binding, buffer] : buffers_) kernel.set_buffer(binding, buffer);
 }
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

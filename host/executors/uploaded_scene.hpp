@@ -9,7 +9,7 @@
 #include "host/gpu/buffer.hpp"
 #include "host/gpu/kernel.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 class UploadedScene {
  public:
@@ -31,4 +31,4 @@ class UploadedScene {
   uint64_t geometry_bytes_ = 0;
 };
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

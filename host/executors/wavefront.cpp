@@ -4,7 +4,7 @@
 
 #include "host/core/termination.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 Wavefront::Wavefront(gpu::Device& device, const MakeKernel& make_kernel, const WavefrontOptions& options)
     : device_(device), options_(options) {
@@ -91,4 +91,4 @@ void Wavefront::make_room(uint32_t pixels) {
   }
 }
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

@@ -13,7 +13,7 @@
 #include "host/gpu/command_list.hpp"
 #include "host/records/records.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 struct WavefrontOptions {
   uint32_t shadow_rays = 0;  // of each hit
@@ -55,4 +55,4 @@ class Wavefront {
   std::optional<gpu::Buffer> hits_, occlusions_, paths_, lists_[2];
 };
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

@@ -5,7 +5,7 @@
 
 #include "host/records/records.hpp"
 
-namespace eyeray::executors {
+namespace eyeray::engine::executors {
 
 struct Workgroups {
   uint32_t stride = 1;    // GROUP_STRIDE: a CPU driver splits a dispatch evenly over so many threads
@@ -29,4 +29,4 @@ struct Workgroups {
   }
 };
 
-}  // namespace eyeray::executors
+}  // namespace eyeray::engine::executors

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace eyeray::expression {
+namespace eyeray::engine::expression {
 namespace {
 
 // A kind of number that every step is computed in.
@@ -85,4 +85,4 @@ std::string gradient_text(const StraightLine& line, std::string_view name, Loade
             numbers));
 }
 
-}  // namespace eyeray::expression
+}  // namespace eyeray::engine::expression

@@ -6,7 +6,7 @@
 #include "host/expression/expression.hpp"
 #include "host/expression/loaded_numbers.hpp"
 
-namespace eyeray::expression {
+namespace eyeray::engine::expression {
 
 // With `numbers`, the constants are loaded.
 
@@ -19,4 +19,4 @@ std::string gradient_text(const StraightLine& line, std::string_view name, Loade
 // How far the constant, as a float, may be from what was meant.
 float constant_error(const Step& step);
 
-}  // namespace eyeray::expression
+}  // namespace eyeray::engine::expression

@@ -5,7 +5,7 @@
 
 #include "host/core/error.hpp"
 
-namespace eyeray::expression {
+namespace eyeray::engine::expression {
 namespace {
 
 struct Row {
@@ -248,4 +248,4 @@ StraightLine straight_line(const Expression& expression, Term result) {
   return line;
 }
 
-}  // namespace eyeray::expression
+}  // namespace eyeray::engine::expression

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-namespace eyeray::expression {
+namespace eyeray::engine::expression {
 
 // Numbers are real, truths are yes or no; whole numbers are numbers.
 enum class Op {
@@ -97,4 +97,4 @@ StraightLine straight_line(const Expression& expression, Term result);
 // the expression's own constants, and for tests.
 double compute(Op op, double x, double y, double z);
 
-}  // namespace eyeray::expression
+}  // namespace eyeray::engine::expression

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace eyeray::expression {
+namespace eyeray::engine::expression {
 
 class LoadedNumbers {
  public:
@@ -26,4 +26,4 @@ class LoadedNumbers {
   std::vector<uint32_t> words_;
 };
 
-}  // namespace eyeray::expression
+}  // namespace eyeray::engine::expression

@@ -17,7 +17,7 @@
 #include "host/image/false_color.hpp"
 #include "host/image/image.hpp"
 
-namespace eyeray::film {
+namespace eyeray::engine::film {
 
 // What every sample of a pixel is added to. Checkpoints hold it as it lies in memory.
 struct PixelTotals {
@@ -94,4 +94,4 @@ std::filesystem::path channel_file(std::filesystem::path output, Channel channel
 image::Image channel_image(Channel channel, std::span<const FirstHit> hits, int width,
                            const LegendEntries* entries);
 
-}  // namespace eyeray::film
+}  // namespace eyeray::engine::film

@@ -10,7 +10,7 @@
 #include "host/scene/integrator.hpp"
 #include "host/scene/luminance.hpp"
 
-namespace eyeray::film {
+namespace eyeray::engine::film {
 namespace {
 
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
@@ -287,4 +287,4 @@ image::Image channel_image(Channel channel, std::span<const FirstHit> hits, int 
   return image;
 }
 
-}  // namespace eyeray::film
+}  // namespace eyeray::engine::film

@@ -8,7 +8,7 @@
 #include "host/core/parallel_for.hpp"
 #include "host/scene/luminance.hpp"
 
-namespace eyeray::film {
+namespace eyeray::engine::film {
 
 static_assert(sizeof(PixelTotals) == 40, "checkpoints hold it as it lies in memory");
 
@@ -137,4 +137,4 @@ std::vector<std::span<const std::byte>> Film::parts() const {
   return all;
 }
 
-}  // namespace eyeray::film
+}  // namespace eyeray::engine::film

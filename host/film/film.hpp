@@ -7,7 +7,7 @@
 #include "host/core/rect.hpp"
 #include "host/film/channel.hpp"
 
-namespace eyeray::film {
+namespace eyeray::engine::film {
 
 // Finished rows of a picture; sinks get them from the top down, none twice.
 struct Rows {
@@ -72,4 +72,4 @@ class Film {
   double shown_as_one_ = 1;
 };
 
-}  // namespace eyeray::film
+}  // namespace eyeray::engine::film

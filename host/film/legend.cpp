@@ -8,7 +8,7 @@
 #include "host/image/image_file.hpp"
 #include "host/scene/objects.hpp"
 
-namespace eyeray::film {
+namespace eyeray::engine::film {
 namespace {
 
 // Bytes to gather before they are written.
@@ -160,4 +160,4 @@ std::filesystem::path write_legend(const LegendTally& tally, const std::filesyst
   return file.finish();
 }
 
-}  // namespace eyeray::film
+}  // namespace eyeray::engine::film

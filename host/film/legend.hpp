@@ -12,7 +12,7 @@
 #include "host/core/pixel.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray::film {
+namespace eyeray::engine::film {
 
 using Json = nlohmann::ordered_json;
 
@@ -67,4 +67,4 @@ class Legend {
   uint64_t nothing_ = 0;          // pixels where nothing is hit
 };
 
-}  // namespace eyeray::film
+}  // namespace eyeray::engine::film

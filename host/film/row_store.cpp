@@ -11,7 +11,7 @@
 #include "host/core/checksum.hpp"
 #include "host/core/error.hpp"
 
-namespace eyeray::film {
+namespace eyeray::engine::film {
 namespace {
 
 // The images that hold what is stored of a pixel, in this order.
@@ -103,4 +103,4 @@ void RowStore::remove() {
   std::filesystem::remove(file_, ignored);
 }
 
-}  // namespace eyeray::film
+}  // namespace eyeray::engine::film

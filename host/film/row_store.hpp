@@ -7,7 +7,7 @@
 
 #include "host/film/film.hpp"
 
-namespace eyeray::film {
+namespace eyeray::engine::film {
 
 // Rows from the top down; of each its pixels from left to right: three float32 of the colour, then those of
 // each of the rows' channels; little-endian. Every failure is an Error (file_io).
@@ -38,4 +38,4 @@ class RowStore {
   bool dropped_rest_ = false;
 };
 
-}  // namespace eyeray::film
+}  // namespace eyeray::engine::film

@@ -1,6 +1,6 @@
 #include "host/film/values.hpp"
 
-namespace eyeray::film {
+namespace eyeray::engine::film {
 
 ChannelValues::ChannelValues(Channels channels, const Scene& scene) : channels_(std::move(channels)) {
   legends_.resize(channels_.size());
@@ -21,4 +21,4 @@ void ChannelValues::give(std::span<const FirstHit> hits, int width, const Sink& 
   }
 }
 
-}  // namespace eyeray::film
+}  // namespace eyeray::engine::film

@@ -9,7 +9,7 @@
 #include "host/film/film.hpp"
 #include "host/film/legend.hpp"
 
-namespace eyeray::film {
+namespace eyeray::engine::film {
 
 class ChannelValues {
  public:
@@ -31,4 +31,4 @@ class ChannelValues {
   std::vector<std::optional<Legend>> legends_;  // as many
 };
 
-}  // namespace eyeray::film
+}  // namespace eyeray::engine::film

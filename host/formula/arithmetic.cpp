@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace eyeray::formula {
+namespace eyeray::engine::formula {
 namespace {
 
 // Op by Op on each component; y may be missing.
@@ -240,4 +240,4 @@ std::optional<Value> whole_arithmetic(Expression& expression, spv::Op op, const 
   return result;
 }
 
-}  // namespace eyeray::formula
+}  // namespace eyeray::engine::formula

@@ -8,7 +8,7 @@
 
 #include "host/expression/expression.hpp"
 
-namespace eyeray::formula {
+namespace eyeray::engine::formula {
 
 using expression::Expression;
 using expression::no_term;
@@ -34,4 +34,4 @@ std::optional<Value> glsl_function(Expression& expression, uint32_t function, co
 Term dot(Expression& expression, const Value& a, const Value& b);
 Term truncate(Expression& expression, Term x);
 
-}  // namespace eyeray::formula
+}  // namespace eyeray::engine::formula

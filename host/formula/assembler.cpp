@@ -5,7 +5,7 @@
 #include "host/core/error.hpp"
 #include "host/formula/machine.hpp"
 
-namespace eyeray::formula {
+namespace eyeray::engine::formula {
 
 class Assembler {
  public:
@@ -277,4 +277,4 @@ Machine::Machine(const ir::Program& program, uint32_t function) {
   Assembler(*this, program).run(function);
 }
 
-}  // namespace eyeray::formula
+}  // namespace eyeray::engine::formula

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-namespace eyeray::formula {
+namespace eyeray::engine::formula {
 
 enum class FormulaKind {
   surface,  // `float f(vec3 p)`, negative inside; it may have `vec3 gradient(vec3 p)` too
@@ -35,4 +35,4 @@ constexpr Entry other_entry_of(FormulaKind kind) {
                                      : Entry{"vec3", "gradient", "vec3", "vec3 p"};
 }
 
-}  // namespace eyeray::formula
+}  // namespace eyeray::engine::formula

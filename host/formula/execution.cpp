@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace eyeray::formula {
+namespace eyeray::engine::formula {
 namespace {
 
 constexpr size_t most_effort =
@@ -202,4 +202,4 @@ void Execution::refuse(const Instruction& instruction, const std::string& what) 
   throw InputError({{Severity::error, instruction.where, what, ""}});
 }
 
-}  // namespace eyeray::formula
+}  // namespace eyeray::engine::formula

@@ -8,7 +8,7 @@
 #include "host/formula/arithmetic.hpp"
 #include "host/formula/module.hpp"
 
-namespace eyeray::formula {
+namespace eyeray::engine::formula {
 
 class Execution {
  public:
@@ -75,4 +75,4 @@ class Execution {
   size_t effort_ = 0;
 };
 
-}  // namespace eyeray::formula
+}  // namespace eyeray::engine::formula

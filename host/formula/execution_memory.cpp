@@ -3,7 +3,7 @@
 
 #include "host/formula/execution.hpp"
 
-namespace eyeray::formula {
+namespace eyeray::engine::formula {
 
 bool Execution::run_memory(Call& call, const Instruction& instruction) {
   const std::vector<uint32_t>& words = instruction.words;
@@ -167,4 +167,4 @@ bool Execution::run_branch(Call& call, const Instruction& instruction) {
   }
 }
 
-}  // namespace eyeray::formula
+}  // namespace eyeray::engine::formula

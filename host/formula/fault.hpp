@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace eyeray::formula {
+namespace eyeray::engine::formula {
 
 struct Fault {
   int line;    // of the text, from 1
@@ -11,4 +11,4 @@ struct Fault {
   std::string message;
 };
 
-}  // namespace eyeray::formula
+}  // namespace eyeray::engine::formula

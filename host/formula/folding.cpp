@@ -7,7 +7,7 @@
 #include "host/formula/lowering.hpp"
 #include "host/formula/machine.hpp"
 
-namespace eyeray::formula {
+namespace eyeray::engine::formula {
 
 namespace {
 
@@ -192,4 +192,4 @@ void fold(Module& module) {
   Folding(module).run();
 }
 
-}  // namespace eyeray::formula
+}  // namespace eyeray::engine::formula

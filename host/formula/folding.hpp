@@ -3,7 +3,7 @@
 
 #include "host/formula/module.hpp"
 
-namespace eyeray::formula {
+namespace eyeray::engine::formula {
 
 // Finds the variables that are only ever seen as one constant, those outside of functions among them, and
 // replaces each instruction that computes from constants alone by what it gives: in float32, by the functions
@@ -11,4 +11,4 @@ namespace eyeray::formula {
 // stored to where it begins: one that is stored to once is never seen otherwise.
 void fold(Module& module);
 
-}  // namespace eyeray::formula
+}  // namespace eyeray::engine::formula

@@ -21,7 +21,7 @@
 #include "host/formula/vocabulary.hpp"
 #include "host/gpu/shader_compiler.hpp"
 
-namespace eyeray::formula {
+namespace eyeray::engine::formula {
 
 struct Compiled {
   FormulaKind kind;
@@ -316,4 +316,4 @@ std::string endless_formula(const std::string& title) {
       title);
 }
 
-}  // namespace eyeray::formula
+}  // namespace eyeray::engine::formula

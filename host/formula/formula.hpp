@@ -15,7 +15,7 @@
 #include "host/expression/loaded_numbers.hpp"
 #include "host/formula/entry.hpp"
 
-namespace eyeray::formula {
+namespace eyeray::engine::formula {
 
 struct Compiled;
 struct Text;
@@ -106,4 +106,4 @@ bool is_formula_name(const std::string& name);
 // What is said of a formula whose loops do not end.
 std::string endless_formula(const std::string& title);
 
-}  // namespace eyeray::formula
+}  // namespace eyeray::engine::formula

@@ -5,7 +5,7 @@
 
 #include "host/formula/arithmetic.hpp"
 
-namespace eyeray::formula {
+namespace eyeray::engine::formula {
 namespace {
 
 // Writes down formulas; everything GLSL has, made of the few operations of a expression.
@@ -216,4 +216,4 @@ std::optional<Value> glsl_function(Expression& expression, uint32_t function,
   return result;
 }
 
-}  // namespace eyeray::formula
+}  // namespace eyeray::engine::formula

@@ -13,7 +13,7 @@
 #include <variant>
 #include <vector>
 
-namespace eyeray::formula::ir {
+namespace eyeray::engine::formula::ir {
 
 // A float; the 32 bits of an int or uint; a bool.
 enum class Type : uint8_t { real, whole, truth };
@@ -191,4 +191,4 @@ struct Program {
   bool counts_turns = false;
 };
 
-}  // namespace eyeray::formula::ir
+}  // namespace eyeray::engine::formula::ir

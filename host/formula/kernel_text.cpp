@@ -5,7 +5,7 @@
 
 #include "host/core/error.hpp"
 
-namespace eyeray::formula {
+namespace eyeray::engine::formula {
 
 namespace {
 
@@ -392,4 +392,4 @@ std::string kernel_text(const ir::Program& program, FormulaKind kind, const std:
   return Writer(program, kind, name, numbers).run();
 }
 
-}  // namespace eyeray::formula
+}  // namespace eyeray::engine::formula

@@ -7,7 +7,7 @@
 #include "host/formula/entry.hpp"
 #include "host/formula/ir.hpp"
 
-namespace eyeray::formula {
+namespace eyeray::engine::formula {
 
 // The entry of that kind, its name behind `name`, the other one if there is one, and what they call; needs
 // shaders/math/formula.glsl and, where loops are counted, `bool formula_turn(uint)`. One operation a
@@ -16,4 +16,4 @@ namespace eyeray::formula {
 std::string kernel_text(const ir::Program& program, FormulaKind kind, const std::string& name,
                         expression::LoadedNumbers* numbers = nullptr);
 
-}  // namespace eyeray::formula
+}  // namespace eyeray::engine::formula

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <optional>
 
-namespace eyeray::formula {
+namespace eyeray::engine::formula {
 
 namespace {
 
@@ -207,4 +207,4 @@ Size size_of(const ir::Program& program) {
   return sum;
 }
 
-}  // namespace eyeray::formula
+}  // namespace eyeray::engine::formula

@@ -5,7 +5,7 @@
 
 #include "host/formula/ir.hpp"
 
-namespace eyeray::formula {
+namespace eyeray::engine::formula {
 
 // A function with the functions that it calls written in their places.
 struct Size {
@@ -22,4 +22,4 @@ std::string limit(ir::Program& program);
 // Of both functions together, once limited.
 Size size_of(const ir::Program& program);
 
-}  // namespace eyeray::formula
+}  // namespace eyeray::engine::formula

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace eyeray::formula {
+namespace eyeray::engine::formula {
 
 namespace {
 
@@ -337,4 +337,4 @@ void FunctionLowering::refuse(const Instruction& instruction, const std::string&
   throw InputError({{Severity::error, instruction.where, what, ""}});
 }
 
-}  // namespace eyeray::formula
+}  // namespace eyeray::engine::formula

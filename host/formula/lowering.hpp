@@ -8,7 +8,7 @@
 #include "host/formula/ir.hpp"
 #include "host/formula/module.hpp"
 
-namespace eyeray::formula {
+namespace eyeray::engine::formula {
 
 // The program whose functions are the module's of these names, as Module::named takes them;
 // the latter may be missing. InputError, with the line, for what formulas cannot be made of.
@@ -116,4 +116,4 @@ class FunctionLowering {
   size_t block_ = 0, at_ = 0;    // what is lowered now
 };
 
-}  // namespace eyeray::formula
+}  // namespace eyeray::engine::formula

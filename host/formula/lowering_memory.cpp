@@ -3,7 +3,7 @@
 
 #include "host/formula/lowering.hpp"
 
-namespace eyeray::formula {
+namespace eyeray::engine::formula {
 
 bool FunctionLowering::lower_memory(const Instruction& instruction, ir::Block& out) {
   const uint32_t id = instruction.result;
@@ -229,4 +229,4 @@ bool FunctionLowering::retarget(const std::vector<ir::Operand>& to, const std::v
   return true;
 }
 
-}  // namespace eyeray::formula
+}  // namespace eyeray::engine::formula

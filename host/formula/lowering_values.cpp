@@ -5,7 +5,7 @@
 
 #include "host/formula/lowering.hpp"
 
-namespace eyeray::formula {
+namespace eyeray::engine::formula {
 
 namespace {
 
@@ -371,4 +371,4 @@ bool FunctionLowering::lower_composite(const Instruction& instruction, ir::Block
   return true;
 }
 
-}  // namespace eyeray::formula
+}  // namespace eyeray::engine::formula

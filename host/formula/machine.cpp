@@ -13,7 +13,7 @@
 #include "shaders/math/formula.glsl"
 #pragma GCC diagnostic pop
 
-namespace eyeray::formula {
+namespace eyeray::engine::formula {
 
 namespace {
 
@@ -250,4 +250,4 @@ std::vector<uint32_t> Machine::bits() const {
   return bits;
 }
 
-}  // namespace eyeray::formula
+}  // namespace eyeray::engine::formula

@@ -11,7 +11,7 @@
 
 #include "host/formula/ir.hpp"
 
-namespace eyeray::formula {
+namespace eyeray::engine::formula {
 
 class Machine {
  public:
@@ -69,4 +69,4 @@ class Machine {
   bool gives_reals_ = true;
 };
 
-}  // namespace eyeray::formula
+}  // namespace eyeray::engine::formula

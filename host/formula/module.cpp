@@ -6,7 +6,7 @@
 
 #include "host/gpu/spirv.hpp"
 
-namespace eyeray::formula {
+namespace eyeray::engine::formula {
 
 namespace {
 
@@ -188,4 +188,4 @@ std::optional<uint32_t> Module::constant(uint32_t id) const {
   return constant_bits(id)[0];
 }
 
-}  // namespace eyeray::formula
+}  // namespace eyeray::engine::formula

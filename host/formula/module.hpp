@@ -12,7 +12,7 @@
 
 #include "host/core/diagnostic.hpp"
 
-namespace eyeray::formula {
+namespace eyeray::engine::formula {
 
 // Numbers lie flat: a vector, matrix, array or struct is the numbers of its members, one after the other.
 struct Type {
@@ -84,4 +84,4 @@ struct Module {
   uint32_t new_ids_ = 0x80000000;  // glslang's are below
 };
 
-}  // namespace eyeray::formula
+}  // namespace eyeray::engine::formula

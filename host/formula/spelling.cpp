@@ -5,7 +5,7 @@
 
 #include "host/formula/text.hpp"
 
-namespace eyeray::formula {
+namespace eyeray::engine::formula {
 
 namespace {
 
@@ -79,4 +79,4 @@ std::string Text::unfolded(std::string& zeros) const {
   });
 }
 
-}  // namespace eyeray::formula
+}  // namespace eyeray::engine::formula

@@ -11,7 +11,7 @@
 #include "host/core/diagnostic.hpp"
 #include "host/formula/vocabulary.hpp"
 
-namespace eyeray::formula {
+namespace eyeray::engine::formula {
 
 namespace {
 
@@ -319,4 +319,4 @@ Text read_text(std::string_view text, FormulaKind kind, std::vector<Fault>& faul
   return result;
 }
 
-}  // namespace eyeray::formula
+}  // namespace eyeray::engine::formula

@@ -10,7 +10,7 @@
 #include "host/formula/fault.hpp"
 #include "host/formula/token.hpp"
 
-namespace eyeray::formula {
+namespace eyeray::engine::formula {
 
 // Before every name of a user's in what the compiler is given, so that none is one of GLSL's.
 inline constexpr std::string_view user_prefix = "user_";
@@ -54,4 +54,4 @@ struct Text {
 // know, and defines what one of its kind must.
 Text read_text(std::string_view text, FormulaKind kind, std::vector<Fault>& faults);
 
-}  // namespace eyeray::formula
+}  // namespace eyeray::engine::formula

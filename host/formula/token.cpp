@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace eyeray::formula {
+namespace eyeray::engine::formula {
 
 namespace {
 
@@ -139,4 +139,4 @@ std::vector<Token> tokenize(std::string_view text, std::vector<Fault>& faults) {
   return Tokenizer(text, faults).run();
 }
 
-}  // namespace eyeray::formula
+}  // namespace eyeray::engine::formula

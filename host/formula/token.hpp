@@ -7,7 +7,7 @@
 
 #include "host/formula/fault.hpp"
 
-namespace eyeray::formula {
+namespace eyeray::engine::formula {
 
 struct Token {
   enum class Kind { word, integer, decimal, sign };
@@ -22,4 +22,4 @@ struct Token {
 // Comments are left out. What no token begins with is a fault, and so is the preprocessor.
 std::vector<Token> tokenize(std::string_view text, std::vector<Fault>& faults);
 
-}  // namespace eyeray::formula
+}  // namespace eyeray::engine::formula

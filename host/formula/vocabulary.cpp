@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace eyeray::formula {
+namespace eyeray::engine::formula {
 
 namespace {
 
@@ -53,4 +53,4 @@ bool is_swizzle(std::string_view word) {
       [&](std::string_view set) { return word.find_first_not_of(set) == std::string_view::npos; });
 }
 
-}  // namespace eyeray::formula
+}  // namespace eyeray::engine::formula

@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-namespace eyeray::formula {
+namespace eyeray::engine::formula {
 
 // float, vec3, int …
 bool is_type(std::string_view word);
@@ -18,4 +18,4 @@ bool is_built_in(std::string_view word);
 // xyz, r, stp …: one to four letters of one set.
 bool is_swizzle(std::string_view word);
 
-}  // namespace eyeray::formula
+}  // namespace eyeray::engine::formula

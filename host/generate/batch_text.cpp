@@ -4,7 +4,7 @@
 
 #include <iterator>
 
-namespace eyeray::generate {
+namespace eyeray::engine::generate {
 
 BatchText::BatchText(std::string_view table, std::string common, const std::vector<std::string_view>& keys)
     : table_(table), common_(std::move(common)) {
@@ -44,4 +44,4 @@ std::string BatchText::text() const {
   return text + " }\n";
 }
 
-}  // namespace eyeray::generate
+}  // namespace eyeray::engine::generate

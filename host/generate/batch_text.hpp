@@ -9,7 +9,7 @@
 #include "host/core/error.hpp"
 #include "host/core/vec.hpp"
 
-namespace eyeray::generate {
+namespace eyeray::engine::generate {
 
 class BatchText {
  public:
@@ -43,4 +43,4 @@ class BatchText {
   std::vector<List> lists_;
 };
 
-}  // namespace eyeray::generate
+}  // namespace eyeray::engine::generate

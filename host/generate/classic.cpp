@@ -6,7 +6,7 @@
 
 #include "host/generate/batch_text.hpp"
 
-namespace eyeray::generate {
+namespace eyeray::engine::generate {
 namespace {
 
 std::string point(const Vec3& p) {
@@ -77,4 +77,4 @@ std::string classic_square(std::string_view material, const std::array<Vec3, 4>&
   return triangles.text();
 }
 
-}  // namespace eyeray::generate
+}  // namespace eyeray::engine::generate

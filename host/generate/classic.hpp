@@ -9,7 +9,7 @@
 
 #include "host/core/vec.hpp"
 
-namespace eyeray::generate {
+namespace eyeray::engine::generate {
 
 struct ClassicView {
   Vec3 eye;
@@ -40,4 +40,4 @@ std::string classic_material(const ClassicSurface& surface);
 // A flat surface of four corners, as two triangles.
 std::string classic_square(std::string_view material, const std::array<Vec3, 4>& corners);
 
-}  // namespace eyeray::generate
+}  // namespace eyeray::engine::generate

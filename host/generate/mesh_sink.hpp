@@ -5,7 +5,7 @@
 
 #include "host/scene/mesh.hpp"
 
-namespace eyeray::generate {
+namespace eyeray::engine::generate {
 
 // Takes a mesh: begin, then every vertex, then every triangle.
 class MeshSink {
@@ -38,4 +38,4 @@ class MeshInMemory final : public MeshSink {
   Mesh mesh;
 };
 
-}  // namespace eyeray::generate
+}  // namespace eyeray::engine::generate

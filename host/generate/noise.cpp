@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace eyeray::generate {
+namespace eyeray::engine::generate {
 namespace {
 
 // PCG's output permutation (Jarzynski, Olano: Hash Functions for GPU Rendering, JCGT 9(3), 2020).
@@ -33,4 +33,4 @@ Noise noise(const Vec2& p, uint32_t seed) {
           slope * Vec2(b - a + twist * fade.y, c - a + twist * fade.x)};
 }
 
-}  // namespace eyeray::generate
+}  // namespace eyeray::engine::generate

@@ -5,7 +5,7 @@
 
 #include "host/core/vec.hpp"
 
-namespace eyeray::generate {
+namespace eyeray::engine::generate {
 
 struct Noise {
   double value;
@@ -16,4 +16,4 @@ struct Noise {
 // continuous. After Quilez, "Value noise derivatives", 2008.
 Noise noise(const Vec2& p, uint32_t seed);
 
-}  // namespace eyeray::generate
+}  // namespace eyeray::engine::generate

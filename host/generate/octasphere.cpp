@@ -4,7 +4,7 @@
 
 #include "host/core/error.hpp"
 
-namespace eyeray::generate {
+namespace eyeray::engine::generate {
 namespace {
 
 // The octahedron |x| + |y| + |z| = divisions has its vertices at whole numbers: rings around z, from pole to
@@ -64,4 +64,4 @@ Mesh octasphere(int divisions) {
   return mesh;
 }
 
-}  // namespace eyeray::generate
+}  // namespace eyeray::engine::generate

@@ -6,7 +6,7 @@
 #include "host/core/error.hpp"
 #include "host/core/termination.hpp"
 
-namespace eyeray::generate {
+namespace eyeray::engine::generate {
 
 static_assert(std::endian::native == std::endian::little, "values are written as they lie in memory");
 
@@ -73,4 +73,4 @@ void PlyFile::commit() {
   file_.commit();
 }
 
-}  // namespace eyeray::generate
+}  // namespace eyeray::engine::generate

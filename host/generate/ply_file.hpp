@@ -7,7 +7,7 @@
 #include "host/core/atomic_file.hpp"
 #include "host/generate/mesh_sink.hpp"
 
-namespace eyeray::generate {
+namespace eyeray::engine::generate {
 
 // Float32 positions and normals, 24 bytes a vertex, and 13 bytes a triangle. The file
 // appears with commit(). Error: file_io where the disk does not take it, interrupted after Ctrl-C.
@@ -41,4 +41,4 @@ class PlyFile final : public MeshSink {
   uint64_t triangles_left_ = 0;
 };
 
-}  // namespace eyeray::generate
+}  // namespace eyeray::engine::generate

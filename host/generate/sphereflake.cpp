@@ -8,7 +8,7 @@
 #include "host/generate/classic.hpp"
 #include "host/generate/octasphere.hpp"
 
-namespace eyeray::generate {
+namespace eyeray::engine::generate {
 namespace {
 
 // The nine directions in which children stand, their parent's own being +z.
@@ -104,4 +104,4 @@ int sphereflake_divisions(int size_factor, uint64_t triangles) {
   return std::max(1, int(std::lround(std::sqrt(squared))));
 }
 
-}  // namespace eyeray::generate
+}  // namespace eyeray::engine::generate

@@ -7,7 +7,7 @@
 
 #include "host/generate/mesh_sink.hpp"
 
-namespace eyeray::generate {
+namespace eyeray::engine::generate {
 
 // Beyond this size factor no mesh of it has a permitted number of triangles.
 inline constexpr int max_sphereflake = 8;
@@ -38,4 +38,4 @@ void sphereflake_mesh(int size_factor, int divisions, MeshSink& sink);
 int sphereflake_divisions(int size_factor, uint64_t triangles);
 uint64_t sphereflake_triangles(int size_factor, int divisions);
 
-}  // namespace eyeray::generate
+}  // namespace eyeray::engine::generate

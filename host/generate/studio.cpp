@@ -5,7 +5,7 @@
 
 #include "host/core/vec.hpp"
 
-namespace eyeray::generate {
+namespace eyeray::engine::generate {
 
 namespace {
 
@@ -50,4 +50,4 @@ image::Image studio(int width) {
   return picture;
 }
 
-}  // namespace eyeray::generate
+}  // namespace eyeray::engine::generate

@@ -3,7 +3,7 @@
 
 #include "host/image/image.hpp"
 
-namespace eyeray::generate {
+namespace eyeray::engine::generate {
 
 inline constexpr int most_studio_width = 4096;
 
@@ -11,4 +11,4 @@ inline constexpr int most_studio_width = 4096;
 // The same on every machine.
 image::Image studio(int width);
 
-}  // namespace eyeray::generate
+}  // namespace eyeray::engine::generate

@@ -8,7 +8,7 @@
 #include "host/core/parallel_for.hpp"
 #include "host/generate/noise.hpp"
 
-namespace eyeray::generate {
+namespace eyeray::engine::generate {
 namespace {
 
 constexpr double reach = 5;        // half a side of the square
@@ -140,4 +140,4 @@ diffuse = [0.62, 0.5, 0.36]
 )";
 }
 
-}  // namespace eyeray::generate
+}  // namespace eyeray::engine::generate

@@ -6,7 +6,7 @@
 
 #include "host/generate/mesh_sink.hpp"
 
-namespace eyeray::generate {
+namespace eyeray::engine::generate {
 
 // Cells a side of the largest grid: two triangles a cell.
 inline constexpr int max_terrain_grid = 16384;
@@ -29,4 +29,4 @@ int terrain_grid(uint64_t triangles);
 // The TOML of camera, sun, sky and the material "ground".
 std::string terrain_stage();
 
-}  // namespace eyeray::generate
+}  // namespace eyeray::engine::generate

@@ -6,7 +6,7 @@
 #include "host/core/error.hpp"
 #include "host/gpu/raw_buffer.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 namespace {
 
 constexpr size_t least_guard = 256;
@@ -146,4 +146,4 @@ void Buffer::check_guards(const std::byte* all) const {
               before < guard_ ? int64_t(before) - int64_t(guard_) : int64_t(after) - int64_t(guard_));
 }
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

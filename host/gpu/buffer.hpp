@@ -11,7 +11,7 @@
 #include "host/gpu/device.hpp"
 #include "host/gpu/reflect.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 
 class RawBuffer;
 
@@ -73,4 +73,4 @@ class Buffer {
       staging_;  // a mapped copy of raw_, where memory is not shared and something was copied
 };
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

@@ -6,7 +6,7 @@
 #include "host/core/stopwatch.hpp"
 #include "host/gpu/kernel_objects.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 CommandList::CommandList(Device& device) : context_(device.context()) {
   context_->begin();
   if (!context_->timestamps) return;
@@ -83,4 +83,4 @@ RunTime dispatch(Device& device, const Kernel& kernel, std::span<const std::byte
   return time;
 }
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

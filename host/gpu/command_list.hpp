@@ -7,7 +7,7 @@
 
 #include "host/gpu/kernel.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 
 // Work groups along each axis.
 struct Groups {
@@ -53,4 +53,4 @@ class CommandList {
 RunTime dispatch(Device& device, const Kernel& kernel, std::span<const std::byte> push_constants,
                  Groups groups);
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

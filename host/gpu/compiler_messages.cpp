@@ -9,7 +9,7 @@
 #include <map>
 #include <sstream>
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 namespace {
 
 bool is_word(char c) {
@@ -146,4 +146,4 @@ std::vector<Diagnostic> parse_compiler_messages(std::string_view log, const Shad
   return diagnostics;
 }
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

@@ -6,7 +6,7 @@
 #include "host/core/diagnostic.hpp"
 #include "host/gpu/shader_source.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 
 // glslang's log ("ERROR: file:12: 'token' : message" a line) as diagnostics, with the source lines of
 // `source`. The column is that of the first token quoted that the line contains as a whole word, or of
@@ -14,4 +14,4 @@ namespace eyeray::gpu {
 // told at the row's file.
 std::vector<Diagnostic> parse_compiler_messages(std::string_view log, const ShaderSource& source);
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

@@ -14,7 +14,7 @@
 #include "host/gpu/memory.hpp"
 #include "host/gpu/physical_device.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 
 void record_barrier(VkCommandBuffer commands, VkPipelineStageFlags stages, VkAccessFlags written,
                     VkPipelineStageFlags later_stages, VkAccessFlags read) {
@@ -159,4 +159,4 @@ void Context::abandon(const Error& error) {
   throw error;
 }
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

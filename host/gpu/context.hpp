@@ -7,7 +7,7 @@
 #include "host/gpu/device.hpp"
 #include "host/gpu/instance.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 
 // What happened and was written before is there for what reads it after.
 void record_barrier(VkCommandBuffer commands, VkPipelineStageFlags stages, VkAccessFlags written,
@@ -59,4 +59,4 @@ struct Context {
   [[noreturn]] void abandon(const Error& error);
 };
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

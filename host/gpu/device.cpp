@@ -3,7 +3,7 @@
 #include "host/gpu/context.hpp"
 #include "host/gpu/physical_device.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 
 std::vector<DeviceInfo> list_devices() {
   const Instance instance(DeviceOptions{});
@@ -25,4 +25,4 @@ std::vector<std::string> Device::validation_messages() const {
   return context_->instance->validation_messages();
 }
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

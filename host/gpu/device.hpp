@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 
 enum class DeviceType { discrete, integrated, virtual_gpu, cpu, other };
 
@@ -87,4 +87,4 @@ class Device {
   std::shared_ptr<Context> context_;
 };
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

@@ -6,7 +6,7 @@
 #include "host/core/error.hpp"
 #include "host/core/option_text.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 namespace {
 
 std::string lower(std::string_view text) {
@@ -53,4 +53,4 @@ const DeviceInfo& choose_device(std::span<const DeviceInfo> devices, std::string
               list(devices));
 }
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

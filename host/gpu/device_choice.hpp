@@ -5,7 +5,7 @@
 
 #include "host/gpu/device.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 
 // The device that `select` means: "auto" is the best usable one (discrete, then integrated, virtual, cpu,
 // other), "cpu" and "gpu" the best of that sort, a number an index, anything else a part of a name in any
@@ -13,4 +13,4 @@ namespace eyeray::gpu {
 // is.
 const DeviceInfo& choose_device(std::span<const DeviceInfo> devices, std::string_view select);
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

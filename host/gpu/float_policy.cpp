@@ -7,7 +7,7 @@
 
 #include "host/gpu/spirv.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 namespace {
 
 // The arithmetic instructions (SPIR-V 3.42.13) with a float result.
@@ -122,4 +122,4 @@ std::vector<uint32_t> set_float_modes(std::span<const uint32_t> spirv, const Flo
   return words;
 }
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

@@ -8,7 +8,7 @@
 
 #include "host/gpu/device.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 
 // The module with NoContraction on every float arithmetic result, so that no driver fuses or re-associates:
 // each operation rounds once, as in the twin. (glslang's `precise` does not reach into called functions, and
@@ -18,4 +18,4 @@ std::vector<uint32_t> decorate_no_contraction(std::span<const uint32_t> spirv);
 // The module with the float32 execution modes of `modes` on its entry points (SPV_KHR_float_controls).
 std::vector<uint32_t> set_float_modes(std::span<const uint32_t> spirv, const FloatModes& modes);
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

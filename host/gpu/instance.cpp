@@ -15,7 +15,7 @@
 #include "host/gpu/physical_device.hpp"
 #include "host/gpu/vector_width.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 namespace {
 
 constexpr const char* validation_layer = "VK_LAYER_KHRONOS_validation";
@@ -208,4 +208,4 @@ std::vector<std::string> Instance::validation_messages() const {
   return log_->messages;
 }
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

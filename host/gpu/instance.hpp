@@ -9,7 +9,7 @@
 #include "host/gpu/device.hpp"
 #include "host/gpu/vulkan.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 
 // What the validation layer says, from whichever thread it says it.
 struct ValidationLog {
@@ -42,4 +42,4 @@ class Instance {
   std::unique_ptr<ValidationLog> log_ = std::make_unique<ValidationLog>();
 };
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

@@ -8,7 +8,7 @@
 #include "host/gpu/kernel_objects.hpp"
 #include "host/gpu/raw_buffer.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 namespace {
 
 void check_limits(const Reflection& reflection, const DeviceInfo& device, const std::string& name) {
@@ -209,4 +209,4 @@ void Kernel::bind(uint32_t binding, const Buffer& buffer, size_t offset, size_t 
   objects_->bound.insert(binding);
 }
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

@@ -10,7 +10,7 @@
 #include "host/gpu/buffer.hpp"
 #include "host/gpu/reflect.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 
 struct Groups;
 struct RunTime;
@@ -53,4 +53,4 @@ class Kernel {
   std::unique_ptr<Objects> objects_;
 };
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

@@ -8,7 +8,7 @@
 #include "host/gpu/float_policy.hpp"
 #include "host/gpu/spirv_optimiser.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 namespace {
 
 void validate(const std::vector<uint32_t>& spirv, const std::string& entry) {
@@ -56,4 +56,4 @@ CompiledShader compile_kernel(const ShaderSource& source, std::string_view pream
   return compiled;
 }
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

@@ -8,7 +8,7 @@
 #include "host/gpu/device.hpp"
 #include "host/gpu/shader_compiler.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 
 struct KernelOptions {
   std::optional<FloatModes> strict = {};  // the float policy, with these modes; none: --fast-math
@@ -23,4 +23,4 @@ struct KernelOptions {
 CompiledShader compile_kernel(const ShaderSource& source, std::string_view preamble,
                               const KernelOptions& options, const DiskCache& cache);
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

@@ -8,7 +8,7 @@
 #include "host/gpu/context.hpp"
 #include "host/gpu/kernel.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 
 struct Kernel::Objects {
   explicit Objects(std::shared_ptr<Context> the_context) : context(std::move(the_context)) {}
@@ -47,4 +47,4 @@ struct Kernel::Objects {
   std::map<uint32_t, VkBufferView> views;
 };
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

@@ -10,7 +10,7 @@
 #include "host/core/error.hpp"
 #include "host/core/option_text.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 namespace {
 
 // The first memory type among `allowed` that has all `flags`.
@@ -87,4 +87,4 @@ VkDeviceMemory allocate_memory(const Context& context, const VkMemoryRequirement
   return memory;
 }
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

@@ -6,7 +6,7 @@
 
 #include "host/gpu/context.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 
 enum class MemoryKind {
   device,  // the device's own; may not be mapped
@@ -24,4 +24,4 @@ VkDeviceMemory allocate_memory(const Context& context, const VkMemoryRequirement
 // that file cannot grow: the first access to the memory would end the process by SIGBUS.
 void require_room_in_files(const Context& context, VkDeviceSize bytes);
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

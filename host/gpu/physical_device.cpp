@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 namespace {
 
 DeviceType device_type(VkPhysicalDeviceType type) {
@@ -135,4 +135,4 @@ std::optional<QueueFamily> graphics_queue_family(VkPhysicalDevice device) {
   return std::nullopt;
 }
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

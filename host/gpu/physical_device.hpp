@@ -5,7 +5,7 @@
 #include "host/gpu/device.hpp"
 #include "host/gpu/vulkan.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 
 // What a device is and can do, and whether it will do for eyeray: Vulkan 1.1 and a compute queue.
 DeviceInfo describe(VkPhysicalDevice device, int index);
@@ -19,4 +19,4 @@ std::optional<QueueFamily> compute_queue_family(VkPhysicalDevice device);
 // One that draws and computes; where a device draws at all, Vulkan promises one.
 std::optional<QueueFamily> graphics_queue_family(VkPhysicalDevice device);
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

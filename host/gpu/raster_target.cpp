@@ -6,7 +6,7 @@
 #include "host/core/error.hpp"
 #include "host/gpu/memory.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 namespace {
 
 constexpr size_t pixel_bytes = 4;  // of either image
@@ -232,4 +232,4 @@ void RasterTarget::record_copies() const {
                  VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
 }
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

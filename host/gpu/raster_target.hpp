@@ -8,7 +8,7 @@
 #include "host/gpu/context.hpp"
 #include "host/gpu/raw_buffer.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 
 class RasterTarget {
  public:
@@ -50,4 +50,4 @@ class RasterTarget {
   VkFramebuffer framebuffer_ = VK_NULL_HANDLE;
 };
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

@@ -7,7 +7,7 @@
 #include "host/core/termination.hpp"
 #include "host/gpu/raster_target.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 namespace {
 
 class StageModule {
@@ -182,4 +182,4 @@ RasterPicture Rasterizer::read() {
   return {{ids, ids + pixels}, {depths, depths + pixels}};
 }
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

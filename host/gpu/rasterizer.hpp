@@ -9,7 +9,7 @@
 #include "host/gpu/buffer.hpp"
 #include "host/gpu/device.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 
 // In Vulkan's clip space, w = 1: the picture reaches from −1 to 1, its top left first. What lies outside of
 // it, or has a depth outside of 0 … 1, is clipped.
@@ -53,4 +53,4 @@ class Rasterizer {
   std::unique_ptr<Objects> objects_;
 };
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

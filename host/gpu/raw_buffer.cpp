@@ -2,7 +2,7 @@
 
 #include "host/core/error.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 
 RawBuffer::RawBuffer(std::shared_ptr<Context> context, size_t bytes, MemoryKind kind, std::string_view name)
     : context_(std::move(context)) {
@@ -41,4 +41,4 @@ RawBuffer::~RawBuffer() {
   if (!context_->abandoned) destroy();
 }
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

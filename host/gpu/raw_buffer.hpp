@@ -8,7 +8,7 @@
 #include "host/gpu/context.hpp"
 #include "host/gpu/memory.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 
 class RawBuffer {
  public:
@@ -31,4 +31,4 @@ class RawBuffer {
   std::byte* mapped_ = nullptr;
 };
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

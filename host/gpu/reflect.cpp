@@ -8,7 +8,7 @@
 
 #include "host/gpu/spirv.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 namespace {
 
 struct Member {
@@ -157,4 +157,4 @@ Reflection reflect(std::span<const uint32_t> spirv) {
   return reflection;
 }
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

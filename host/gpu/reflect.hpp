@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 
 struct ReflectedMember {
   std::string name;
@@ -37,4 +37,4 @@ struct Reflection {
 // Error (bad_input) when the words are not SPIR-V, or the shader wants anything but such buffers in set 0.
 Reflection reflect(std::span<const uint32_t> spirv);
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

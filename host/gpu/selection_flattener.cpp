@@ -9,7 +9,7 @@
 #include "host/core/error.hpp"
 #include "host/gpu/spirv_module.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 namespace {
 
 using Instruction = SpirvInstruction;
@@ -242,4 +242,4 @@ std::vector<uint32_t> flatten_selections(std::span<const uint32_t> spirv) {
   return write_spirv(module);
 }
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 
 // The same module, with both arms of a selection computed where neither has an effect or can fault, and
 // OpSelect in place of the OpPhi behind it. Selections within such arms go first. Variables are best in
@@ -13,4 +13,4 @@ namespace eyeray::gpu {
 // not SPIR-V.
 std::vector<uint32_t> flatten_selections(std::span<const uint32_t> spirv);
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

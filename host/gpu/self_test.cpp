@@ -9,7 +9,7 @@
 #include "host/gpu/command_list.hpp"
 #include "host/gpu/kernel_compiler.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 namespace {
 
 // As in kernels/selftest.comp.glsl.
@@ -119,4 +119,4 @@ DeviceFacts self_test(Device& device, const SourceProvider& shaders, const DiskC
   return facts;
 }
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

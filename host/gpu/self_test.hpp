@@ -7,7 +7,7 @@
 #include "host/gpu/device.hpp"
 #include "host/gpu/shader_source.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 
 // What was found out about a device that computes.
 struct DeviceFacts {
@@ -23,4 +23,4 @@ struct DeviceFacts {
 // float come out wrong.
 DeviceFacts self_test(Device& device, const SourceProvider& shaders, const DiskCache& cache);
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

@@ -9,7 +9,7 @@
 
 #include "host/gpu/compiler_messages.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 namespace {
 
 // glslang's process-wide tables; they cost tens of milliseconds, so only a program that compiles pays for
@@ -113,4 +113,4 @@ std::string compiler_version() {
   return fmt::format("glslang {}.{}.{} Vulkan 1.1 SPIR-V 1.3", version.major, version.minor, version.patch);
 }
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

@@ -8,7 +8,7 @@
 #include "host/core/diagnostic.hpp"
 #include "host/gpu/shader_source.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 
 struct CompiledShader {
   std::vector<uint32_t> spirv;
@@ -27,4 +27,4 @@ CompiledShader compile_shader(const ShaderSource& source, std::string_view pream
 // What the result depends on besides source and preamble.
 std::string compiler_version();
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

@@ -4,7 +4,7 @@
 
 #include "host/core/error.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 namespace {
 
 // The path of a line `#include "path"`, or "".
@@ -65,4 +65,4 @@ ShaderSource read_shader(const SourceProvider& provider, std::string_view entry)
   return source;
 }
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 
 // The text of a file below the include root ("shapes/sphere.glsl"), or nothing when there is no such file.
 // The caller decides what the root is: embedded shaders, folders laid over them, files made up for a scene.
@@ -29,4 +29,4 @@ std::string why_not_includable(std::string_view path);
 // there is no entry.
 ShaderSource read_shader(const SourceProvider& provider, std::string_view entry);
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

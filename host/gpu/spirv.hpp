@@ -7,7 +7,7 @@
 
 #include "host/core/error.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 
 constexpr size_t spirv_header_words = 5;
 
@@ -39,4 +39,4 @@ inline std::string spirv_string(std::span<const uint32_t> instruction, size_t fi
   return text;
 }
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

@@ -2,7 +2,7 @@
 
 #include "host/gpu/spirv.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 
 SpirvModule read_spirv(std::span<const uint32_t> spirv) {
   SpirvModule module;
@@ -45,4 +45,4 @@ std::vector<uint32_t> write_spirv(const SpirvModule& module) {
   return words;
 }
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

@@ -7,7 +7,7 @@
 #include <spirv/unified1/spirv.hpp>
 #include <vector>
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 
 using SpirvInstruction = std::vector<uint32_t>;  // the first word holds opcode and length
 
@@ -45,4 +45,4 @@ SpirvModule read_spirv(std::span<const uint32_t> spirv);
 
 std::vector<uint32_t> write_spirv(const SpirvModule& module);
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

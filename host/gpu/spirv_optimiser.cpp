@@ -11,7 +11,7 @@
 #include "host/gpu/selection_flattener.hpp"
 #include "host/gpu/spirv.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 namespace {
 
 // Chosen for what they save lavapipe and cost themselves (docs/performance.md). Not among them: ssa-rewrite,
@@ -124,4 +124,4 @@ std::string optimiser_version(bool flatten) {
   return fmt::format("{} {}", spvSoftwareVersionString(), fmt::join(passes(flatten), " "));
 }
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

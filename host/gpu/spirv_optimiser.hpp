@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 
 // The same module, with functions inlined, variables that need no memory gone, and nothing left that has no
 // effect. Every result has the same bits: of arithmetic decorated NoContraction nothing is folded. A module
@@ -22,4 +22,4 @@ std::vector<uint32_t> optimise(std::span<const uint32_t> spirv, bool flatten = f
 // What the result depends on besides the module.
 std::string optimiser_version(bool flatten);
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

@@ -10,7 +10,7 @@
 #include "host/core/disk_cache.hpp"
 #include "host/core/private_folder.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 namespace {
 
 constexpr const char* width_variable = "LP_NATIVE_VECTOR_WIDTH";
@@ -74,4 +74,4 @@ std::string driver_cache_warning() {
   return "";
 }
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 
 // Whether llvmpipe can be asked for vectors of 512 bits: the processor has them, and LP_NATIVE_VECTOR_WIDTH
 // is not set.
@@ -23,4 +23,4 @@ void set_vector_width(bool wide);
 // A warning that Mesa's shader cache is then not used, since others could have changed it; "" where it is.
 std::string driver_cache_warning();
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

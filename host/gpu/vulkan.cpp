@@ -2,7 +2,7 @@
 
 #include "host/core/option_text.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 
 std::string result_name(VkResult result) {
   switch (result) {
@@ -55,4 +55,4 @@ void check(VkResult result, std::string_view what) {
   if (result != VK_SUCCESS) throw failure(result, what);
 }
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

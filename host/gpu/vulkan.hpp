@@ -9,7 +9,7 @@
 
 #include "host/core/error.hpp"
 
-namespace eyeray::gpu {
+namespace eyeray::engine::gpu {
 
 // "VK_ERROR_DEVICE_LOST", or "VkResult N" for a result this table does not know.
 std::string result_name(VkResult result);
@@ -33,4 +33,4 @@ T make(VkStructureType type, const void* next = nullptr) {
   return value;
 }
 
-}  // namespace eyeray::gpu
+}  // namespace eyeray::engine::gpu

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace eyeray::image {
+namespace eyeray::engine::image {
 
 // As the header has it, not yet believed.
 struct BitmapSize {
@@ -42,4 +42,4 @@ std::string read_bmp(std::string_view bytes, std::span<std::array<uint8_t, 4>> p
 // A little-endian number of `size` bytes; 0 beyond the end.
 uint32_t number_at(std::string_view bytes, uint64_t at, uint64_t size);
 
-}  // namespace eyeray::image
+}  // namespace eyeray::engine::image

@@ -5,7 +5,7 @@
 
 #include "host/image/bitmap_rows.hpp"
 
-namespace eyeray::image {
+namespace eyeray::engine::image {
 
 namespace {
 
@@ -147,4 +147,4 @@ std::string read_bmp(std::string_view bytes, std::span<Pixel> pixels, std::vecto
   return "";
 }
 
-}  // namespace eyeray::image
+}  // namespace eyeray::engine::image

@@ -12,7 +12,7 @@
 #include "host/image/exif.hpp"
 #include "host/image/png_rows.hpp"
 
-namespace eyeray::image {
+namespace eyeray::engine::image {
 
 namespace {
 
@@ -143,4 +143,4 @@ CodedImage decode_coded_image(std::span<const std::byte> bytes, const std::strin
   return image;
 }
 
-}  // namespace eyeray::image
+}  // namespace eyeray::engine::image

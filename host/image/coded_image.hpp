@@ -10,7 +10,7 @@
 
 #include "host/core/error.hpp"
 
-namespace eyeray::image {
+namespace eyeray::engine::image {
 
 struct CodedImage {
   int width = 0;
@@ -43,4 +43,4 @@ struct PixelBudget {
 CodedImage decode_coded_image(std::span<const std::byte> bytes, const std::string& name, PixelBudget& budget,
                               std::vector<std::string>& warnings);
 
-}  // namespace eyeray::image
+}  // namespace eyeray::engine::image

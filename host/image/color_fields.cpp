@@ -10,7 +10,7 @@
 
 #include "host/image/exif.hpp"
 
-namespace eyeray::image {
+namespace eyeray::engine::image {
 
 namespace {
 
@@ -121,4 +121,4 @@ std::vector<std::string> jpeg_color_fields(std::string_view bytes) {
   return clauses;
 }
 
-}  // namespace eyeray::image
+}  // namespace eyeray::engine::image

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace eyeray::image {
+namespace eyeray::engine::image {
 
 // A clause for each such field that says otherwise, as in "its gamma (gAMA) of 1 is not honoured: …". Fields
 // that cannot be read say nothing. Sources: PNG Specification, Third Edition, 2025, 11.3 and 4.3 (cICP before
@@ -14,4 +14,4 @@ namespace eyeray::image {
 std::vector<std::string> png_color_fields(std::string_view bytes);
 std::vector<std::string> jpeg_color_fields(std::string_view bytes);
 
-}  // namespace eyeray::image
+}  // namespace eyeray::engine::image

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-namespace eyeray::image {
+namespace eyeray::engine::image {
 
 namespace {
 
@@ -99,4 +99,4 @@ CodedImage upright(CodedImage image, int orientation) {
   return seen;
 }
 
-}  // namespace eyeray::image
+}  // namespace eyeray::engine::image

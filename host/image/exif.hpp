@@ -8,7 +8,7 @@
 
 #include "host/image/coded_image.hpp"
 
-namespace eyeray::image {
+namespace eyeray::engine::image {
 
 // 1 … 8, as EXIF numbers them; 1, upright, where the file says nothing that can be read.
 // Source: CIPA DC-008 (Exif 2.3), tag 0x0112 of the first directory.
@@ -26,4 +26,4 @@ bool has_jpeg_end(std::string_view jpeg);
 // The picture as it is to be seen, from one that was stored with this orientation.
 CodedImage upright(CodedImage image, int orientation);
 
-}  // namespace eyeray::image
+}  // namespace eyeray::engine::image

@@ -19,7 +19,7 @@
 #include "host/image/exr_header.hpp"
 #include "host/image/image_file.hpp"
 
-namespace eyeray::image {
+namespace eyeray::engine::image {
 
 namespace {
 
@@ -248,4 +248,4 @@ std::optional<Image> decode_exr_alpha(std::string_view bytes, const std::string&
   return with_reader(bytes, name, [](ExrReader& reader) { return reader.read_alpha(); });
 }
 
-}  // namespace eyeray::image
+}  // namespace eyeray::engine::image

@@ -13,7 +13,7 @@
 #include "host/core/error.hpp"
 #include "host/image/row_encoder.hpp"
 
-namespace eyeray::image {
+namespace eyeray::engine::image {
 
 namespace {
 
@@ -123,4 +123,4 @@ std::unique_ptr<RowEncoder> exr_encoder(AtomicFile& file, int width, int height,
   return std::make_unique<ExrEncoder>(file, width, height, std::move(channels));
 }
 
-}  // namespace eyeray::image
+}  // namespace eyeray::engine::image

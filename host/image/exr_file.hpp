@@ -8,7 +8,7 @@
 
 #include "host/image/image.hpp"
 
-namespace eyeray::image {
+namespace eyeray::engine::image {
 
 // One channel of a file to be written.
 struct ExrChannel {
@@ -32,4 +32,4 @@ Image decode_exr(std::string_view bytes, const std::string& name, const std::str
 // Its channel A, of the layer without a name; none where there is no such channel.
 std::optional<Image> decode_exr_alpha(std::string_view bytes, const std::string& name);
 
-}  // namespace eyeray::image
+}  // namespace eyeray::engine::image

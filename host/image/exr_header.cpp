@@ -5,7 +5,7 @@
 #include <cstring>
 #include <optional>
 
-namespace eyeray::image {
+namespace eyeray::engine::image {
 
 namespace {
 
@@ -132,4 +132,4 @@ bool exr_header_sound(std::string_view bytes) {
   return any.has_value();
 }
 
-}  // namespace eyeray::image
+}  // namespace eyeray::engine::image

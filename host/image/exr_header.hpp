@@ -3,10 +3,10 @@
 
 #include <string_view>
 
-namespace eyeray::image {
+namespace eyeray::engine::image {
 
 // Whether every attribute of every header has the size that its type has, and fits in the file. The library
 // believes each, takes memory for what it claims, and reads on from where it ends.
 bool exr_header_sound(std::string_view bytes);
 
-}  // namespace eyeray::image
+}  // namespace eyeray::engine::image

@@ -7,7 +7,7 @@
 #include "host/core/parallel_for.hpp"
 #include "host/image/srgb.hpp"
 
-namespace eyeray::image {
+namespace eyeray::engine::image {
 
 namespace {
 
@@ -116,4 +116,4 @@ Image false_color(const Image& data, FalseColor kind) {
   return painter.paint(data);
 }
 
-}  // namespace eyeray::image
+}  // namespace eyeray::engine::image

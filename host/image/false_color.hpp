@@ -7,7 +7,7 @@
 #include "host/core/vec.hpp"
 #include "host/image/image.hpp"
 
-namespace eyeray::image {
+namespace eyeray::engine::image {
 
 enum class FalseColor {
   scalar,     // 1 channel: viridis from the least to the greatest finite value
@@ -47,4 +47,4 @@ class FalseColorPainter {
   std::vector<Range> ranges_;  // one a channel
 };
 
-}  // namespace eyeray::image
+}  // namespace eyeray::engine::image

@@ -4,7 +4,7 @@
 
 #include "host/core/error.hpp"
 
-namespace eyeray::image {
+namespace eyeray::engine::image {
 
 Image::Image(int width, int height, int channels) : width_(width), height_(height), channels_(channels) {
   CHECK_LE(0, width);
@@ -25,4 +25,4 @@ Image in_color(Image image) {
   return colored;
 }
 
-}  // namespace eyeray::image
+}  // namespace eyeray::engine::image

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace eyeray::image {
+namespace eyeray::engine::image {
 
 class Image {
  public:
@@ -37,4 +37,4 @@ class Image {
 // The image in 3 channels; a grey one's become equal red, green and blue.
 Image in_color(Image image);
 
-}  // namespace eyeray::image
+}  // namespace eyeray::engine::image

@@ -17,7 +17,7 @@
 #include "host/image/radiance_file.hpp"
 #include "host/image/srgb.hpp"
 
-namespace eyeray::image {
+namespace eyeray::engine::image {
 
 namespace {
 
@@ -153,4 +153,4 @@ Image read_image(const fs::path& path, const std::string& layer, std::vector<std
   CHECK(false);
 }
 
-}  // namespace eyeray::image
+}  // namespace eyeray::engine::image

@@ -14,7 +14,7 @@
 #include "host/core/atomic_file.hpp"
 #include "host/image/image.hpp"
 
-namespace eyeray::image {
+namespace eyeray::engine::image {
 
 enum class ImageFormat { png, pfm, hdr, exr };
 
@@ -43,4 +43,4 @@ std::optional<Image> read_alpha(const std::filesystem::path& path);
 // Linear [0, 1] to an 8-bit sRGB code (IEC 61966-2-1), round half up.
 unsigned char srgb8(float linear);
 
-}  // namespace eyeray::image
+}  // namespace eyeray::engine::image

@@ -4,7 +4,7 @@
 #include "host/image/image_file.hpp"
 #include "host/image/row_encoder.hpp"
 
-namespace eyeray::image {
+namespace eyeray::engine::image {
 
 namespace {
 
@@ -60,4 +60,4 @@ void ImageWriter::finish() {
   file_->commit();
 }
 
-}  // namespace eyeray::image
+}  // namespace eyeray::engine::image

@@ -7,11 +7,11 @@
 #include "host/image/exr_file.hpp"
 #include "host/image/image.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 class AtomicFile;
 }
 
-namespace eyeray::image {
+namespace eyeray::engine::image {
 
 class RowEncoder;
 
@@ -40,4 +40,4 @@ class ImageWriter {
   std::unique_ptr<RowEncoder> encoder_;
 };
 
-}  // namespace eyeray::image
+}  // namespace eyeray::engine::image

@@ -11,7 +11,7 @@
 #include "host/image/image_file.hpp"
 #include "host/image/row_encoder.hpp"
 
-namespace eyeray::image {
+namespace eyeray::engine::image {
 
 static_assert(std::endian::native == std::endian::little, "floats are written as they lie in memory");
 
@@ -151,4 +151,4 @@ Image PfmRows::read(int first, int count) {
   return rows;
 }
 
-}  // namespace eyeray::image
+}  // namespace eyeray::engine::image

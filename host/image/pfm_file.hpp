@@ -9,7 +9,7 @@
 
 #include "host/image/image.hpp"
 
-namespace eyeray::image {
+namespace eyeray::engine::image {
 
 // Strict: exact header, both byte orders, no byte too few or too many. Error (file_io), with `name` in it,
 // otherwise.
@@ -31,4 +31,4 @@ class PfmRows {
   std::ifstream file_;
 };
 
-}  // namespace eyeray::image
+}  // namespace eyeray::engine::image

@@ -6,7 +6,7 @@
 
 #include "host/image/png_rows.hpp"
 
-namespace eyeray::image {
+namespace eyeray::engine::image {
 
 namespace {
 
@@ -78,4 +78,4 @@ std::string read_png_rows(std::span<const std::byte> bytes, std::span<std::array
   return reader.read(pixels) ? "" : reader.fault();
 }
 
-}  // namespace eyeray::image
+}  // namespace eyeray::engine::image

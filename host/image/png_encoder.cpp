@@ -13,7 +13,7 @@
 #include "host/image/image_file.hpp"
 #include "host/image/row_encoder.hpp"
 
-namespace eyeray::image {
+namespace eyeray::engine::image {
 
 namespace {
 
@@ -131,4 +131,4 @@ std::string encode_png(const Image& image) {
   return file;
 }
 
-}  // namespace eyeray::image
+}  // namespace eyeray::engine::image

@@ -10,7 +10,7 @@
 #include "host/image/image_file.hpp"
 #include "host/image/row_encoder.hpp"
 
-namespace eyeray::image {
+namespace eyeray::engine::image {
 
 namespace {
 
@@ -235,4 +235,4 @@ Image decode_radiance(std::string_view bytes, const std::string& name, std::vect
   return image;
 }
 
-}  // namespace eyeray::image
+}  // namespace eyeray::engine::image

@@ -8,7 +8,7 @@
 
 #include "host/image/image.hpp"
 
-namespace eyeray::image {
+namespace eyeray::engine::image {
 
 // A 3-channel picture, top row first; flat rows, and both run-length encodings. The pixels are divided by the
 // product of all EXPOSUREs and COLORCORRs, which gives the light. PRIMARIES and PIXASPECT that are not the
@@ -17,4 +17,4 @@ namespace eyeray::image {
 // Source: Ward: Radiance File Formats, "Picture File Format".
 Image decode_radiance(std::string_view bytes, const std::string& name, std::vector<std::string>& warnings);
 
-}  // namespace eyeray::image
+}  // namespace eyeray::engine::image

@@ -7,7 +7,7 @@
 #include "host/image/exr_file.hpp"
 #include "host/image/image.hpp"
 
-namespace eyeray::image {
+namespace eyeray::engine::image {
 
 class RowEncoder {
  public:
@@ -27,4 +27,4 @@ std::unique_ptr<RowEncoder> radiance_encoder(AtomicFile& file, int width, int he
 std::unique_ptr<RowEncoder> exr_encoder(AtomicFile& file, int width, int height,
                                         std::vector<ExrChannel> channels);
 
-}  // namespace eyeray::image
+}  // namespace eyeray::engine::image

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace eyeray::image {
+namespace eyeray::engine::image {
 
 // Linear light in [0, 1] to an sRGB value in [0, 1].
 inline double srgb_from_linear(double linear) {
@@ -15,4 +15,4 @@ inline double linear_from_srgb(double srgb) {
   return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
 }
 
-}  // namespace eyeray::image
+}  // namespace eyeray::engine::image

@@ -4,7 +4,7 @@
 
 #include "host/image/bitmap_rows.hpp"
 
-namespace eyeray::image {
+namespace eyeray::engine::image {
 
 namespace {
 
@@ -177,4 +177,4 @@ std::string read_tga(std::string_view bytes, std::span<Pixel> pixels, std::vecto
   return TgaReader(bytes).read(pixels, warnings);
 }
 
-}  // namespace eyeray::image
+}  // namespace eyeray::engine::image

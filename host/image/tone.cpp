@@ -5,7 +5,7 @@
 
 #include "host/core/vec.hpp"
 
-namespace eyeray::image {
+namespace eyeray::engine::image {
 namespace {
 
 Vec3 neutral(Vec3 color) {
@@ -34,4 +34,4 @@ Image toned(const Image& image, const Tone& tone) {
   return result;
 }
 
-}  // namespace eyeray::image
+}  // namespace eyeray::engine::image

@@ -5,7 +5,7 @@
 
 #include "host/image/image.hpp"
 
-namespace eyeray::image {
+namespace eyeray::engine::image {
 
 enum class ToneCurve { none, neutral };
 // As scenes name them.
@@ -20,4 +20,4 @@ struct Tone {
 // squeezes what is brighter below 1, towards white: Khronos PBR Neutral Tone Mapper, 2024.
 Image toned(const Image& image, const Tone& tone);
 
-}  // namespace eyeray::image
+}  // namespace eyeray::engine::image

@@ -6,7 +6,7 @@
 #include "host/core/input_file.hpp"
 #include "host/core/option_text.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 namespace fs = std::filesystem;
 
@@ -34,4 +34,4 @@ std::string AssetFiles::read(std::string_view name, std::string_view what) {
   return read_input_file(locate(name), what, most_mesh_bytes);
 }
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

@@ -10,7 +10,7 @@
 
 #include "host/core/folder_trees.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 class AssetFiles {
  public:
@@ -38,4 +38,4 @@ class AssetFiles {
 // The most that is read of one file.
 inline constexpr size_t most_mesh_bytes = size_t{4} << 30;
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 namespace {
 
@@ -190,4 +190,4 @@ DracoResult decode_draco(std::string_view data, uint64_t most_values) {
   return {nullptr, "are of a kind that eyeray does not know", 0};
 }
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

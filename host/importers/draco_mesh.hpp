@@ -11,7 +11,7 @@ namespace draco {
 class Mesh;
 }
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 struct DracoResult {
   std::shared_ptr<const draco::Mesh> mesh;  // null where there is none to be had …
@@ -23,4 +23,4 @@ struct DracoResult {
 // them, and nothing is allocated for more than `most_values` numbers.
 DracoResult decode_draco(std::string_view data, uint64_t most_values);
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

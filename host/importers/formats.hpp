@@ -7,7 +7,7 @@
 #include "host/importers/asset_files.hpp"
 #include "host/importers/import.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 // A mesh file in memory, and what it is to be read by.
 struct MeshFile {
@@ -27,4 +27,4 @@ ImportedScene import_gltf(MeshFile& file);  // .gltf and .glb, told apart by how
 // Of files without normals, but glTF.
 inline constexpr double default_smooth = 40;
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

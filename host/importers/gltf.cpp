@@ -20,7 +20,7 @@
 #include "host/importers/malformed.hpp"
 #include "host/scene/affine.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 namespace {
 
@@ -284,4 +284,4 @@ ImportedScene import_gltf(MeshFile& file) {
   return GltfReader(file).read();
 }
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

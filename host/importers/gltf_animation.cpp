@@ -7,7 +7,7 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 namespace {
 
@@ -218,4 +218,4 @@ GltfMotion motion_at(const GltfObject& document, size_t animation, const Playing
   return AnimationReader(document, source, buffers, left_out, breaches).read(playing);
 }
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

@@ -13,7 +13,7 @@
 #include "host/importers/gltf_materials.hpp"
 #include "host/importers/import.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 // The names of all animations; "" where one has none.
 std::vector<std::string> animation_names(const GltfObject& document);
@@ -33,4 +33,4 @@ struct GltfMotion {
 GltfMotion motion_at(const GltfObject& document, size_t animation, const Playing& playing,
                      GltfBuffers& buffers, GltfLeftOut& left_out, GltfBreaches& breaches);
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

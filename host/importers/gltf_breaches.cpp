@@ -7,7 +7,7 @@
 #include "host/core/diagnostic.hpp"
 #include "host/importers/gltf_components.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 namespace {
 
@@ -108,4 +108,4 @@ void GltfBreaches::check_attribute_names(const GltfObject& attributes) {
   }
 }
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

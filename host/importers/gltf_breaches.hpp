@@ -9,7 +9,7 @@
 
 #include "host/importers/gltf_json.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 // Warnings, one a kind, with how often and where first.
 class GltfBreaches {
@@ -42,4 +42,4 @@ class GltfBreaches {
   std::vector<Kind> kinds_;
 };
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

@@ -11,7 +11,7 @@
 #include "host/importers/gltf_meshopt.hpp"
 #include "host/importers/malformed.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 namespace {
 
@@ -316,4 +316,4 @@ std::vector<uint32_t> GltfBuffers::indices(size_t accessor) {
   return all;
 }
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

@@ -13,7 +13,7 @@
 #include "host/importers/gltf_breaches.hpp"
 #include "host/importers/gltf_json.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 // The parts of a .glb; a .gltf is all JSON. Points into `bytes`. InputError where it is damaged.
 struct GltfContainer {
@@ -83,4 +83,4 @@ class GltfBuffers {
 // The name of a file as it is written in a URI: %20 is a space.
 std::string decode_uri(std::string_view uri);
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

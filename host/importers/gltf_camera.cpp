@@ -4,7 +4,7 @@
 
 #include "host/scene/affine.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 namespace {
 
@@ -44,4 +44,4 @@ ImportedCamera gltf_camera(const GltfObject& source, const Mat4& world, GltfBrea
   return camera;
 }
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

@@ -4,10 +4,10 @@
 #include "host/importers/gltf_breaches.hpp"
 #include "host/importers/import.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 // The camera at a node whose transform in the world is `world`: it looks along −z, and y is up. InputError
 // for one of neither type or of both, or whose view has no size.
 ImportedCamera gltf_camera(const GltfObject& source, const Mat4& world, GltfBreaches& breaches);
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

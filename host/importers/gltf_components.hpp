@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 // Numbers of the specification.
 enum GltfComponent : uint64_t {
@@ -52,4 +52,4 @@ constexpr size_t components_of(std::string_view type) {
   return type == "VEC4" ? 4 : 0;
 }
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

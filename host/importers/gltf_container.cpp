@@ -5,7 +5,7 @@
 #include "host/importers/gltf_buffers.hpp"
 #include "host/importers/malformed.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 namespace {
 
@@ -112,4 +112,4 @@ std::string GltfBuffers::read_uri(const GltfObject& owner, std::string_view what
   return std::move(*bytes);
 }
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

@@ -8,7 +8,7 @@
 #include "host/importers/draco_mesh.hpp"
 #include "host/importers/gltf_components.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 namespace {
 
@@ -139,4 +139,4 @@ std::optional<std::vector<uint32_t>> GltfDraco::open(const GltfObject& primitive
   return corners;
 }
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

@@ -13,7 +13,7 @@ namespace draco {
 class Mesh;
 }
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 class GltfDraco {
  public:
@@ -34,4 +34,4 @@ class GltfDraco {
   uint64_t values_ = 0;                                          // in them
 };
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

@@ -4,7 +4,7 @@
 
 #include "host/importers/gltf_nodes.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 std::vector<Mat4> instance_transforms(const GltfObject& extension, const GltfObject& document,
                                       GltfBuffers& buffers, GltfBreaches& breaches) {
@@ -39,4 +39,4 @@ std::vector<Mat4> instance_transforms(const GltfObject& extension, const GltfObj
   return transforms;
 }
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

@@ -6,11 +6,11 @@
 #include "host/importers/gltf_breaches.hpp"
 #include "host/importers/gltf_buffers.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 // The transforms of the instances in the space of the node that has the extension. InputError, with the
 // place, unless all attributes have as many elements and every rotation has a length.
 std::vector<Mat4> instance_transforms(const GltfObject& extension, const GltfObject& document,
                                       GltfBuffers& buffers, GltfBreaches& breaches);
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

@@ -6,7 +6,7 @@
 #include "host/importers/json_text.hpp"
 #include "host/importers/malformed.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 namespace {
 
@@ -183,4 +183,4 @@ Json parse_gltf_json(std::string_view text, const std::string& file) {
   return json;
 }
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

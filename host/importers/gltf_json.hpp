@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 // An object of the document, and where it is. Whatever is wrong with it is an InputError with that place. The
 // document and the file's name must outlive it.
@@ -60,4 +60,4 @@ std::set<std::string> extensions_of_objects(const nlohmann::json& document);
 // InputError for what is no JSON, is nested absurdly deep, has more than 2^24 values, or is no glTF 2.
 nlohmann::json parse_gltf_json(std::string_view text, const std::string& file);
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

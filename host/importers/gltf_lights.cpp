@@ -5,7 +5,7 @@
 
 #include "host/scene/affine.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 namespace {
 
@@ -60,4 +60,4 @@ void add_gltf_light(const GltfObject& source, const Mat4& world, GltfLeftOut& le
   }
 }
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

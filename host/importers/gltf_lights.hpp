@@ -7,11 +7,11 @@
 #include "host/importers/gltf_materials.hpp"
 #include "host/importers/import.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 // Appends the light `source` of a node whose transform to the world is `world`. InputError, with the place,
 // for values that no light has.
 void add_gltf_light(const GltfObject& source, const Mat4& world, GltfLeftOut& left_out,
                     GltfBreaches& breaches, ImportedScene& scene);
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

@@ -7,7 +7,7 @@
 
 #include "host/importers/gltf_components.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 namespace {
 
@@ -278,4 +278,4 @@ void check_links(const Json& document, GltfBreaches& breaches) {
   }
 }
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

@@ -6,10 +6,10 @@
 
 #include "host/importers/gltf_breaches.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 // Adds a breach for each rule of the table that an object breaks, shown or not. A reference that leads
 // nowhere is none: check_properties warns of it, and who follows it refuses it.
 void check_links(const nlohmann::json& document, GltfBreaches& breaches);
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

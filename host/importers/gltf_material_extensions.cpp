@@ -5,7 +5,7 @@
 #include "host/importers/gltf_materials.hpp"
 #include "host/materials/make.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 namespace {
 
@@ -111,4 +111,4 @@ std::unique_ptr<Material> GltfMaterials::principled(const GltfObject& source, co
   return materials::make_principled(values, std::move(stand_in));
 }
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

@@ -13,7 +13,7 @@
 #include "host/materials/make.hpp"
 #include "host/scene/image_texture_file.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 namespace {
 
@@ -375,4 +375,4 @@ void GltfMaterials::note_rest(const GltfObject& material) {
     breaches_.add("volumes of materials that let no light through, left out", volume->place());
 }
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

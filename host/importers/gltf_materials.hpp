@@ -12,7 +12,7 @@
 #include "host/scene/material.hpp"
 #include "host/textures/make.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 // What a file has and we leave out, counted.
 class GltfLeftOut {
@@ -105,4 +105,4 @@ class GltfMaterials {
   GltfBreaches& breaches_;
 };
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

@@ -8,7 +8,7 @@
 
 #include "host/core/diagnostic_log.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 namespace {
 
@@ -215,4 +215,4 @@ std::vector<Mesh> GltfMeshes::take(std::vector<std::string>& warnings) {
   return std::move(meshes_);
 }
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

@@ -11,7 +11,7 @@
 #include "host/importers/gltf_skins.hpp"
 #include "host/importers/mesh_builder.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 class GltfMeshes {
  public:
@@ -48,4 +48,4 @@ class GltfMeshes {
   std::vector<std::optional<std::vector<Part>>> parts_;  // of each mesh of the file
 };
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

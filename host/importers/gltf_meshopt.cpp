@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 namespace {
 
@@ -115,4 +115,4 @@ std::string decode_meshopt(const GltfObject& view, const GltfObject& object, std
   return decoded;
 }
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

@@ -8,7 +8,7 @@
 
 #include "host/importers/gltf_json.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 // The extension's object of a bufferView, by either of its names; nothing where it is not coded. The coded
 // bytes are where the object's buffer, byteOffset and byteLength say.
@@ -18,4 +18,4 @@ std::optional<GltfObject> meshopt_coding(const GltfObject& view);
 // damaged, too short for what `coding` says, or that is against the specification.
 std::string decode_meshopt(const GltfObject& view, const GltfObject& coding, std::string_view coded);
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

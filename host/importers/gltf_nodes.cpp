@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 Mat4 gltf_transform(const GltfObject& owner, const char* key, const Vec3& translation, const Vec4& rotation,
                     const Vec3& scale, GltfBreaches& breaches) {
@@ -62,4 +62,4 @@ bool is_hidden(const GltfObject& node) {
   return visibility && visibility->has("visible") && !visibility->flag("visible");
 }
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

@@ -6,7 +6,7 @@
 #include "host/importers/gltf_breaches.hpp"
 #include "host/scene/affine.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 // Translation · rotation · scale. A rotation that is not of unit length is a breach, one without length an
 // InputError: at the member `key` of `owner`.
@@ -26,4 +26,4 @@ std::vector<size_t> parents_of_nodes(const GltfObject& document);
 // Whether KHR_node_visibility hides the node, and with it all that is below.
 bool is_hidden(const GltfObject& node);
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

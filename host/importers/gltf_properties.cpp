@@ -11,7 +11,7 @@
 
 #include "host/core/diagnostic.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 namespace {
 
@@ -390,4 +390,4 @@ void check_properties(const Json& document, GltfBreaches& breaches) {
   PropertyCheck(document, breaches).check_object(document, "", shapes::document);
 }
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

@@ -6,7 +6,7 @@
 
 #include "host/importers/gltf_breaches.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 // Whether the extension is read, or changes nothing that is shown.
 bool is_known_extension(std::string_view name);
@@ -17,4 +17,4 @@ bool is_known_extension(std::string_view name);
 // `extras` and the objects of unknown extensions may hold whatever they like.
 void check_properties(const nlohmann::json& document, GltfBreaches& breaches);
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

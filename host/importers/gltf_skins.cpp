@@ -9,7 +9,7 @@
 #include "host/importers/gltf_components.hpp"
 #include "host/scene/affine.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 namespace {
 
@@ -152,4 +152,4 @@ void move_to_joints(const GltfObject& attributes, std::span<const Mat4> joints, 
   }
 }
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

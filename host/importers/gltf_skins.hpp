@@ -9,7 +9,7 @@
 #include "host/importers/gltf_buffers.hpp"
 #include "host/importers/mesh_builder.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 // How a node bends the mesh that it shows.
 struct GltfPose {
@@ -34,4 +34,4 @@ void check_targets(const GltfObject& primitive, const GltfObject& document, Gltf
 void move_to_joints(const GltfObject& attributes, std::span<const Mat4> joints, const GltfObject& document,
                     GltfBuffers& buffers, GltfBreaches& breaches, VertexPool& vertices);
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

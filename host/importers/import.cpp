@@ -8,7 +8,7 @@
 #include "host/importers/malformed.hpp"
 #include "host/materials/make.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 namespace {
 
@@ -91,4 +91,4 @@ std::unique_ptr<Material> plain_material(bool colored) {
   return material;
 }
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

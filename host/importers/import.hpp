@@ -11,11 +11,11 @@
 
 #include "host/scene/scene.hpp"
 
-namespace eyeray::image {
+namespace eyeray::engine::image {
 struct PixelBudget;  // image/coded_image.hpp
 }
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 // Which of a file's animations is shown, and when.
 struct Playing {
@@ -79,4 +79,4 @@ ImportedScene import_bytes(std::string bytes, const std::string& name, const Imp
 // What is shown of meshes whose file names no materials: a light grey, or white where vertices have colours.
 std::unique_ptr<Material> plain_material(bool colored);
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

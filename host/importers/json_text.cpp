@@ -10,7 +10,7 @@
 #include "host/core/json_depth.hpp"
 #include "host/importers/malformed.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 namespace {
 
@@ -78,4 +78,4 @@ void check_json_text(std::string_view text, const std::string& file) {
   }
 }
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

@@ -4,7 +4,7 @@
 
 #include "host/core/diagnostic_log.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 InputError malformed_at(const std::string& file, std::string_view text, size_t byte, std::string message) {
   byte = std::min(byte, text.size());
@@ -14,4 +14,4 @@ InputError malformed_at(const std::string& file, std::string_view text, size_t b
   return malformed(file, printable(message), static_cast<int>(line), static_cast<int>(byte - start) + 1);
 }
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

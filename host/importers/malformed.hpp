@@ -7,7 +7,7 @@
 
 #include "host/core/diagnostic.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 // "bunny.obj:12:3: error: message"; without a line where it is 0.
 inline InputError malformed(const std::string& file, std::string message, int line = 0, int column = 0) {
@@ -17,4 +17,4 @@ inline InputError malformed(const std::string& file, std::string message, int li
 // The same at a byte of a text, whose line and column are counted.
 InputError malformed_at(const std::string& file, std::string_view text, size_t byte, std::string message);
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

@@ -11,7 +11,7 @@
 #include "host/scene/affine.hpp"
 #include "host/scene/triangle.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 namespace {
 
@@ -200,4 +200,4 @@ Mesh MeshBuilder::build(const RawTriangles& raw, double smooth) {
   return mesh;
 }
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

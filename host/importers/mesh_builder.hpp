@@ -10,7 +10,7 @@
 
 #include "host/scene/mesh.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 // A corner without a normal or without uv.
 inline constexpr uint32_t no_index = 0xffffffff;
@@ -88,4 +88,4 @@ class MeshBuilder {
   uint32_t meshes_ = 0;
 };
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

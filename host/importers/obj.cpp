@@ -14,7 +14,7 @@
 #include "host/importers/obj_materials.hpp"
 #include "host/importers/polygon.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 namespace {
 
@@ -295,4 +295,4 @@ ImportedScene import_obj(MeshFile& file) {
   return scene;
 }
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

@@ -4,7 +4,7 @@
 #include <array>
 #include <charconv>
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 namespace {
 
@@ -90,4 +90,4 @@ std::string with_all_map_numbers(std::string_view mtl) {
   return text;
 }
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

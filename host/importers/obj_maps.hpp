@@ -4,11 +4,11 @@
 #include <string>
 #include <string_view>
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 // The text of a .mtl file with each option of a map followed by as many numbers as it may have. `-s`, `-o`
 // and `-t` have one to three, `-mm` one or two; tinyobjloader takes the file's name for what is missing.
 // Source: Alias|Wavefront: Object Files, B1, "Options for texture map statements".
 std::string with_all_map_numbers(std::string_view mtl);
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

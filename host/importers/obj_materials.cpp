@@ -15,7 +15,7 @@
 #include "host/materials/make.hpp"
 #include "host/scene/image_texture_file.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 namespace {
 
@@ -219,4 +219,4 @@ std::shared_ptr<const ImageTexture> ObjMaterials::picture(const std::string& nam
       });
 }
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

@@ -11,7 +11,7 @@
 #include "host/importers/texture_files.hpp"
 #include "host/scene/material.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 // Where a material's maps lie: a vertex's uv times `scale` plus `offset`, by the options -s and -o.
 struct ObjUv {
@@ -52,4 +52,4 @@ class ObjMaterials {
   std::vector<ObjUv> uv_;  // by material
 };
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

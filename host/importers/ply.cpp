@@ -11,7 +11,7 @@
 #include "host/importers/texture_files.hpp"
 #include "host/materials/make.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 namespace {
 
@@ -357,4 +357,4 @@ ImportedScene import_ply(MeshFile& file) {
   return {};
 }
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

@@ -4,7 +4,7 @@
 
 #include "host/importers/malformed.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 namespace {
 
@@ -151,4 +151,4 @@ PlyHeader read_ply_header(std::string_view bytes, const std::string& file) {
   return HeaderReader(bytes, file).read();
 }
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 size_t size_of(PlyType type);  // bytes
@@ -41,4 +41,4 @@ struct PlyHeader {
 // InputError with the line where it is wrong.
 PlyHeader read_ply_header(std::string_view bytes, const std::string& file);
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

@@ -6,7 +6,7 @@
 #include "host/importers/malformed.hpp"
 #include "host/importers/polygon.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 void add_values_of_faces(PlyPolygons& polygons, VertexPool& vertices, std::vector<std::string>& warnings) {
   if (!polygons.uv.empty()) polygons.uv.resize(polygons.corners.size(), Vec2(double(NAN)));
@@ -69,4 +69,4 @@ std::vector<RawTriangles> triangulate(const PlyPolygons& polygons, const VertexP
   return lists;
 }
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

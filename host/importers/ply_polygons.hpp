@@ -7,7 +7,7 @@
 
 #include "host/importers/mesh_builder.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 // The corners of polygons, one after the other.
 struct PlyPolygons {
@@ -28,4 +28,4 @@ std::vector<RawTriangles> triangulate(const PlyPolygons& polygons, const VertexP
                                       size_t pictures, bool own_uv, MeshCounts& counts,
                                       const std::string& file);
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

@@ -10,7 +10,7 @@
 #include "host/importers/malformed.hpp"
 #include "host/importers/ply_header.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 class AsciiValues {
  public:
@@ -106,4 +106,4 @@ class BinaryValues {
   const std::string& file_;
 };
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 namespace {
 
@@ -99,4 +99,4 @@ void Triangulator::clip(uint32_t before, uint32_t ear, uint32_t after) {
   before_[after] = before;
 }
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

@@ -8,7 +8,7 @@
 
 #include "host/core/vec.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 // Cuts polygons, one after the other; keeps its memory between them.
 class Triangulator {
@@ -35,4 +35,4 @@ class Triangulator {
   size_t fans_ = 0;
 };
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

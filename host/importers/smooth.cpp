@@ -9,7 +9,7 @@
 #include "host/scene/affine.hpp"
 #include "host/scene/triangle.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 namespace {
 
@@ -216,4 +216,4 @@ void add_smooth_normals(Mesh& mesh, std::span<const Vec3> faces, double degrees)
   mesh.normals = std::move(normals);
 }
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

@@ -5,7 +5,7 @@
 
 #include "host/scene/mesh.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 // Gives every corner the mean normal of the faces around it, weighted by their angles there (Thürmer and
 // Wüthrich: Computing Vertex Normals from Polygonal Facets, JGT 3(1), 1998). Faces count as one surface when
@@ -14,4 +14,4 @@ namespace eyeray::importers {
 // that of the face. `faces` are the unit normals of the mesh's triangles.
 void add_smooth_normals(Mesh& mesh, std::span<const Vec3> faces, double degrees);
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

@@ -3,7 +3,7 @@
 #include "host/core/error.hpp"
 #include "host/scene/image_texture_file.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 TexturePtr textured(const Vec3& color, std::shared_ptr<const ImageTexture> picture) {
   return picture ? textures::make_image(std::move(picture), color) : textures::make_constant(color);
@@ -28,4 +28,4 @@ std::shared_ptr<const ImageTexture> TextureFiles::load(const std::string& name, 
   return entry->second;
 }
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

@@ -11,7 +11,7 @@
 #include "host/importers/asset_files.hpp"
 #include "host/textures/make.hpp"
 
-namespace eyeray::importers {
+namespace eyeray::engine::importers {
 
 // A color, times a picture where there is one.
 TexturePtr textured(const Vec3& color, std::shared_ptr<const ImageTexture> picture);
@@ -36,4 +36,4 @@ class TextureFiles {
   std::map<std::string, std::shared_ptr<const ImageTexture>> known_;
 };
 
-}  // namespace eyeray::importers
+}  // namespace eyeray::engine::importers

@@ -12,7 +12,7 @@
 #include "host/core/option_text.hpp"
 #include "host/core/termination.hpp"
 
-namespace eyeray::library {
+namespace eyeray::engine::library {
 namespace {
 
 // One call's at a time. A forked child has none of its parent's threads, so a call of theirs holds nothing
@@ -99,4 +99,4 @@ void call_engine(const std::function<void()>& work, const std::atomic<bool>* sto
   }
 }
 
-}  // namespace eyeray::library
+}  // namespace eyeray::engine::library

@@ -12,7 +12,7 @@
 #include "host/core/diagnostic.hpp"
 #include "host/core/error.hpp"
 
-namespace eyeray::library {
+namespace eyeray::engine::library {
 
 std::vector<v0::Diagnostic> to_public(const std::vector<Diagnostic>& diagnostics);
 
@@ -43,4 +43,4 @@ auto ask_engine(const Work& work, const std::atomic<bool>* stop = nullptr) {
   return std::move(*answer);
 }
 
-}  // namespace eyeray::library
+}  // namespace eyeray::engine::library

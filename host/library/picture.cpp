@@ -5,7 +5,7 @@
 #include "host/image/image_file.hpp"
 #include "host/library/engine_call.hpp"
 
-namespace eyeray::library {
+namespace eyeray::engine::library {
 namespace {
 
 v0::Plane plane_of(const image::Image& image) {
@@ -13,12 +13,12 @@ v0::Plane plane_of(const image::Image& image) {
 }
 
 }  // namespace
-}  // namespace eyeray::library
+}  // namespace eyeray::engine::library
 
 namespace eyeray::v0 {
 
 Plane Picture::color() const {
-  return library::plane_of(data_->color);
+  return engine::library::plane_of(data_->color);
 }
 
 std::vector<std::string> Picture::aovs() const {
@@ -29,7 +29,7 @@ std::vector<std::string> Picture::aovs() const {
 
 Plane Picture::aov(std::string_view name) const {
   for (const auto& [aov, image] : data_->aovs)
-    if (aov->name == name) return library::plane_of(image);
+    if (aov->name == name) return engine::library::plane_of(image);
   throw Error(ErrorKind::bad_input,
               fmt::format("the picture has no AOV '{}'{}; RenderOptions::aovs names those that are made",
                           name, data_->complete ? "" : ", since it was cancelled"));
@@ -55,29 +55,30 @@ const std::vector<Diagnostic>& Picture::warnings() const noexcept {
 }
 
 std::vector<uint8_t> Picture::tonemapped() const {
-  return library::ask_engine([&] {
-    const image::Image shown = image::toned(data_->color, data_->tone);
+  return engine::library::ask_engine([&] {
+    const engine::image::Image shown = engine::image::toned(data_->color, data_->tone);
     std::vector<uint8_t> codes(shown.sample_count());
-    std::ranges::transform(shown.samples(), codes.begin(), image::srgb8);
+    std::ranges::transform(shown.samples(), codes.begin(), engine::image::srgb8);
     return codes;
   });
 }
 
 std::string Picture::png() const {
-  return library::ask_engine([&] {
+  return engine::library::ask_engine([&] {
     if (data_->color.sample_count() == 0)
-      throw eyeray::Error(ExitCode::bad_input, "there is no .png: the picture was cancelled and is empty");
-    return image::encode_png(image::toned(data_->color, data_->tone));
+      throw engine::Error(engine::ExitCode::bad_input,
+                          "there is no .png: the picture was cancelled and is empty");
+    return engine::image::encode_png(engine::image::toned(data_->color, data_->tone));
   });
 }
 
 void Picture::write(const std::filesystem::path& file) const {
-  library::call_engine([&] {
-    const bool shown = image::image_format(file) == image::ImageFormat::png;
+  engine::library::call_engine([&] {
+    const bool shown = engine::image::image_format(file) == engine::image::ImageFormat::png;
     if (data_->color.sample_count() == 0)
-      throw eyeray::Error(ExitCode::bad_input, "{} is not written: the picture was cancelled and is empty",
-                          file.string());
-    image::write_image(file, shown ? image::toned(data_->color, data_->tone) : data_->color);
+      throw engine::Error(engine::ExitCode::bad_input,
+                          "{} is not written: the picture was cancelled and is empty", file.string());
+    engine::image::write_image(file, shown ? engine::image::toned(data_->color, data_->tone) : data_->color);
   });
 }
 

@@ -13,9 +13,9 @@
 namespace eyeray::v0 {
 
 struct Picture::Data {
-  image::Tone tone;
-  image::Image color;
-  std::vector<std::pair<film::Channel, image::Image>> aovs;
+  engine::image::Tone tone;
+  engine::image::Image color;
+  std::vector<std::pair<engine::film::Channel, engine::image::Image>> aovs;
   int samples_done = 0;
   bool complete = false;
   uint64_t rays = 0;

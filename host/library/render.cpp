@@ -12,7 +12,7 @@
 #include "host/library/scene.hpp"
 #include "host/session/session.hpp"
 
-namespace eyeray::library {
+namespace eyeray::engine::library {
 namespace {
 
 // A picture in memory.
@@ -79,15 +79,16 @@ void render_into(v0::Picture::Data& picture, v0::Renderer::Data& renderer, const
 }
 
 }  // namespace
-}  // namespace eyeray::library
+}  // namespace eyeray::engine::library
 
 namespace eyeray::v0 {
 
 Picture Renderer::render(const Scene& scene, const RenderOptions& options) {
   auto picture = std::make_shared<Picture::Data>();
   try {
-    library::call_renderer(*data_, options.cancellation,
-                           [&] { library::render_into(*picture, *data_, scene.data().scene, options); });
+    engine::library::call_renderer(*data_, options.cancellation, [&] {
+      engine::library::render_into(*picture, *data_, scene.data().scene, options);
+    });
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::cancelled) throw;
     picture->complete = false;

@@ -6,7 +6,7 @@
 #include "host/executors/open_device.hpp"
 #include "host/library/engine_call.hpp"
 
-namespace eyeray::library {
+namespace eyeray::engine::library {
 
 executors::Backend backend_of(v0::Backend backend) {
   switch (backend) {
@@ -83,7 +83,7 @@ void call_renderer(v0::Renderer::Data& renderer, const v0::Cancellation& cancell
   call_engine(watched, &cancellation.data().requested);
 }
 
-}  // namespace eyeray::library
+}  // namespace eyeray::engine::library
 
 namespace eyeray::v0 {
 
@@ -109,7 +109,7 @@ Renderer::~Renderer() {
   // Closing the device calls the driver, which is one call's at a time.
   if (!data_ || !data_->device) return;
   try {
-    library::call_engine([this] { data_.reset(); });
+    engine::library::call_engine([this] { data_.reset(); });
   } catch (const Error&) {
     static_cast<void>(data_.release());  // inside a call, which may be using it
   }

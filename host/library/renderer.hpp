@@ -20,13 +20,13 @@ struct Cancellation::Data {
 
 struct Renderer::Data {
   RendererOptions options;
-  std::shared_ptr<executors::OpenDevice> device = nullptr;  // once the backend gpu was used
+  std::shared_ptr<engine::executors::OpenDevice> device = nullptr;  // once the backend gpu was used
   bool warned_of_caches = false;
 };
 
 }  // namespace eyeray::v0
 
-namespace eyeray::library {
+namespace eyeray::engine::library {
 
 executors::Backend backend_of(v0::Backend backend);
 Rect rect_of(const v0::Rect& crop);
@@ -40,4 +40,4 @@ std::function<void(const render::Progress&)> progress_of(
 void call_renderer(v0::Renderer::Data& renderer, const v0::Cancellation& cancellation,
                    const std::function<void()>& work);
 
-}  // namespace eyeray::library
+}  // namespace eyeray::engine::library

@@ -6,7 +6,7 @@
 #include "host/loader/scene_file.hpp"
 #include "host/session/request.hpp"
 
-namespace eyeray::library {
+namespace eyeray::engine::library {
 namespace {
 
 std::vector<loader::Override> overrides_of(const v0::SceneOptions& options) {
@@ -26,25 +26,25 @@ v0::Scene parse(std::string_view toml, std::string_view name, const v0::SceneOpt
   });
 }
 
-}  // namespace eyeray::library
+}  // namespace eyeray::engine::library
 
 namespace eyeray::v0 {
 
-Scene Scene::Data::checked(eyeray::Scene read) {
-  eyeray::Scene scene = session::checked(std::move(read));
-  std::vector<Diagnostic> warnings = library::to_public(scene.warnings);
+Scene Scene::Data::checked(engine::Scene read) {
+  engine::Scene scene = engine::session::checked(std::move(read));
+  std::vector<Diagnostic> warnings = engine::library::to_public(scene.warnings);
   return Scene(std::make_shared<const Data>(Data{std::move(scene), std::move(warnings)}));
 }
 
 Scene Scene::read(const std::filesystem::path& file, const SceneOptions& options) {
-  return library::ask_engine([&] {
-    return Data::checked(loader::load_scene(file, library::overrides_of(options),
-                                            {options.allowed_folders, options.formulas}));
+  return engine::library::ask_engine([&] {
+    return Data::checked(engine::loader::load_scene(file, engine::library::overrides_of(options),
+                                                    {options.allowed_folders, options.formulas}));
   });
 }
 
 Scene Scene::parse(std::string_view toml, std::string_view name, const SceneOptions& options) {
-  return library::parse(toml, name, options, {});
+  return engine::library::parse(toml, name, options, {});
 }
 
 int Scene::width() const noexcept {

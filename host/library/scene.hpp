@@ -13,19 +13,19 @@
 namespace eyeray::v0 {
 
 struct Scene::Data {
-  eyeray::Scene scene;
+  engine::Scene scene;
   std::vector<Diagnostic> warnings;
 
   // Checks a scene that was read as the program does.
-  static Scene checked(eyeray::Scene scene);
+  static Scene checked(engine::Scene scene);
 };
 
 }  // namespace eyeray::v0
 
-namespace eyeray::library {
+namespace eyeray::engine::library {
 
 // v0::Error as v0::Scene::parse.
 v0::Scene parse(std::string_view toml, std::string_view name, const v0::SceneOptions& options,
                 const loader::MemoryFiles& files);
 
-}  // namespace eyeray::library
+}  // namespace eyeray::engine::library

@@ -9,7 +9,7 @@
 #include "host/library/scene.hpp"
 #include "host/library/toml_text.hpp"
 
-namespace eyeray::library {
+namespace eyeray::engine::library {
 namespace {
 
 v0::Error wrong_length(const char* what, size_t length, const std::string& expected) {
@@ -61,13 +61,13 @@ std::string ply(const v0::MeshArrays& mesh) {
 }
 
 }  // namespace
-}  // namespace eyeray::library
+}  // namespace eyeray::engine::library
 
 namespace eyeray::v0 {
 
 struct SceneBuilder::Data {
   std::string text;
-  loader::MemoryFiles meshes;
+  engine::loader::MemoryFiles meshes;
 };
 
 SceneBuilder::SceneBuilder() : data_(std::make_unique<Data>()) {}
@@ -76,19 +76,20 @@ SceneBuilder::SceneBuilder(SceneBuilder&&) noexcept = default;
 SceneBuilder& SceneBuilder::operator=(SceneBuilder&&) noexcept = default;
 
 SceneBuilder& SceneBuilder::set(std::string_view section, const Table& table) {
-  data_->text += fmt::format("[{}]\n{}\n", library::key_text(section), library::lines(table));
+  data_->text += fmt::format("[{}]\n{}\n", engine::library::key_text(section), engine::library::lines(table));
   return *this;
 }
 
 SceneBuilder& SceneBuilder::add(std::string_view section, const Table& table) {
-  data_->text += fmt::format("[[{}]]\n{}\n", library::key_text(section), library::lines(table));
+  data_->text +=
+      fmt::format("[[{}]]\n{}\n", engine::library::key_text(section), engine::library::lines(table));
   return *this;
 }
 
 SceneBuilder& SceneBuilder::add_mesh(const MeshArrays& arrays, const Table& table) {
-  library::check_lengths(arrays);
+  engine::library::check_lengths(arrays);
   const std::string name = fmt::format("mesh-{}.ply", data_->meshes.size());
-  data_->meshes[name] = library::ply(arrays);
+  data_->meshes[name] = engine::library::ply(arrays);
   Table whole;
   whole.set("file", name);
   for (const auto& [key, value] : table.entries()) whole.set(key, value);
@@ -100,7 +101,7 @@ std::string SceneBuilder::text() const {
 }
 
 Scene SceneBuilder::scene(std::string_view name, const SceneOptions& options) const {
-  return library::parse(data_->text, name, options, data_->meshes);
+  return engine::library::parse(data_->text, name, options, data_->meshes);
 }
 
 }  // namespace eyeray::v0

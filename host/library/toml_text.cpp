@@ -11,7 +11,7 @@
 #include "host/core/escaped_text.hpp"
 #include "host/library/toml_text.hpp"
 
-namespace eyeray::library {
+namespace eyeray::engine::library {
 namespace {
 
 std::string list_of(const v0::Value* begin, const v0::Value* end) {
@@ -38,7 +38,7 @@ std::string lines(const v0::Table& table) {
   return text;
 }
 
-}  // namespace eyeray::library
+}  // namespace eyeray::engine::library
 
 namespace eyeray::v0 {
 
@@ -67,12 +67,12 @@ std::string Value::quoted(std::string_view text) {
   return toml_string(text);
 }
 
-Value::Value(std::initializer_list<Value> list) : toml_(library::list_of(list.begin(), list.end())) {}
+Value::Value(std::initializer_list<Value> list) : toml_(engine::library::list_of(list.begin(), list.end())) {}
 Value::Value(const std::vector<Value>& list)
-    : toml_(library::list_of(list.data(), list.data() + list.size())) {}
+    : toml_(engine::library::list_of(list.data(), list.data() + list.size())) {}
 Value::Value(const Table& table) : toml_("{ ") {
   for (const auto& [key, value] : table.entries())
-    toml_ += (toml_.size() > 2 ? ", " : "") + library::key_text(key) + " = " + value.toml();
+    toml_ += (toml_.size() > 2 ? ", " : "") + engine::library::key_text(key) + " = " + value.toml();
   toml_ += " }";
 }
 

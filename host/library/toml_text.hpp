@@ -6,11 +6,11 @@
 #include <string>
 #include <string_view>
 
-namespace eyeray::library {
+namespace eyeray::engine::library {
 
 // A key, quoted where it has to be.
 std::string key_text(std::string_view key);
 // "key = value", a line each.
 std::string lines(const v0::Table& table);
 
-}  // namespace eyeray::library
+}  // namespace eyeray::engine::library

@@ -5,7 +5,7 @@
 #include "host/lights/versine.hpp"
 #include "host/records/packer.hpp"
 
-namespace eyeray::lights {
+namespace eyeray::engine::lights {
 
 extern const LightType directional_type;
 
@@ -74,4 +74,4 @@ std::unique_ptr<Light> make_light(const DirectionalLight& values) {
   return std::make_unique<Directional>(values);
 }
 
-}  // namespace eyeray::lights
+}  // namespace eyeray::engine::lights

@@ -3,10 +3,10 @@
 
 #include "host/scene/light.hpp"
 
-namespace eyeray::lights {
+namespace eyeray::engine::lights {
 
 std::unique_ptr<Light> make_light(const PointLight& values);
 std::unique_ptr<Light> make_light(const DirectionalLight& values);
 std::unique_ptr<Light> make_light(const SpotLight& values);
 
-}  // namespace eyeray::lights
+}  // namespace eyeray::engine::lights

@@ -2,7 +2,7 @@
 #include "host/lights/registry.hpp"
 #include "host/records/packer.hpp"
 
-namespace eyeray::lights {
+namespace eyeray::engine::lights {
 
 extern const LightType point_type;
 
@@ -71,4 +71,4 @@ std::unique_ptr<Light> make_light(const PointLight& values) {
   return std::make_unique<Point>(values);
 }
 
-}  // namespace eyeray::lights
+}  // namespace eyeray::engine::lights

@@ -2,7 +2,7 @@
 
 #include "shaders/lights/rows.h"
 
-namespace eyeray::lights {
+namespace eyeray::engine::lights {
 
 // Each light's .cpp defines its own; one that is missing is a link error that bears its name.
 #define X(name, number) extern const LightType name##_type;
@@ -16,4 +16,4 @@ std::span<const LightType* const> types() {
   return types;
 }
 
-}  // namespace eyeray::lights
+}  // namespace eyeray::engine::lights

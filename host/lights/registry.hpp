@@ -8,7 +8,7 @@
 #include "host/reading/table_reader.hpp"
 #include "host/scene/light.hpp"
 
-namespace eyeray::lights {
+namespace eyeray::engine::lights {
 
 // The words that each kind declares its keys with, and reads them.
 using reading::Key, reading::KeyType, reading::TableReader;
@@ -23,4 +23,4 @@ struct LightType {
 // Every kind of light, in registry order.
 std::span<const LightType* const> types();
 
-}  // namespace eyeray::lights
+}  // namespace eyeray::engine::lights

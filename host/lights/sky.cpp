@@ -7,7 +7,7 @@
 
 #include "host/core/parallel_for.hpp"
 
-namespace eyeray::lights {
+namespace eyeray::engine::lights {
 
 namespace {
 
@@ -215,4 +215,4 @@ Sky make_sky(const SkySettings& settings) {
   return sky;
 }
 
-}  // namespace eyeray::lights
+}  // namespace eyeray::engine::lights

@@ -9,7 +9,7 @@
 #include "host/scene/environment.hpp"
 #include "host/scene/light.hpp"
 
-namespace eyeray::lights {
+namespace eyeray::engine::lights {
 
 struct SkySettings {
   Vec3 to_sun{0, 1, 0};  // unit; also below the horizon
@@ -26,4 +26,4 @@ struct Sky {
 // A tenth of a second or two.
 Sky make_sky(const SkySettings& settings);
 
-}  // namespace eyeray::lights
+}  // namespace eyeray::engine::lights

@@ -6,7 +6,7 @@
 #include "host/lights/versine.hpp"
 #include "host/records/packer.hpp"
 
-namespace eyeray::lights {
+namespace eyeray::engine::lights {
 
 extern const LightType spot_type;
 
@@ -100,4 +100,4 @@ std::unique_ptr<Light> make_light(const SpotLight& values) {
   return std::make_unique<Spot>(values);
 }
 
-}  // namespace eyeray::lights
+}  // namespace eyeray::engine::lights

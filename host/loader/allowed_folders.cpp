@@ -5,7 +5,7 @@
 #include "host/core/error.hpp"
 #include "host/core/option_text.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 namespace fs = std::filesystem;
 
@@ -33,4 +33,4 @@ AllowedFolders::File AllowedFolders::find(std::string_view key, const std::strin
   return find(key, name, source != sources.end() ? *source : scene_);
 }
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

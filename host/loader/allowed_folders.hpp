@@ -9,7 +9,7 @@
 
 #include "host/core/folder_trees.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 class AllowedFolders {
  public:
@@ -33,4 +33,4 @@ class AllowedFolders {
   FolderTrees trees_;
 };
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

@@ -11,7 +11,7 @@
 #include "host/loader/sections.hpp"
 #include "host/reading/table.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 using reading::Key, reading::KeyType;
 namespace {
@@ -190,4 +190,4 @@ void add_moving(int values, double first, double last, Animation& animation) {
   animation.tracks += values;
 }
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

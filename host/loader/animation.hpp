@@ -10,7 +10,7 @@
 #include "host/reading/table_reader.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 std::span<const reading::Key> animation_keys();
 std::span<const reading::Key> track_keys();
@@ -26,4 +26,4 @@ double seconds(const Animation& animation);
 // Counts values that move from one frame to another.
 void add_moving(int values, double first, double last, Animation& animation);
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

@@ -11,7 +11,7 @@
 #include "host/reading/source_position.hpp"
 #include "host/reading/table.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 Batch read_batch(const Section& section, const toml::table& table, DiagnosticLog& log) {
   const toml::node* node = table.get(batch_key);
@@ -62,4 +62,4 @@ std::string_view written_name(const toml::table& table, const Batch& batch, size
   return node && node->is_string() ? std::string_view(node->as_string()->get()) : std::string_view();
 }
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

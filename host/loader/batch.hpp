@@ -9,7 +9,7 @@
 #include "host/core/diagnostic_log.hpp"
 #include "host/loader/sections.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 // A batch of a table's values, as it was checked.
 struct Batch {
@@ -23,4 +23,4 @@ Batch read_batch(const Section& section, const toml::table& table, DiagnosticLog
 // The name that a table, or an element of its batch, gives itself, where it is one; "" where there is none.
 std::string_view written_name(const toml::table& table, const Batch& batch, size_t element);
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

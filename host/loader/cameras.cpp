@@ -3,7 +3,7 @@
 #include "host/cameras/registry.hpp"
 #include "host/loader/kinds.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 namespace {
 
@@ -41,4 +41,4 @@ Camera read_camera(const Section& section, const toml::table* table, const readi
   return camera;
 }
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

@@ -5,10 +5,10 @@
 #include "host/reading/table.hpp"
 #include "host/scene/camera.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 // `table` null: not written. Errors are in the log; after one the camera may have no projection.
 Camera read_camera(const Section& section, const toml::table* table, const reading::ValueSources& sources,
                    DiagnosticLog& log);
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

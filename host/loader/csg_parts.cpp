@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 std::string why_no_part(const Section& section) {
   switch (section.kind) {
@@ -42,4 +42,4 @@ std::string why_two_media(const Shape& csg, const std::vector<std::unique_ptr<Ma
   return why;
 }
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

@@ -8,7 +8,7 @@
 #include "host/loader/sections.hpp"
 #include "host/scene/material.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 // Why no table of this section can stand in a CSG object, or "".
 std::string why_no_part(const Section& section);
@@ -23,4 +23,4 @@ Blame why_not_closed(const shapes::ShapeType& type);
 // Why the CSG object would be filled with two media at once, or "".
 std::string why_two_media(const Shape& csg, const std::vector<std::unique_ptr<Material>>& materials);
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

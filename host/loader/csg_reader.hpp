@@ -10,7 +10,7 @@
 #include "host/loader/csg_parts.hpp"
 #include "host/reading/table.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 // `Host` reads tables, materials and shapes: the scene's builder, whose own these functions would be if they
 // were fewer.
@@ -105,4 +105,4 @@ class CsgReader {
   DiagnosticLog& log_;
 };
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

@@ -7,7 +7,7 @@
 #include "host/loader/toml_file.hpp"
 #include "host/reading/source_position.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 namespace {
 
@@ -155,4 +155,4 @@ Document parse_document(std::string_view text, const std::string& name, Diagnost
   return document;
 }
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

@@ -9,7 +9,7 @@
 #include "host/core/diagnostic_log.hpp"
 #include "host/loader/allowed_folders.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 // One TOML tree in which every top table is a known section: [name] a table, [[name]] a list of tables. What
 // is not is reported and left out.
@@ -23,4 +23,4 @@ Document read_document(const std::filesystem::path& scene, const AllowedFolders&
 // A document without files; includes are refused.
 Document parse_document(std::string_view text, const std::string& name, DiagnosticLog& log);
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

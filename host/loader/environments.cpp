@@ -7,7 +7,7 @@
 #include "host/lights/sky.hpp"
 #include "host/loader/kinds.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 using reading::Key, reading::KeyType;
 
@@ -167,4 +167,4 @@ Surroundings read_environment(const Section& section, const toml::table* table,
   return around;
 }
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

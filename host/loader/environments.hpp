@@ -8,7 +8,7 @@
 #include "host/scene/environment.hpp"
 #include "host/scene/light.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 // What is around a scene, and what shines from there; of both there may be none.
 struct Surroundings {
@@ -33,4 +33,4 @@ std::span<const reading::Key> environment_keys();
 Surroundings read_environment(const Section& section, const toml::table* table,
                               const reading::ValueSources& sources, DiagnosticLog& log);
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 namespace {
 
 constexpr std::pair<std::string_view, std::string_view> former[] = {
@@ -47,4 +47,4 @@ void rename_former(toml::table& root) {
   for (auto&& [key, node] : root) rename_in(node);
 }
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

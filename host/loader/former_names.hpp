@@ -5,7 +5,7 @@
 
 #include <string_view>
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 // What `key` of a table is called today: `key` itself, but for a former name.
 std::string_view name_today(std::string_view key);
@@ -13,4 +13,4 @@ std::string_view name_today(std::string_view key);
 // Gives each table in `root` that has a former name the one it has today.
 void rename_former(toml::table& root);
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

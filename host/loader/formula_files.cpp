@@ -5,7 +5,7 @@
 #include "host/core/error.hpp"
 #include "host/core/input_file.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 namespace {
 
@@ -29,4 +29,4 @@ std::optional<formula::FormulaText> FormulaFiles::load(const std::string& name,
   }
 }
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

@@ -8,7 +8,7 @@
 #include "host/loader/allowed_folders.hpp"
 #include "host/reading/formula_source.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 class FormulaFiles final : public reading::FormulaSource {
  public:
@@ -29,4 +29,4 @@ class FormulaFiles final : public reading::FormulaSource {
   std::vector<std::filesystem::path> files_;
 };
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

@@ -5,7 +5,7 @@
 
 #include "host/reading/source_position.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 namespace {
 
@@ -29,4 +29,4 @@ void refuse_formulas(const toml::table& root, DiagnosticLog& log) {
   refuse(root, false, log);
 }
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

@@ -5,9 +5,9 @@
 
 #include "host/core/diagnostic_log.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 // An error at each `code` and `file` of an [[implicit]], wherever it stands; before any of them is read.
 void refuse_formulas(const toml::table& root, DiagnosticLog& log);
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

@@ -6,7 +6,7 @@
 
 #include "host/scene/affine.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 int GroupPlacer::keep(Group group, double stretch) {
   Extent extent{{}, std::numeric_limits<double>::infinity(), stretch};
@@ -48,4 +48,4 @@ void GroupPlacer::place(int index, const Mat4& transform, const SourcePosition& 
       {index, transform, scene_.shapes.size(), scene_.instances.size(), position, name});
 }
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

@@ -5,7 +5,7 @@
 
 #include "host/loader/mesh_placement.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 class GroupPlacer {
  public:
@@ -31,4 +31,4 @@ class GroupPlacer {
   std::vector<Extent> extents_;  // as Scene::groups
 };
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

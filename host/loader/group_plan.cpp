@@ -9,7 +9,7 @@
 #include "host/loader/sections.hpp"
 #include "host/reading/source_position.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 namespace {
 
@@ -234,4 +234,4 @@ std::vector<const toml::table*> GroupPlan::idle() const {
   return idle;
 }
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

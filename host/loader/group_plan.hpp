@@ -14,7 +14,7 @@
 #include "host/core/diagnostic_log.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 class GroupPlan {
  public:
@@ -77,4 +77,4 @@ class GroupPlan {
   bool sound_ = true;
 };
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

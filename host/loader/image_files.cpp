@@ -6,7 +6,7 @@
 #include "host/image/image_file.hpp"
 #include "host/scene/image_texture_file.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 namespace {
 
@@ -85,4 +85,4 @@ std::shared_ptr<const ImageTexture> ImageFiles::load(ImageTexture wanted, const 
   }
 }
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

@@ -10,7 +10,7 @@
 #include "host/loader/allowed_folders.hpp"
 #include "host/reading/image_source.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 class ImageFiles final : public reading::ImageSource {
  public:
@@ -43,4 +43,4 @@ class ImageFiles final : public reading::ImageSource {
   std::map<std::filesystem::path, Entry> images_;  // by canonical path
 };
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

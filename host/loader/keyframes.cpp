@@ -12,7 +12,7 @@
 #include "host/reading/source_position.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 namespace {
 
 using Quaternion = glm::dquat;
@@ -247,4 +247,4 @@ std::optional<std::string> value_between(const toml::array& list, double frame, 
   return between.sound() ? std::optional(text) : std::nullopt;
 }
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

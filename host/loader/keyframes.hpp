@@ -8,7 +8,7 @@
 
 #include "host/core/diagnostic_log.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 // How a value goes from one keyframe to the next: it stays until then; it goes straight; or by cubics whose
 // slope at a keyframe is that between its neighbours (Catmull and Rom: A Class of Local Interpolating
@@ -23,4 +23,4 @@ enum class Curve { step, linear, smooth };
 std::optional<std::string> value_between(const toml::array& keyframes, double frame, Curve curve,
                                          DiagnosticLog& log);
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

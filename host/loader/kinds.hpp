@@ -13,7 +13,7 @@
 #include "host/loader/sections.hpp"
 #include "host/reading/table.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 // The row of `types` that the table's `type` names, or where it is not written, its default; null where it
 // names none.
@@ -81,4 +81,4 @@ Kind<Type> read_kind(const Section& section, const toml::table* table, std::span
                               log)};
 }
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

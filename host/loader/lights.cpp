@@ -3,7 +3,7 @@
 #include "host/lights/registry.hpp"
 #include "host/loader/kinds.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 std::unique_ptr<Light> read_light(const Section& section, const toml::table& table,
                                   const reading::ValueSources& sources, DiagnosticLog& log) {
@@ -11,4 +11,4 @@ std::unique_ptr<Light> read_light(const Section& section, const toml::table& tab
   return type ? type->parse(reader) : nullptr;
 }
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

@@ -7,10 +7,10 @@
 #include "host/reading/table.hpp"
 #include "host/scene/light.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 // Null after an error, which is in the log.
 std::unique_ptr<Light> read_light(const Section& section, const toml::table& table,
                                   const reading::ValueSources& sources, DiagnosticLog& log);
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

@@ -13,7 +13,7 @@
 #include "host/scene/sampler.hpp"
 #include "host/textures/registry.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 namespace {
 
@@ -119,4 +119,4 @@ std::string scene_manual() {
   return text;
 }
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

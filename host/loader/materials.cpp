@@ -6,7 +6,7 @@
 #include "host/materials/normal_map.hpp"
 #include "host/materials/registry.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 namespace {
 
 constexpr size_t most_media = 255;  // their number is a byte in the shaders' stack of media
@@ -96,4 +96,4 @@ void Materials::check() const {
   }
 }
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

@@ -8,7 +8,7 @@
 #include "host/reading/table.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 class Materials {
  public:
@@ -37,4 +37,4 @@ class Materials {
   size_t media_ = 0;
 };
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

@@ -9,7 +9,7 @@
 #include "host/materials/medium_keys.hpp"
 #include "host/scene/integrator.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 using reading::Key, reading::KeyType;
 
@@ -132,4 +132,4 @@ void warn_of_endless_medium(const Scene& scene, DiagnosticLog& log) {
         "`max` give it an end on all sides");
 }
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

@@ -5,7 +5,7 @@
 #include "host/reading/table_reader.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 std::span<const reading::Key> medium_keys();
 std::string_view medium_manual();
@@ -18,4 +18,4 @@ MediumExtent read_medium_extent(reading::TableReader& table);
 // Warns where the light of a sun, an environment or a background is lost in the medium because it has no end.
 void warn_of_endless_medium(const Scene& scene, DiagnosticLog& log);
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

@@ -4,7 +4,7 @@
 
 #include "host/core/diagnostic.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 namespace fs = std::filesystem;
 
@@ -104,4 +104,4 @@ std::vector<importers::PlayedAnimation> MeshImports::played() const {
   return all;
 }
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

@@ -12,7 +12,7 @@
 #include "host/loader/allowed_folders.hpp"
 #include "host/loader/scene_file.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 // What `animation` of [[mesh]] says for a file at rest.
 inline constexpr const char* no_animation = "none";
@@ -83,4 +83,4 @@ class MeshImports {
   double seconds_ = 0;
 };
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

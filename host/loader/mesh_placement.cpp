@@ -6,7 +6,7 @@
 #include "host/scene/affine.hpp"
 #include "host/scene/triangle.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 namespace {
 
@@ -87,4 +87,4 @@ std::string MeshPlacer::place(importers::ImportedScene& import, const Mat4& tran
   return "";
 }
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

@@ -9,7 +9,7 @@
 #include "host/importers/import.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 class MeshPlacer {
  public:
@@ -46,4 +46,4 @@ class MeshPlacer {
   int plain_[2] = {-1, -1};  // the materials of meshes that have none: without and with colours of vertices
 };
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

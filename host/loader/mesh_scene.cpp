@@ -6,7 +6,7 @@
 
 #include "host/scene/affine.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 namespace {
 
@@ -140,4 +140,4 @@ toml::table mesh_scene(const std::filesystem::path& file, const importers::Impor
   return root;
 }
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

@@ -7,7 +7,7 @@
 
 #include "host/importers/import.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 // The tables that somebody would write to look at the file: [[mesh]], and the file's camera and lights if it
 // has them; else a camera that frames `framed`, three quarters from the front with y up, a light over its
@@ -16,4 +16,4 @@ namespace eyeray::loader {
 toml::table mesh_scene(const std::filesystem::path& file, const importers::ImportedScene& import,
                        const importers::ImportedScene& framed, bool around);
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

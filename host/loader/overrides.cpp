@@ -10,7 +10,7 @@
 #include "host/loader/toml_file.hpp"
 #include "host/reading/source_position.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 namespace {
 
@@ -210,4 +210,4 @@ std::vector<std::string> apply_track(toml::table& root, std::string_view target,
   return Assignment(fmt::format("{}={}", target, value), at, value_at, root, log).apply();
 }
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

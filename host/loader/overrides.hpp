@@ -10,7 +10,7 @@
 #include "host/core/diagnostic_log.hpp"
 #include "host/loader/scene_file.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 // Puts each value at its place in the tree, as if it stood in the file; it is checked with all others later.
 void apply_overrides(toml::table& root, std::span<const Override> overrides, DiagnosticLog& log);
@@ -22,4 +22,4 @@ std::vector<std::string> apply_track(toml::table& root, std::string_view target,
                                      const SourcePosition& at, const SourcePosition& value_at,
                                      DiagnosticLog& log);
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

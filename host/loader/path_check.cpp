@@ -9,7 +9,7 @@
 #include "host/scene/emitters.hpp"
 #include "host/scene/integrator.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 void warn_of_paths(const Scene& scene, DiagnosticLog& log) {
   for (const auto& material : scene.materials) {
@@ -56,4 +56,4 @@ void warn_of_paths(const Scene& scene, DiagnosticLog& log) {
                     unsampled.size() == 1 ? "" : fmt::format(" and {} more", unsampled.size() - 1)));
 }
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

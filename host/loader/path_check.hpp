@@ -4,9 +4,9 @@
 #include "host/core/diagnostic_log.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 // Of a sound scene with shapes, whose integrator walks at random.
 void warn_of_paths(const Scene& scene, DiagnosticLog& log);
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

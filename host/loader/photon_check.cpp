@@ -9,7 +9,7 @@
 #include "host/scene/environment.hpp"
 #include "host/scene/photons.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 namespace {
 
 // In float32 a place is in one of so many cells along an axis (shaders/integrators/photon_cells.glsl).
@@ -139,4 +139,4 @@ void prepare_for_photons(Scene& scene, reading::TableReader& render, std::span<c
                     settings.reach));
 }
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

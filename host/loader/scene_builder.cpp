@@ -26,7 +26,7 @@
 #include "host/scene/tangents.hpp"
 #include "host/textures/registry.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 namespace {
 
@@ -367,4 +367,4 @@ Scene build_scene(const toml::table& root, const SceneSources& sources, Diagnost
   return Builder(root, sources, log).build();
 }
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

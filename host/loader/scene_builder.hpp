@@ -9,7 +9,7 @@
 #include "host/reading/image_source.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 // Where what a scene names comes from; null where it may name no such files.
 struct SceneSources {
@@ -21,4 +21,4 @@ struct SceneSources {
 // Everything but Scene::file, files and warnings; only whole when the log has no errors.
 Scene build_scene(const toml::table& root, const SceneSources& sources, DiagnosticLog& log);
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

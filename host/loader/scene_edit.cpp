@@ -6,7 +6,7 @@
 #include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 namespace {
 
 // Where line `line` of the text begins, from 1.
@@ -56,4 +56,4 @@ void set_value(const std::filesystem::path& file, const std::string& table, cons
   write_file_atomically(file, text);
 }
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 // Writes `key = value` of [table] into the scene file: over the value that stands there, or as a new line.
 // Error (bad_input) where the file is no TOML or the value stands so that it cannot be found, Error (file_io)
@@ -16,4 +16,4 @@ void set_value(const std::filesystem::path& file, const std::string& table, cons
 std::string with_value(std::string text, const std::string& table, const std::string& key,
                        const std::string& value);
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

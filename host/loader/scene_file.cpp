@@ -17,7 +17,7 @@
 #include "host/loader/overrides.hpp"
 #include "host/loader/scene_builder.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 namespace {
 
@@ -140,4 +140,4 @@ Scene parse_scene(std::string_view text, const std::string& name, std::span<cons
                       });
 }
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

@@ -10,7 +10,7 @@
 
 #include "host/scene/scene.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 // "render.max_depth=3", "image.width=64", "sphere.0.radius=2", "material.glass.ior=1.3",
 // "light.1.intensity=[1,1,1]": a value laid over the file, the same as if it stood there. The right side is
@@ -47,4 +47,4 @@ std::string scene_schema();
 // Every table and key of scene files as Markdown, made from the same Keys; docs/scene-reference.md.
 std::string scene_manual();
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

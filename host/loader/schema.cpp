@@ -14,7 +14,7 @@
 #include "host/reading/table.hpp"
 #include "host/textures/registry.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 using reading::Key, reading::KeyType;
 
@@ -289,4 +289,4 @@ std::string scene_schema() {
   return json_text(schema, 2) + "\n";
 }
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

@@ -14,7 +14,7 @@
 #include "host/reading/foreign_words.hpp"
 #include "host/shapes/registry.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 using reading::Key, reading::KeyType;
 
@@ -346,4 +346,4 @@ std::string suggest_section(std::string_view name) {
   return fmt::format("did you mean {}?", section ? section->title : nearest);
 }
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

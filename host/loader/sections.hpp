@@ -9,7 +9,7 @@
 #include "host/reading/key.hpp"
 #include "host/shapes/registry.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 struct Section {
   enum class Kind {
@@ -66,4 +66,4 @@ inline constexpr std::string_view minus_key = "minus";
 inline constexpr std::string_view include_key = "include";
 inline constexpr std::string_view batch_key = "batch";
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

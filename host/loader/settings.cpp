@@ -5,7 +5,7 @@
 #include "host/scene/integrator.hpp"
 #include "host/scene/sampler.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 using reading::Key, reading::KeyType;
 
@@ -241,4 +241,4 @@ VerifySettings read_verify(reading::TableReader& table) {
   return {.max_explained = table.number("max_explained")};
 }
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

@@ -6,7 +6,7 @@
 #include "host/reading/table_reader.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 std::span<const reading::Key> image_keys();
 std::span<const reading::Key> render_keys();
@@ -17,4 +17,4 @@ RenderSettings read_render(reading::TableReader& table);
 ImageSettings read_image(reading::TableReader& table, IntegratorType integrator);
 VerifySettings read_verify(reading::TableReader& table);
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

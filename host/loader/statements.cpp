@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 namespace {
 
@@ -218,4 +218,4 @@ std::optional<Excess> find_excess(std::string_view text, TreeBudget& budget) {
   return std::nullopt;
 }
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

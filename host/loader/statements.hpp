@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 // From a line that starts with `key =` or `[table]` to the next such line. A statement that starts a table
 // and fails takes the table's other statements with it.
@@ -47,4 +47,4 @@ struct Excess {
 // which the text is taken.
 std::optional<Excess> find_excess(std::string_view text, TreeBudget& budget);
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

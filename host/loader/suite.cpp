@@ -9,7 +9,7 @@
 
 namespace fs = std::filesystem;
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 namespace {
 
 // The files that `scene` includes, as far as it can be read: what is wrong with it is told when it is loaded.
@@ -50,4 +50,4 @@ std::vector<fs::path> scenes_below(const fs::path& folder) {
   return scenes;
 }
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

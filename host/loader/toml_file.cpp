@@ -11,7 +11,7 @@
 #include "host/loader/statements.hpp"
 #include "host/reading/source_position.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 namespace {
 
@@ -169,4 +169,4 @@ toml::table parse_toml(std::string_view original, const std::string& name, TreeB
   }
 }
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

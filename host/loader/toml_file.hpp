@@ -10,7 +10,7 @@
 #include "host/core/diagnostic_log.hpp"
 #include "host/loader/statements.hpp"
 
-namespace eyeray::loader {
+namespace eyeray::engine::loader {
 
 // The whole of a regular file of at most 256 MiB. Error (file_io) with the system's reason, and a name in the
 // same folder that the user may have meant.
@@ -24,4 +24,4 @@ toml::table parse_toml(std::string_view text, const std::string& name, TreeBudge
 // What the parser says of a statement, in the words of somebody who wants to mend it.
 std::string explain_syntax(std::string_view description, std::string_view statement = {});
 
-}  // namespace eyeray::loader
+}  // namespace eyeray::engine::loader

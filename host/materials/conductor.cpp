@@ -4,7 +4,7 @@
 #include "host/materials/registry.hpp"
 #include "host/optics/metals.hpp"
 
-namespace eyeray::materials {
+namespace eyeray::engine::materials {
 
 extern const MaterialType conductor_type;
 
@@ -131,4 +131,4 @@ std::unique_ptr<Material> make_conductor(const ConductorValues& values) {
   return std::make_unique<Conductor>(values, stand_in(body, f0, roughness));
 }
 
-}  // namespace eyeray::materials
+}  // namespace eyeray::engine::materials

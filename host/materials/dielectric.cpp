@@ -5,7 +5,7 @@
 #include "host/materials/medium_keys.hpp"
 #include "host/materials/registry.hpp"
 
-namespace eyeray::materials {
+namespace eyeray::engine::materials {
 
 namespace {
 
@@ -178,4 +178,4 @@ std::unique_ptr<Material> make_dielectric(const DielectricValues& values) {
   return std::make_unique<Dielectric>(values);
 }
 
-}  // namespace eyeray::materials
+}  // namespace eyeray::engine::materials

@@ -2,7 +2,7 @@
 
 #include "host/materials/registry.hpp"
 
-namespace eyeray::materials {
+namespace eyeray::engine::materials {
 
 extern const MaterialType diffuse_type;
 
@@ -71,4 +71,4 @@ std::unique_ptr<Material> make_diffuse(const DiffuseValues& values) {
                                    values.roughness);
 }
 
-}  // namespace eyeray::materials
+}  // namespace eyeray::engine::materials

@@ -4,7 +4,7 @@
 
 #include "host/materials/registry.hpp"
 
-namespace eyeray::materials {
+namespace eyeray::engine::materials {
 
 void Highlight::apply(const TextureContext& place, Scattering& scattering) const {
   scattering.specular = specular->at(place);
@@ -60,4 +60,4 @@ shader::Material make_record(uint32_t kind, const Highlight& highlight, double s
           .coat_normal_scale = 0};
 }
 
-}  // namespace eyeray::materials
+}  // namespace eyeray::engine::materials

@@ -6,7 +6,7 @@
 #include "host/scene/material.hpp"
 #include "host/textures/make.hpp"
 
-namespace eyeray::materials {
+namespace eyeray::engine::materials {
 
 struct Highlight {
   TexturePtr specular = textures::make_constant(Vec3(0));
@@ -40,4 +40,4 @@ Highlight read_highlight(const TableReader& table);
 shader::Material make_record(uint32_t kind, const Highlight& highlight, double shadow_transmittance,
                              records::Packer& packer);
 
-}  // namespace eyeray::materials
+}  // namespace eyeray::engine::materials

@@ -9,7 +9,7 @@
 #include "host/optics/fresnel.hpp"
 #include "host/scene/material.hpp"
 
-namespace eyeray::materials {
+namespace eyeray::engine::materials {
 
 struct PhongValues {
   TexturePtr diffuse = textures::make_constant(Vec3(0.8));
@@ -72,4 +72,4 @@ struct PrincipledValues {
 std::unique_ptr<Material> make_principled(const PrincipledValues& values,
                                           std::unique_ptr<Material> stand_in = nullptr);
 
-}  // namespace eyeray::materials
+}  // namespace eyeray::engine::materials

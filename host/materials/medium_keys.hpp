@@ -4,7 +4,7 @@
 #include "host/materials/registry.hpp"
 #include "host/scene/material.hpp"
 
-namespace eyeray::materials {
+namespace eyeray::engine::materials {
 
 inline constexpr Key absorption_key = {
     .name = "absorption",
@@ -30,4 +30,4 @@ inline Medium read_medium(const TableReader& table, double ior) {
   return {ior, table.color("absorption"), table.color("scattering"), table.number("anisotropy")};
 }
 
-}  // namespace eyeray::materials
+}  // namespace eyeray::engine::materials

@@ -2,7 +2,7 @@
 #include "host/materials/make.hpp"
 #include "host/materials/registry.hpp"
 
-namespace eyeray::materials {
+namespace eyeray::engine::materials {
 
 namespace {
 
@@ -73,4 +73,4 @@ std::unique_ptr<Material> make_mirror(const MirrorValues& values) {
   return std::make_unique<Mirror>(values);
 }
 
-}  // namespace eyeray::materials
+}  // namespace eyeray::engine::materials

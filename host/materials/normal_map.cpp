@@ -4,7 +4,7 @@
 
 #include "host/materials/registry.hpp"
 
-namespace eyeray::materials {
+namespace eyeray::engine::materials {
 
 TexturePtr as_data(const TexturePtr& texture) {
   const TexturePtr data = texture ? texture->as_data() : nullptr;
@@ -17,4 +17,4 @@ std::optional<NormalMap> read_normal_map(TableReader& table, std::string_view ke
   return std::nullopt;
 }
 
-}  // namespace eyeray::materials
+}  // namespace eyeray::engine::materials

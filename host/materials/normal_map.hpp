@@ -7,7 +7,7 @@
 #include "host/materials/registry.hpp"
 #include "host/scene/material.hpp"
 
-namespace eyeray::materials {
+namespace eyeray::engine::materials {
 
 // The texture with the codes of an image as they are, not as colours.
 TexturePtr as_data(const TexturePtr& texture);
@@ -16,4 +16,4 @@ TexturePtr as_data(const TexturePtr& texture);
 // scale without a map.
 std::optional<NormalMap> read_normal_map(TableReader& table, std::string_view key, std::string_view scale);
 
-}  // namespace eyeray::materials
+}  // namespace eyeray::engine::materials

@@ -2,7 +2,7 @@
 #include "host/materials/make.hpp"
 #include "host/materials/registry.hpp"
 
-namespace eyeray::materials {
+namespace eyeray::engine::materials {
 
 namespace {
 
@@ -108,4 +108,4 @@ std::unique_ptr<Material> make_phong(const PhongValues& values) {
   return std::make_unique<Phong>(values);
 }
 
-}  // namespace eyeray::materials
+}  // namespace eyeray::engine::materials

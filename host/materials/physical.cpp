@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace eyeray::materials {
+namespace eyeray::engine::materials {
 
 PhongValues stand_in(const TexturePtr& body, const Vec3& f0, double roughness) {
   const double smooth = (1 - roughness) * (1 - roughness);
@@ -18,4 +18,4 @@ double typical(const Texture& texture) {
   return texture.constant().value_or(texture.at(Vec2(0.5))).y;
 }
 
-}  // namespace eyeray::materials
+}  // namespace eyeray::engine::materials

@@ -5,7 +5,7 @@
 #include "host/materials/registry.hpp"
 #include "host/records/packer.hpp"
 
-namespace eyeray::materials {
+namespace eyeray::engine::materials {
 
 class Physical : public Material {
  public:
@@ -57,4 +57,4 @@ inline constexpr Key emission_key{.name = "emission",
                                       "lights others.",
                                   .fallback = "0"};
 
-}  // namespace eyeray::materials
+}  // namespace eyeray::engine::materials

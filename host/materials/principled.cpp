@@ -8,7 +8,7 @@
 #include "host/materials/physical.hpp"
 #include "host/materials/registry.hpp"
 
-namespace eyeray::materials {
+namespace eyeray::engine::materials {
 
 extern const MaterialType principled_type;
 extern const MaterialType plastic_type;
@@ -325,4 +325,4 @@ std::unique_ptr<Material> make_principled(const PrincipledValues& values,
   return make(values, std::move(stand_in), shader::MATERIAL_principled);
 }
 
-}  // namespace eyeray::materials
+}  // namespace eyeray::engine::materials

@@ -2,7 +2,7 @@
 
 #include "shaders/materials/rows.h"
 
-namespace eyeray::materials {
+namespace eyeray::engine::materials {
 
 // Each material's .cpp defines its own; one that is missing is a link error that bears its name.
 #define X(name, number) extern const MaterialType name##_type;
@@ -16,4 +16,4 @@ std::span<const MaterialType* const> types() {
   return types;
 }
 
-}  // namespace eyeray::materials
+}  // namespace eyeray::engine::materials

@@ -8,7 +8,7 @@
 #include "host/reading/table_reader.hpp"
 #include "host/scene/material.hpp"
 
-namespace eyeray::materials {
+namespace eyeray::engine::materials {
 
 // The words that each kind declares its keys with, and reads them.
 using reading::Key, reading::KeyType, reading::TableReader;
@@ -23,4 +23,4 @@ struct MaterialType {
 // Every kind of material, in registry order.
 std::span<const MaterialType* const> types();
 
-}  // namespace eyeray::materials
+}  // namespace eyeray::engine::materials

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <complex>
 
-namespace eyeray::optics {
+namespace eyeray::engine::optics {
 
 namespace {
 
@@ -50,4 +50,4 @@ double dielectric_reflectance(double cosine, double n1, double n2) {
   return (rs * rs + rp * rp) / 2;
 }
 
-}  // namespace eyeray::optics
+}  // namespace eyeray::engine::optics

@@ -3,7 +3,7 @@
 
 #include "host/core/vec.hpp"
 
-namespace eyeray::optics {
+namespace eyeray::engine::optics {
 
 // Schlick's, from f0 at right angles to f90 edge-on (An Inexpensive BRDF Model for Physically-Based
 // Rendering, 1994), or that of a metal of refractive index f0 + i f90.
@@ -24,4 +24,4 @@ Fresnel conductor(const Vec3& n, const Vec3& k);
 // Wolf: Principles of Optics, 1.5.
 double dielectric_reflectance(double cosine, double n1, double n2);
 
-}  // namespace eyeray::optics
+}  // namespace eyeray::engine::optics

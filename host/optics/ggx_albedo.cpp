@@ -6,7 +6,7 @@
 #include "host/optics/mean_by_cosine.hpp"
 #include "host/optics/visible_normals.hpp"
 
-namespace eyeray::optics {
+namespace eyeray::engine::optics {
 namespace {
 
 constexpr int turns = 16, heights = 96;
@@ -36,4 +36,4 @@ std::vector<GgxAlbedo> ggx_albedo_row(int places, double roughness) {
   return row;
 }
 
-}  // namespace eyeray::optics
+}  // namespace eyeray::engine::optics

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace eyeray::optics {
+namespace eyeray::engine::optics {
 
 // What microfacets of one roughness send on of the light from one direction, without what another of them
 // takes.
@@ -20,4 +20,4 @@ GgxAlbedo ggx_albedo_integral(double cosine, double roughness);
 // Of `places` directions, by √cosine in even steps from 0 to 1, with means.
 std::vector<GgxAlbedo> ggx_albedo_row(int places, double roughness);
 
-}  // namespace eyeray::optics
+}  // namespace eyeray::engine::optics

@@ -7,7 +7,7 @@
 #include "host/optics/fresnel.hpp"
 #include "host/optics/visible_normals.hpp"
 
-namespace eyeray::optics {
+namespace eyeray::engine::optics {
 namespace {
 
 constexpr int least_turns = 24, least_heights = 72;
@@ -30,4 +30,4 @@ double glass_albedo_integral(double cosine, double roughness, double ior_from, d
   });
 }
 
-}  // namespace eyeray::optics
+}  // namespace eyeray::engine::optics

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace eyeray::optics {
+namespace eyeray::engine::optics {
 
 // 2 ∫ E(μ) μ dμ with μ = x²: 4 ∫ E x³ dx, E linear between the places of a row, albedo(i).
 template <typename Albedo>
@@ -19,4 +19,4 @@ double mean_by_cosine(int side, const Albedo& albedo) {
   return mean;
 }
 
-}  // namespace eyeray::optics
+}  // namespace eyeray::engine::optics

@@ -6,7 +6,7 @@
 
 #include "host/core/vec.hpp"
 
-namespace eyeray::optics {
+namespace eyeray::engine::optics {
 
 struct Metal {
   std::string_view name;
@@ -21,4 +21,4 @@ inline constexpr std::array metals{
     Metal{"brass", {0.444, 0.527, 1.094}, {3.695, 2.765, 1.829}},
 };
 
-}  // namespace eyeray::optics
+}  // namespace eyeray::engine::optics

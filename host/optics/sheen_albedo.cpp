@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace eyeray::optics {
+namespace eyeray::engine::optics {
 namespace {
 
 constexpr int sheen_turns = 16, sheen_heights = 64;
@@ -57,4 +57,4 @@ std::vector<SheenAlbedo> sheen_albedo_row(int places, double roughness) {
   return row;
 }
 
-}  // namespace eyeray::optics
+}  // namespace eyeray::engine::optics

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace eyeray::optics {
+namespace eyeray::engine::optics {
 
 // Edge-on the formula would send on more light than comes: `unweakened`. It is divided by the larger of what
 // that is on light's way and on the viewer's, where this is above 1: `albedo` is left then.
@@ -20,4 +20,4 @@ double sheen(double cosine_half_way, double cosine_o, double cosine_i, double ro
 // Of `places` directions, by √cosine in even steps from 0 to 1; a roughness in [0, 1].
 std::vector<SheenAlbedo> sheen_albedo_row(int places, double roughness);
 
-}  // namespace eyeray::optics
+}  // namespace eyeray::engine::optics

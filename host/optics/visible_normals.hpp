@@ -6,7 +6,7 @@
 
 #include "host/core/vec.hpp"
 
-namespace eyeray::optics {
+namespace eyeray::engine::optics {
 
 class VisibleNormals {
  public:
@@ -51,4 +51,4 @@ class VisibleNormals {
   double width_, cosine_;
 };
 
-}  // namespace eyeray::optics
+}  // namespace eyeray::engine::optics

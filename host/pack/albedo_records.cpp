@@ -2,7 +2,7 @@
 
 #include "host/tables/albedos.hpp"
 
-namespace eyeray::pack {
+namespace eyeray::engine::pack {
 
 static_assert(tables::ggx_side == GGX_ALBEDOS && tables::sheen_side == SHEEN_ALBEDOS &&
               tables::glass_side == GLASS_ALBEDOS && tables::glass_slices == GLASS_SLICES &&
@@ -31,4 +31,4 @@ void pack_albedos(records::PackedScene& packed) {
   }
 }
 
-}  // namespace eyeray::pack
+}  // namespace eyeray::engine::pack

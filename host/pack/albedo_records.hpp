@@ -3,9 +3,9 @@
 
 #include "host/records/packer.hpp"
 
-namespace eyeray::pack {
+namespace eyeray::engine::pack {
 
 // After the materials: of `packed.lobes`.
 void pack_albedos(records::PackedScene& packed);
 
-}  // namespace eyeray::pack
+}  // namespace eyeray::engine::pack

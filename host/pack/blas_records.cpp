@@ -5,7 +5,7 @@
 #include "host/core/error.hpp"
 #include "host/core/parallel_for.hpp"
 
-namespace eyeray::pack {
+namespace eyeray::engine::pack {
 
 void BlasRecords::add_shape(const shader::Primitive& record, const bvh::Box& box) {
   CHECK(meshes_.empty());
@@ -28,4 +28,4 @@ shader::Primitive BlasRecords::record(uint32_t item) const {
   return mesh.records.record(item - mesh.first);
 }
 
-}  // namespace eyeray::pack
+}  // namespace eyeray::engine::pack

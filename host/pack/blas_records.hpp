@@ -8,7 +8,7 @@
 #include "host/bvh/box.hpp"
 #include "host/pack/mesh_records.hpp"
 
-namespace eyeray::pack {
+namespace eyeray::engine::pack {
 
 class BlasRecords {
  public:
@@ -37,4 +37,4 @@ class BlasRecords {
   std::vector<Triangles> meshes_;
 };
 
-}  // namespace eyeray::pack
+}  // namespace eyeray::engine::pack

@@ -7,7 +7,7 @@
 #include "host/core/error.hpp"
 #include "host/core/parallel_for.hpp"
 
-namespace eyeray::pack {
+namespace eyeray::engine::pack {
 namespace {
 
 // What a step costs at a node, and at a leaf.
@@ -234,4 +234,4 @@ PacketBvh add_packet_bvh(records::PackedScene& scene, uint32_t lanes) {
   return place;
 }
 
-}  // namespace eyeray::pack
+}  // namespace eyeray::engine::pack

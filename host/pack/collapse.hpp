@@ -6,7 +6,7 @@
 
 #include "host/records/packer.hpp"
 
-namespace eyeray::pack {
+namespace eyeray::engine::pack {
 
 // The children of a node of kernels/cooperative/bvh4.comp.glsl.
 inline constexpr uint32_t bvh4_children = 4;
@@ -33,4 +33,4 @@ struct PacketBvh {
 // quantised BVH and no instances.
 PacketBvh add_packet_bvh(records::PackedScene& scene, uint32_t lanes);
 
-}  // namespace eyeray::pack
+}  // namespace eyeray::engine::pack

@@ -1,6 +1,6 @@
 #include "host/pack/csg_records.hpp"
 
-namespace eyeray::pack {
+namespace eyeray::engine::pack {
 
 void finish_csg(shader::Primitive& csg, records::PackedScene& packed) {
   const shader::uvec4 head = packed.vertices[csg.extra];
@@ -23,4 +23,4 @@ void finish_csg(shader::Primitive& csg, records::PackedScene& packed) {
   packed.mixed_csg = packed.mixed_csg || least < deepest;
 }
 
-}  // namespace eyeray::pack
+}  // namespace eyeray::engine::pack

@@ -4,10 +4,10 @@
 
 #include "host/records/packer.hpp"
 
-namespace eyeray::pack {
+namespace eyeray::engine::pack {
 
 // Fills in what the leaves weaken a shadow ray by, takes note of their kinds and materials, and gives the
 // CSG object the material of the densest.
 void finish_csg(shader::Primitive& csg, records::PackedScene& packed);
 
-}  // namespace eyeray::pack
+}  // namespace eyeray::engine::pack

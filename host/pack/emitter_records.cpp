@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace eyeray::pack {
+namespace eyeray::engine::pack {
 namespace {
 
 // How many roundings, of the largest coordinate, a place on an emitter may be off it (emitters/*.glsl).
@@ -114,4 +114,4 @@ void pack_light_choice(const LightChoice& choice, records::Packer& packer) {
     packer.scene.light_nodes.push_back(pack_node(node, packer));
 }
 
-}  // namespace eyeray::pack
+}  // namespace eyeray::engine::pack

@@ -4,9 +4,9 @@
 #include "host/records/packer.hpp"
 #include "host/scene/light_choice.hpp"
 
-namespace eyeray::pack {
+namespace eyeray::engine::pack {
 
 // Appends the scene's lights and surfaces as PackedScene::emitters.
 void pack_light_choice(const LightChoice& choice, records::Packer& packer);
 
-}  // namespace eyeray::pack
+}  // namespace eyeray::engine::pack

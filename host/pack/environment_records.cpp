@@ -4,7 +4,7 @@
 
 #include "host/core/parallel_for.hpp"
 
-namespace eyeray::pack {
+namespace eyeray::engine::pack {
 
 size_t environment_texels(const EnvironmentMap& environment) {
   return (size_t(environment.width()) + 1) * (size_t(environment.height()) + 1);
@@ -27,4 +27,4 @@ RawVector<shader::uvec4> pack_environment(const EnvironmentMap& environment) {
   return packed;
 }
 
-}  // namespace eyeray::pack
+}  // namespace eyeray::engine::pack

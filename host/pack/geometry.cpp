@@ -16,7 +16,7 @@
 #include "host/scene/integrator.hpp"
 #include "host/scene/primitive_ids.hpp"
 
-namespace eyeray::pack {
+namespace eyeray::engine::pack {
 namespace {
 
 // Up to here testing everything is as fast as a BVH: primitives, and turns of loops of their own. Rays of
@@ -385,4 +385,4 @@ void pack_geometry(const Scene& scene, const PackOptions& options, records::Pack
   GeometryPacker(scene, options, packer).run();
 }
 
-}  // namespace eyeray::pack
+}  // namespace eyeray::engine::pack

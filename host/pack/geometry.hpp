@@ -3,11 +3,11 @@
 
 #include "host/pack/pack.hpp"
 
-namespace eyeray::pack {
+namespace eyeray::engine::pack {
 
 // Fills in everything of packer.scene that traversal reads. Materials are packed already. A mesh with one
 // instance, or of one triangle, becomes primitives of the world; any other keeps a space and a BVH of its
 // own.
 void pack_geometry(const Scene& scene, const PackOptions& options, records::Packer& packer);
 
-}  // namespace eyeray::pack
+}  // namespace eyeray::engine::pack

@@ -2,7 +2,7 @@
 
 #include "host/core/parallel_for.hpp"
 
-namespace eyeray::pack {
+namespace eyeray::engine::pack {
 
 bvh::Box triangle_box(const shader::Primitive& triangle) {
   bvh::Box box;
@@ -100,4 +100,4 @@ Corners MeshRecords::corners(uint32_t triangle) const {
           map_.point(mesh_->positions[v2])};
 }
 
-}  // namespace eyeray::pack
+}  // namespace eyeray::engine::pack

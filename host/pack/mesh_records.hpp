@@ -7,7 +7,7 @@
 #include "host/scene/mesh.hpp"
 #include "host/scene/triangle.hpp"
 
-namespace eyeray::pack {
+namespace eyeray::engine::pack {
 
 // Around the record of a triangle.
 bvh::Box triangle_box(const shader::Primitive& triangle);
@@ -38,4 +38,4 @@ class MeshRecords {
   uint32_t corner_records_ = 0;  // vec4 a triangle among the vertices
 };
 
-}  // namespace eyeray::pack
+}  // namespace eyeray::engine::pack

@@ -6,7 +6,7 @@
 #include "host/core/error.hpp"
 #include "host/core/parallel_for.hpp"
 
-namespace eyeray::pack {
+namespace eyeray::engine::pack {
 namespace {
 
 constexpr double largest_code = 65535;
@@ -115,4 +115,4 @@ void add_bvh(const bvh::Bvh& bvh, uint32_t first_slot, uint32_t first_instance, 
   scene.bvhs.push_back(record);
 }
 
-}  // namespace eyeray::pack
+}  // namespace eyeray::engine::pack

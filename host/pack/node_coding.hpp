@@ -4,7 +4,7 @@
 #include "host/bvh/bvh.hpp"
 #include "host/records/packer.hpp"
 
-namespace eyeray::pack {
+namespace eyeray::engine::pack {
 
 // Whether the boxes of `bvh` stay nearly as tight with 16 bits a plane: where a part matters that is tiny
 // against the whole they do not.
@@ -14,4 +14,4 @@ bool quantising_is_harmless(const bvh::Bvh& bvh);
 // `first_slot`; a lone item is an instance, of which the first is `first_instance`.
 void add_bvh(const bvh::Bvh& bvh, uint32_t first_slot, uint32_t first_instance, records::PackedScene& scene);
 
-}  // namespace eyeray::pack
+}  // namespace eyeray::engine::pack

@@ -5,11 +5,11 @@
 
 #include "host/core/acceleration.hpp"
 
-namespace eyeray::bvh {
+namespace eyeray::engine::bvh {
 class BvhHistory;  // bvh/history.hpp
 }
 
-namespace eyeray::pack {
+namespace eyeray::engine::pack {
 
 struct PackOptions {
   Acceleration acceleration = Acceleration::automatic;
@@ -19,4 +19,4 @@ struct PackOptions {
   std::shared_ptr<bvh::BvhHistory> history = nullptr;
 };
 
-}  // namespace eyeray::pack
+}  // namespace eyeray::engine::pack

@@ -12,7 +12,7 @@
 #include "host/scene/integrator.hpp"
 #include "host/scene/interfaces.hpp"
 
-namespace eyeray::pack {
+namespace eyeray::engine::pack {
 namespace {
 
 // As materials/media.glsl stacks them: a byte each, the innermost lowest.
@@ -165,4 +165,4 @@ records::PackedScene pack_without_texels(const Scene& scene) {
   return pack_records(scene, {}).scene;
 }
 
-}  // namespace eyeray::pack
+}  // namespace eyeray::engine::pack

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace eyeray::pack {
+namespace eyeray::engine::pack {
 namespace {
 
 float below(double x) {
@@ -69,4 +69,4 @@ bvh::Box instance_box(const shader::Instance& instance, const bvh::Box& local) {
   return box;
 }
 
-}  // namespace eyeray::pack
+}  // namespace eyeray::engine::pack

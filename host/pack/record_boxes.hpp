@@ -7,7 +7,7 @@
 #include "host/records/records.hpp"
 #include "host/scene/bounds.hpp"
 
-namespace eyeray::pack {
+namespace eyeray::engine::pack {
 
 // Of a shape with these bounds, packed relative to `origin`.
 bvh::Box shape_box(const Bounds& bounds, const Vec3& origin);
@@ -18,4 +18,4 @@ std::pair<bvh::Box, bvh::Box> cut_triangle(const shader::Primitive& triangle, in
 // In the world, around all corners of a box of the instance's space.
 bvh::Box instance_box(const shader::Instance& instance, const bvh::Box& local);
 
-}  // namespace eyeray::pack
+}  // namespace eyeray::engine::pack

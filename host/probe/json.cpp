@@ -5,7 +5,7 @@
 #include "host/probe/judge.hpp"
 #include "host/probe/probe.hpp"
 
-namespace eyeray::probe {
+namespace eyeray::engine::probe {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -102,4 +102,4 @@ std::string to_json(const Findings& findings) {
   return json_text(json) + "\n";
 }
 
-}  // namespace eyeray::probe
+}  // namespace eyeray::engine::probe

@@ -10,7 +10,7 @@
 #include "host/compare/exact.hpp"
 #include "host/compare/tolerance.hpp"
 
-namespace eyeray::probe {
+namespace eyeray::engine::probe {
 namespace {
 
 using executors::Backend;
@@ -224,4 +224,4 @@ void judge(Overlay& overlay, std::span<const executors::Backend> executors, bool
   judge.judge_all();
 }
 
-}  // namespace eyeray::probe
+}  // namespace eyeray::engine::probe

@@ -8,7 +8,7 @@
 #include "host/executors/executor.hpp"
 #include "host/probe/overlay.hpp"
 
-namespace eyeray::probe {
+namespace eyeray::engine::probe {
 
 // What a value means, by its name. `scale`: the reference's FirstHit::t_scale, for the judge alone.
 enum class Meaning { point, distance, direction, uv, color, scale, other };
@@ -22,4 +22,4 @@ inline constexpr std::string_view first_hit_prefix = "first_hit_";
 void judge(Overlay& overlay, std::span<const executors::Backend> executors, bool incomplete,
            const std::function<void()>& add_around);
 
-}  // namespace eyeray::probe
+}  // namespace eyeray::engine::probe

@@ -4,7 +4,7 @@
 #include <map>
 #include <tuple>
 
-namespace eyeray::probe {
+namespace eyeray::engine::probe {
 namespace {
 
 // What has come so often before: of equal ones, the n-th is laid over the n-th.
@@ -132,4 +132,4 @@ int Overlay::depth(size_t ray) const {
   return depth;
 }
 
-}  // namespace eyeray::probe
+}  // namespace eyeray::engine::probe

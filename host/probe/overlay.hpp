@@ -11,7 +11,7 @@
 
 #include "host/core/ray_tree.hpp"
 
-namespace eyeray::probe {
+namespace eyeray::engine::probe {
 
 // Why values, or which of the executors have a ray, are as they are: `explained` is as in verify, the
 // reference itself is as far apart within a few thousandths of a pixel.
@@ -87,4 +87,4 @@ class Overlay {
 // The line of a ray with that name, or null.
 const Line* find_line(const Ray& ray, std::string_view name);
 
-}  // namespace eyeray::probe
+}  // namespace eyeray::engine::probe

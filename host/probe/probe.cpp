@@ -15,7 +15,7 @@
 #include "host/rounding/ways.hpp"
 #include "host/scene/objects.hpp"
 
-namespace eyeray::probe {
+namespace eyeray::engine::probe {
 namespace {
 
 using executors::Backend;
@@ -237,4 +237,4 @@ Findings probe_pixel(const Scene& scene, const Options& options) {
   return Pixel(scene, options).look();
 }
 
-}  // namespace eyeray::probe
+}  // namespace eyeray::engine::probe

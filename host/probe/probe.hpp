@@ -10,7 +10,7 @@
 #include "host/probe/overlay.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray::probe {
+namespace eyeray::engine::probe {
 
 struct Options {
   std::vector<executors::Backend> backends{executors::Backend::gpu, executors::Backend::twin,
@@ -61,4 +61,4 @@ std::string to_json(const Findings& findings);
 // "reflected ray", "shadow ray to light 2".
 std::string describe(const Ray& ray);
 
-}  // namespace eyeray::probe
+}  // namespace eyeray::engine::probe

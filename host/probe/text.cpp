@@ -7,7 +7,7 @@
 #include "host/probe/judge.hpp"
 #include "host/probe/probe.hpp"
 
-namespace eyeray::probe {
+namespace eyeray::engine::probe {
 namespace {
 
 using executors::Backend;
@@ -166,4 +166,4 @@ std::string to_text(const Findings& findings, bool colored) {
   return log_lines(text) + Table(findings).text(colored);
 }
 
-}  // namespace eyeray::probe
+}  // namespace eyeray::engine::probe

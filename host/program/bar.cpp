@@ -10,7 +10,7 @@
 #include <cstring>
 #include <vector>
 
-namespace eyeray::program {
+namespace eyeray::engine::program {
 namespace {
 
 // Columns of the terminal on standard error, which may change at any time.
@@ -69,4 +69,4 @@ std::shared_ptr<void> show_compiling(std::string_view and_then) {
   return bar;
 }
 
-}  // namespace eyeray::program
+}  // namespace eyeray::engine::program

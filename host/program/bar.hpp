@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace eyeray::program {
+namespace eyeray::engine::program {
 
 // A line that is drawn over itself, and wiped away at the end. It never fills the terminal's last column,
 // after which a terminal begins another line.
@@ -30,4 +30,4 @@ std::span<const std::string> compiling_texts();
 // printed.
 std::shared_ptr<void> show_compiling(std::string_view and_then = "");
 
-}  // namespace eyeray::program
+}  // namespace eyeray::engine::program

@@ -12,7 +12,7 @@
 
 #include "host/build/build_facts.hpp"
 
-namespace eyeray::program {
+namespace eyeray::engine::program {
 namespace {
 
 constexpr size_t name_columns = 30;
@@ -111,4 +111,4 @@ std::shared_ptr<CLI::Formatter> help_formatter() {
   return std::make_shared<HelpFormatter>();
 }
 
-}  // namespace eyeray::program
+}  // namespace eyeray::engine::program

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace eyeray::program {
+namespace eyeray::engine::program {
 namespace {
 
 constexpr const char* variable = "GLIBC_TUNABLES";
@@ -45,4 +45,4 @@ void use_huge_pages(char** argv) {
   unsetenv(variable);
 }
 
-}  // namespace eyeray::program
+}  // namespace eyeray::engine::program

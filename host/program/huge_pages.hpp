@@ -1,6 +1,6 @@
 #pragma once
 
-namespace eyeray::program {
+namespace eyeray::engine::program {
 
 // To be called first. Where Linux gives huge pages to who asks for them ("madvise"), starts the program anew,
 // under the same process id, with a glibc that asks: it reads whether to only as a program starts. Most of
@@ -9,4 +9,4 @@ namespace eyeray::program {
 // under a debugger or whatever else is preloaded. Programs that eyeray starts are not told.
 void use_huge_pages(char** argv);
 
-}  // namespace eyeray::program
+}  // namespace eyeray::engine::program

@@ -4,7 +4,7 @@
 
 #include "host/core/error.hpp"
 
-namespace eyeray::program {
+namespace eyeray::engine::program {
 
 bool parse_integers(std::string_view text, char separator, std::span<int> numbers) {
   const char* at = text.data();
@@ -25,4 +25,4 @@ std::pair<int, int> parse_size(const std::string& text) {
   return {size[0], size[1]};
 }
 
-}  // namespace eyeray::program
+}  // namespace eyeray::engine::program

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-namespace eyeray::program {
+namespace eyeray::engine::program {
 
 // Whole numbers with a separator between them, as many as `numbers` holds; whether that is what `text` is.
 bool parse_integers(std::string_view text, char separator, std::span<int> numbers);
@@ -14,4 +14,4 @@ bool parse_integers(std::string_view text, char separator, std::span<int> number
 // "640x480" as {640, 480}; Error (bad_input) for anything else.
 std::pair<int, int> parse_size(const std::string& text);
 
-}  // namespace eyeray::program
+}  // namespace eyeray::engine::program

@@ -5,7 +5,7 @@
 #include "host/core/escaped_text.hpp"
 #include "host/core/termination.hpp"
 
-namespace eyeray::program {
+namespace eyeray::engine::program {
 
 Json to_json(const Diagnostic& diagnostic) {
   Json json{{"severity", diagnostic.severity == Severity::error ? "error" : "warning"},
@@ -36,4 +36,4 @@ void print_json(const Json& json) {
   fmt::print("{}\n", json_text(json));
 }
 
-}  // namespace eyeray::program
+}  // namespace eyeray::engine::program

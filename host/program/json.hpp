@@ -9,7 +9,7 @@
 #include "host/core/error.hpp"
 #include "host/core/stopwatch.hpp"
 
-namespace eyeray::program {
+namespace eyeray::engine::program {
 
 // Keeps the order in which keys were added, so that people can read it too.
 using Json = nlohmann::ordered_json;
@@ -25,4 +25,4 @@ Json to_json(const StageTimes& times);
 // One line of text on standard output.
 void print_json(const Json& json);
 
-}  // namespace eyeray::program
+}  // namespace eyeray::engine::program

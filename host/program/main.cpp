@@ -21,7 +21,7 @@
 #include "host/program/huge_pages.hpp"
 #include "host/program/json.hpp"
 
-namespace eyeray::program {
+namespace eyeray::engine::program {
 namespace {
 
 struct Reporter {
@@ -86,4 +86,4 @@ void warn_of_caches() {
   for (const std::string& warning : warnings) print_lines(stderr, "eyeray: warning: {}\n", warning);
 }
 
-}  // namespace eyeray::program
+}  // namespace eyeray::engine::program

@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-namespace eyeray::program {
+namespace eyeray::engine::program {
 
 // Runs a program's command line, which answers the exit code, and turns every way in which it can fail into
 // words on standard error and an exit code; under --json into JSON on standard output, too. To be called
@@ -15,4 +15,4 @@ int run_main(int argc, char** argv, const std::string& name,
 // Warns of caches that do not work, for commands with a device.
 void warn_of_caches();
 
-}  // namespace eyeray::program
+}  // namespace eyeray::engine::program

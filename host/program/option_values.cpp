@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace eyeray::program {
+namespace eyeray::engine::program {
 namespace {
 
 template <typename Number>
@@ -40,4 +40,4 @@ CLI::Validator one_of(const std::vector<std::string>& names) {
       list);
 }
 
-}  // namespace eyeray::program
+}  // namespace eyeray::engine::program

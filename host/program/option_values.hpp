@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-namespace eyeray::program {
+namespace eyeray::engine::program {
 
 // A number from `low` to `high`, and no NaN.
 CLI::Validator within(double low, double high);
 CLI::Validator whole_within(int64_t low, int64_t high);
 CLI::Validator one_of(const std::vector<std::string>& names);
 
-}  // namespace eyeray::program
+}  // namespace eyeray::engine::program

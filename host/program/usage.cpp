@@ -15,7 +15,7 @@
 #include "host/core/error.hpp"
 #include "host/program/help.hpp"
 
-namespace eyeray::program {
+namespace eyeray::engine::program {
 namespace {
 
 // "check ", "generate terrain ": how the command is named after the program's own name.
@@ -137,4 +137,4 @@ std::optional<int> parse(CLI::App& app, int argc, char** argv) {
   return std::nullopt;
 }
 
-}  // namespace eyeray::program
+}  // namespace eyeray::engine::program

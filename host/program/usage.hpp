@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-namespace eyeray::program {
+namespace eyeray::engine::program {
 
 // What --help and --version print.
 void describe(CLI::App& app, const std::string& name, const std::string& text, const std::string& footer);
@@ -17,4 +17,4 @@ std::optional<int> parse(CLI::App& app, int argc, char** argv);
 // The command that was named, down to its own subcommand; the app itself when there was none.
 const CLI::App& named_command(const CLI::App& app);
 
-}  // namespace eyeray::program
+}  // namespace eyeray::engine::program

@@ -8,7 +8,7 @@
 #include "host/scene/affine.hpp"
 #include "host/scene/primitive_ids.hpp"
 
-namespace eyeray::raster {
+namespace eyeray::engine::raster {
 namespace {
 
 // How far, in pixels, a tessellation may be from its surface where it is nearest to the eye.
@@ -146,4 +146,4 @@ void DrawList::add(const Instance& instance, const Mat4& map, uint64_t id, const
   }
 }
 
-}  // namespace eyeray::raster
+}  // namespace eyeray::engine::raster

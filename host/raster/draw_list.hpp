@@ -10,7 +10,7 @@
 #include "host/raster/view.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray::raster {
+namespace eyeray::engine::raster {
 
 class DrawList {
  public:
@@ -44,4 +44,4 @@ class DrawList {
   std::map<uint64_t, uint64_t> left_out_;  // the first id of a run of those that are not drawn, and its end
 };
 
-}  // namespace eyeray::raster
+}  // namespace eyeray::engine::raster

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace eyeray::raster {
+namespace eyeray::engine::raster {
 namespace {
 
 // The axes of the coordinate plane in which the outline is widest.
@@ -87,4 +87,4 @@ void add_region(const std::vector<std::vector<Vec3>>& outlines, std::vector<Vec3
   }
 }
 
-}  // namespace eyeray::raster
+}  // namespace eyeray::engine::raster

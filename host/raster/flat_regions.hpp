@@ -7,7 +7,7 @@
 
 #include "host/core/vec.hpp"
 
-namespace eyeray::raster {
+namespace eyeray::engine::raster {
 
 // Appends triangles to `points` and `triangles` of what lies within an odd number of `outlines`, which
 // neither cross nor touch each other, all in a plane of space: of a convex outline alone a fan, of any other
@@ -15,4 +15,4 @@ namespace eyeray::raster {
 void add_region(const std::vector<std::vector<Vec3>>& outlines, std::vector<Vec3>& points,
                 std::vector<std::array<uint32_t, 3>>& triangles);
 
-}  // namespace eyeray::raster
+}  // namespace eyeray::engine::raster

@@ -1,6 +1,6 @@
 #include "host/raster/judge.hpp"
 
-namespace eyeray::raster {
+namespace eyeray::engine::raster {
 namespace {
 
 bool allows(const Possible& possible, const Seen& seen) {
@@ -30,4 +30,4 @@ Judgement judge(const Seen& traced, const Seen& drawn, const Vec2& center,
   return {Judgement::unexplained, {}, !ray_is_right};
 }
 
-}  // namespace eyeray::raster
+}  // namespace eyeray::engine::raster

@@ -7,7 +7,7 @@
 #include "host/compare/raster_result.hpp"
 #include "host/raster/possible.hpp"
 
-namespace eyeray::raster {
+namespace eyeray::engine::raster {
 
 // What is nearest at a pixel's centre, as the one or the other has it.
 struct Seen {
@@ -27,4 +27,4 @@ struct Judgement {
 Judgement judge(const Seen& traced, const Seen& drawn, const Vec2& center,
                 std::span<const ScreenTriangle> triangles, const View& view, const Exactness& exactness);
 
-}  // namespace eyeray::raster
+}  // namespace eyeray::engine::raster

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace eyeray::raster {
+namespace eyeray::engine::raster {
 namespace {
 
 constexpr int most_steps = 512;
@@ -53,4 +53,4 @@ Tessellation tessellate_patch(const std::array<Vec3, 16>& net, double tolerance)
   return result;
 }
 
-}  // namespace eyeray::raster
+}  // namespace eyeray::engine::raster

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <optional>
 
-namespace eyeray::raster {
+namespace eyeray::engine::raster {
 namespace {
 
 double cross(const Vec2& a, const Vec2& b) {
@@ -180,4 +180,4 @@ bool Possible::is_within(uint32_t id) const {
   return std::ranges::any_of(pieces_, [&](const Piece& piece) { return piece.id == id && piece.within; });
 }
 
-}  // namespace eyeray::raster
+}  // namespace eyeray::engine::raster

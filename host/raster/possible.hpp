@@ -9,7 +9,7 @@
 
 #include "host/raster/view.hpp"
 
-namespace eyeray::raster {
+namespace eyeray::engine::raster {
 
 // How exactly triangles are drawn.
 struct Exactness {
@@ -58,4 +58,4 @@ class Possible {
   double tolerance_ = 0;
 };
 
-}  // namespace eyeray::raster
+}  // namespace eyeray::engine::raster

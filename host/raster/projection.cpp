@@ -10,7 +10,7 @@
 #include "host/core/error.hpp"
 #include "host/gpu/shader_compiler.hpp"
 
-namespace eyeray::raster {
+namespace eyeray::engine::raster {
 
 Projection::Projection(const Scene& scene, const Rect& area)
     : view_(scene.camera, scene.image.size(), area), list_(scene, view_) {
@@ -56,4 +56,4 @@ gpu::RasterShaders raster_shaders() {
   return {compiled("kernels/raster.vert.glsl"), compiled("kernels/raster.frag.glsl")};
 }
 
-}  // namespace eyeray::raster
+}  // namespace eyeray::engine::raster

@@ -9,7 +9,7 @@
 #include "host/raster/draw_list.hpp"
 #include "host/raster/view.hpp"
 
-namespace eyeray::raster {
+namespace eyeray::engine::raster {
 
 class Projection {
  public:
@@ -39,4 +39,4 @@ class Projection {
 // What draws them, as SPIR-V.
 gpu::RasterShaders raster_shaders();
 
-}  // namespace eyeray::raster
+}  // namespace eyeray::engine::raster

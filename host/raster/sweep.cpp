@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-namespace eyeray::raster {
+namespace eyeray::engine::raster {
 namespace {
 
 constexpr int least_sides = 8, most_sides = 1024;
@@ -124,4 +124,4 @@ Tessellation sweep(const Polyline& profile, bool closes, const Polyline& section
   return result;
 }
 
-}  // namespace eyeray::raster
+}  // namespace eyeray::engine::raster

@@ -7,7 +7,7 @@
 #include "host/core/vec.hpp"
 #include "host/raster/tessellation.hpp"
 
-namespace eyeray::raster {
+namespace eyeray::engine::raster {
 
 // Points of a curve in order, and how far it may be from the straight lines between them.
 struct Polyline {
@@ -36,4 +36,4 @@ Tessellation sweep(const Polyline& profile, bool closes, const Polyline& section
 // The unit circle around the axis, as a section of what is `reach` wide.
 Polyline circle(double reach, double tolerance);
 
-}  // namespace eyeray::raster
+}  // namespace eyeray::engine::raster

@@ -12,7 +12,7 @@
 #include "host/raster/sweep.hpp"
 #include "host/scene/affine.hpp"
 
-namespace eyeray::raster {
+namespace eyeray::engine::raster {
 namespace {
 
 constexpr double half_turn = std::numbers::pi;
@@ -250,4 +250,4 @@ std::optional<Tessellation> tessellate(const ShapeForm& form, const Mat4& map, d
   return std::move(piece->tessellation);
 }
 
-}  // namespace eyeray::raster
+}  // namespace eyeray::engine::raster

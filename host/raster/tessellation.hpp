@@ -7,7 +7,7 @@
 
 #include "host/scene/shape.hpp"
 
-namespace eyeray::raster {
+namespace eyeray::engine::raster {
 
 // In the world.
 struct Tessellation {
@@ -30,4 +30,4 @@ std::optional<Ball> ball_around(const Bounds& bounds, const Mat4& map);
 // (View::plane).
 std::optional<Tessellation> tessellate(const ShapeForm& form, const Mat4& map, double tolerance);
 
-}  // namespace eyeray::raster
+}  // namespace eyeray::engine::raster

@@ -8,7 +8,7 @@
 #include "host/core/error.hpp"
 #include "host/scene/affine.hpp"
 
-namespace eyeray::raster {
+namespace eyeray::engine::raster {
 namespace {
 
 // About the picture, on each side, in its own widths.
@@ -170,4 +170,4 @@ std::vector<Vec4> View::plane(const Vec3& point, const Vec3& normal) const {
   return corners;
 }
 
-}  // namespace eyeray::raster
+}  // namespace eyeray::engine::raster

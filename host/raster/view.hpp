@@ -10,7 +10,7 @@
 #include "host/core/vec.hpp"
 #include "host/scene/camera.hpp"
 
-namespace eyeray::raster {
+namespace eyeray::engine::raster {
 
 // A triangle on the picture. Of each corner: x to the right and y down, in pixels from the area's top left,
 // so that a pixel's centre is at one half; and its nearness, which runs straight between them.
@@ -93,4 +93,4 @@ class View {
   Vec2 middle_;   // where the camera looks, from the area's top left
 };
 
-}  // namespace eyeray::raster
+}  // namespace eyeray::engine::raster

@@ -6,7 +6,7 @@
 #include "host/core/error.hpp"
 #include "host/scene/affine.hpp"
 
-namespace eyeray::raster {
+namespace eyeray::engine::raster {
 namespace {
 
 // How far, in pixels, a ray of float32 may pass from where it should: the neighbourhood of gates B and C.
@@ -171,4 +171,4 @@ compare::RasterResult Witness::compare(const compare::Frame& frame, const std::s
   return result;
 }
 
-}  // namespace eyeray::raster
+}  // namespace eyeray::engine::raster

@@ -15,7 +15,7 @@
 #include "host/raster/projection.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray::raster {
+namespace eyeray::engine::raster {
 
 class Witness {
  public:
@@ -45,4 +45,4 @@ class Witness {
   Exactness exactness_;
 };
 
-}  // namespace eyeray::raster
+}  // namespace eyeray::engine::raster

@@ -5,7 +5,7 @@
 
 #include "host/core/diagnostic.hpp"
 
-namespace eyeray::reading {
+namespace eyeray::engine::reading {
 
 namespace {
 
@@ -167,4 +167,4 @@ std::string suggest_name(std::string_view word, std::span<const std::string_view
   return nearest_name(word, names);
 }
 
-}  // namespace eyeray::reading
+}  // namespace eyeray::engine::reading

@@ -7,7 +7,7 @@
 
 #include "host/core/error.hpp"
 
-namespace eyeray::reading {
+namespace eyeray::engine::reading {
 
 bool has_one_source(TableReader& table, std::initializer_list<std::string_view> sources,
                     std::string_view owner) {
@@ -49,4 +49,4 @@ std::shared_ptr<const formula::Formula> read_formula(TableReader& table, std::st
   }
 }
 
-}  // namespace eyeray::reading
+}  // namespace eyeray::engine::reading

@@ -8,7 +8,7 @@
 #include "host/formula/formula.hpp"
 #include "host/reading/table_reader.hpp"
 
-namespace eyeray::reading {
+namespace eyeray::engine::reading {
 
 // Keys by which a table brings the text of a formula, and its constants; `code`, with a doc of its own, is
 // another.
@@ -35,4 +35,4 @@ std::vector<formula::FormulaParameter> formula_parameters(const TableReader& tab
 std::shared_ptr<const formula::Formula> read_formula(TableReader& table, std::string_view owner,
                                                      formula::FormulaKind kind);
 
-}  // namespace eyeray::reading
+}  // namespace eyeray::engine::reading

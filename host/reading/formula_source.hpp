@@ -8,7 +8,7 @@
 #include "host/core/diagnostic.hpp"
 #include "host/formula/formula.hpp"
 
-namespace eyeray::reading {
+namespace eyeray::engine::reading {
 
 class FormulaSource {
  public:
@@ -20,4 +20,4 @@ class FormulaSource {
                                                    const SourcePosition& position) = 0;
 };
 
-}  // namespace eyeray::reading
+}  // namespace eyeray::engine::reading

@@ -9,7 +9,7 @@
 #include "host/image/image.hpp"
 #include "host/scene/image_texture.hpp"
 
-namespace eyeray::reading {
+namespace eyeray::engine::reading {
 
 class ImageSource {
  public:
@@ -22,4 +22,4 @@ class ImageSource {
   virtual std::optional<image::Image> load_light(const std::string& name, const SourcePosition& position) = 0;
 };
 
-}  // namespace eyeray::reading
+}  // namespace eyeray::engine::reading

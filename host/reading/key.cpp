@@ -7,7 +7,7 @@
 
 #include "host/scene/texture_rows.hpp"
 
-namespace eyeray::reading {
+namespace eyeray::engine::reading {
 
 namespace {
 
@@ -113,4 +113,4 @@ std::string describe(const Key& declared) {
   return "";
 }
 
-}  // namespace eyeray::reading
+}  // namespace eyeray::engine::reading

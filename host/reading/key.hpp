@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace eyeray::reading {
+namespace eyeray::engine::reading {
 
 enum class KeyType {
   boolean,
@@ -56,4 +56,4 @@ struct Key {
 // What a value of this key is, for messages and the manual: "an integer from 1 to 65536", "a number above 0".
 std::string describe(const Key& key);
 
-}  // namespace eyeray::reading
+}  // namespace eyeray::engine::reading

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace eyeray::reading {
+namespace eyeray::engine::reading {
 
 SourcePosition position_of(const toml::source_region& source) {
   return {source.path ? *source.path : std::string(), static_cast<int>(source.begin.line),
@@ -21,4 +21,4 @@ SourcePosition start_of_text(const toml::node& node) {
   return {start.file, start.line, start.column + (triple ? 3 : 1)};
 }
 
-}  // namespace eyeray::reading
+}  // namespace eyeray::engine::reading

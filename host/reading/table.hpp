@@ -10,7 +10,7 @@
 #include "host/reading/image_source.hpp"
 #include "host/reading/value.hpp"
 
-namespace eyeray::reading {
+namespace eyeray::engine::reading {
 
 // A table as it stands in the file, and what may stand in it.
 struct TableSource {
@@ -35,4 +35,4 @@ const toml::node& fallback_of(const Key& key);
 std::span<const Key> transform_step_keys();
 std::span<const Key> rotation_keys();
 
-}  // namespace eyeray::reading
+}  // namespace eyeray::engine::reading

@@ -10,7 +10,7 @@
 #include "host/reading/source_position.hpp"
 #include "host/reading/table.hpp"
 
-namespace eyeray::reading {
+namespace eyeray::engine::reading {
 
 struct TableReader::Table {
   struct Row {
@@ -244,4 +244,4 @@ const toml::node& fallback_of(const Key& key) {
   return *entry->second.get("value");
 }
 
-}  // namespace eyeray::reading
+}  // namespace eyeray::engine::reading

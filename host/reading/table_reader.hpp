@@ -13,15 +13,15 @@
 #include "host/reading/key.hpp"
 #include "host/scene/texture.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 struct ImageTexture;  // scene/image_texture.hpp
 }
-namespace eyeray::formula {
+namespace eyeray::engine::formula {
 struct FormulaText;  // formula/formula.hpp
 struct FormulaParameter;
-}  // namespace eyeray::formula
+}  // namespace eyeray::engine::formula
 
-namespace eyeray::reading {
+namespace eyeray::engine::reading {
 
 class TableReader {
  public:
@@ -76,4 +76,4 @@ class TableReader {
   std::unique_ptr<Table> table_;
 };
 
-}  // namespace eyeray::reading
+}  // namespace eyeray::engine::reading

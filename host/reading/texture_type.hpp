@@ -8,7 +8,7 @@
 #include "host/reading/key.hpp"
 #include "host/scene/texture.hpp"
 
-namespace eyeray::reading {
+namespace eyeray::engine::reading {
 
 class TableReader;  // reading/table_reader.hpp
 
@@ -29,4 +29,4 @@ struct TextureType {
   }
 };
 
-}  // namespace eyeray::reading
+}  // namespace eyeray::engine::reading

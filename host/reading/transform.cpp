@@ -6,7 +6,7 @@
 #include "host/reading/table.hpp"
 #include "host/scene/affine.hpp"
 
-namespace eyeray::reading {
+namespace eyeray::engine::reading {
 
 namespace {
 
@@ -83,4 +83,4 @@ std::optional<Mat4> read_transform(const toml::array& steps, DiagnosticLog& log)
   return map;
 }
 
-}  // namespace eyeray::reading
+}  // namespace eyeray::engine::reading

@@ -11,7 +11,7 @@
 #include "host/reading/transform.hpp"
 #include "host/scene/affine.hpp"
 
-namespace eyeray::reading {
+namespace eyeray::engine::reading {
 
 namespace {
 
@@ -374,4 +374,4 @@ Value stand_in(const Key& key, const ValueSources& sources) {
   return false;
 }
 
-}  // namespace eyeray::reading
+}  // namespace eyeray::engine::reading

@@ -13,7 +13,7 @@
 #include "host/reading/table_reader.hpp"
 #include "host/reading/texture_type.hpp"
 
-namespace eyeray::reading {
+namespace eyeray::engine::reading {
 
 // boolean bool; integer and choice int64_t; choice2 two of them; number double; string std::string; color
 // Vec3; scale2, scale3 Vec2, Vec3.
@@ -36,4 +36,4 @@ std::optional<Value> read_value(const Key& key, const toml::node& node, Diagnost
 // Some value of the key's type and range, for going on after an error.
 Value stand_in(const Key& key, const ValueSources& sources);
 
-}  // namespace eyeray::reading
+}  // namespace eyeray::engine::reading

@@ -10,7 +10,7 @@
 #include "host/formula/formula.hpp"
 #include "host/image/srgb.hpp"
 
-namespace eyeray::records {
+namespace eyeray::engine::records {
 
 namespace {
 
@@ -100,4 +100,4 @@ uint32_t Packer::add(const shader::Texture& record) {
   return uint32_t(scene.textures.size() - 1);
 }
 
-}  // namespace eyeray::records
+}  // namespace eyeray::engine::records

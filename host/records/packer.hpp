@@ -17,11 +17,11 @@
 #include "host/scene/image_texture.hpp"
 #include "host/scene/material.hpp"
 
-namespace eyeray::formula {
+namespace eyeray::engine::formula {
 class Formula;  // formula/formula.hpp
 }
 
-namespace eyeray::records {
+namespace eyeray::engine::records {
 
 struct PackedFormula {
   std::shared_ptr<const formula::Formula> formula;
@@ -150,4 +150,4 @@ inline shader::uvec4 to_bits(const shader::vec4& v) {
   return std::bit_cast<shader::uvec4>(v);
 }
 
-}  // namespace eyeray::records
+}  // namespace eyeray::engine::records

@@ -1,4 +1,4 @@
-// The packed records, as the shaders see them: namespace eyeray::shader.
+// The packed records, as the shaders see them: namespace eyeray::engine::shader.
 #pragma once
 
 #pragma GCC diagnostic push
@@ -15,7 +15,7 @@
 #include "shaders/shapes/rows.h"
 #include "shaders/textures/rows.h"
 
-namespace eyeray::shader {
+namespace eyeray::engine::shader {
 
 // The registries' numbers: KIND_sphere, MATERIAL_phong, LIGHT_point, …
 #define X(name, number) inline constexpr uint KIND_##name = number;
@@ -47,4 +47,4 @@ inline constexpr uint SHAPE_KINDS = 0
 #undef X
     ;
 
-}  // namespace eyeray::shader
+}  // namespace eyeray::engine::shader

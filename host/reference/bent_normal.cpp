@@ -6,7 +6,7 @@
 #include "host/reference/emitter_sample.hpp"
 #include "host/scene/luminance.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 namespace {
 
 constexpr double least_upright = 0.01;
@@ -93,4 +93,4 @@ void bend_normals(const Material& material, SurfacePoint& point, const Vec3& d) 
   point.normal = lifted(n, point, d);
 }
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

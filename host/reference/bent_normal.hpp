@@ -4,7 +4,7 @@
 #include "host/scene/material.hpp"
 #include "host/scene/shape.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 // Bends the shading normal of `point`, which is on the side of its geometric one, as the material does where
 // a ray in direction d hits: by its normal map, then by its bumps (Blinn: Simulation of Wrinkled Surfaces,
@@ -13,4 +13,4 @@ namespace eyeray::reference {
 // bent by a map of its own.
 void bend_normals(const Material& material, SurfacePoint& point, const Vec3& d);
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

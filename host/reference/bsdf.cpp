@@ -13,7 +13,7 @@
 #include "host/reference/emitter_sample.hpp"
 #include "host/tables/albedos.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 namespace {
 
@@ -356,4 +356,4 @@ BsdfSample ViewedBsdf::sample(double chance, const Vec2& u) const {
   }
 }
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -5,7 +5,7 @@
 #include "host/reference/local_frame.hpp"
 #include "host/scene/bsdf.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 struct BsdfValue {
   Vec3 value{0};       // BSDF · |cosine| of the light, of radiance / index²
@@ -81,4 +81,4 @@ class ViewedBsdf {
   Vec3 passed_;  // what layers leave of light that goes straight on
 };
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -5,7 +5,7 @@
 #include "host/core/error.hpp"
 #include "host/core/parallel_for.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 namespace {
 
@@ -68,4 +68,4 @@ void Bvh::build(size_t node, uint32_t first_leaf, uint32_t leaves, std::vector<K
   nodes_[node] = joined(nodes_[2 * node + 1], nodes_[2 * node + 2]);
 }
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -21,7 +21,7 @@
 #include "host/core/vec.hpp"
 #include "host/scene/bounds.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 // What rounding may move a point by, relative to the coordinates it is computed from: 64 units of 2⁻⁵³, where
 // the intersections of triangles and spheres take no more than 20.
@@ -119,4 +119,4 @@ void Bvh::search(const BoxRay& ray, double limit, const Visit& visit) const {
   }
 }
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

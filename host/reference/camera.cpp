@@ -4,7 +4,7 @@
 
 #include "host/reference/emitter_sample.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 namespace {
 
 // Evenly on the polygon with its corners on the circle of radius 1: where along its border, and how far out.
@@ -42,4 +42,4 @@ bool CameraRays::sees(const Vec2& place, const Vec2& lens) const {
   return projection_->sees(from_middle(place), lens, size_);
 }
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -3,7 +3,7 @@
 
 #include "host/scene/scene.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 class CameraRays {
  public:
@@ -27,4 +27,4 @@ class CameraRays {
   Vec2 size_;
 };
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 Vec3 spawn_origin(const SurfacePoint& point, const Vec3& d, double least, bool along_normal,
                   Leaving leaving) {
@@ -41,4 +41,4 @@ Vec3 way_inside(const SurfacePoint& point, double room) {
   return up * rise + along * std::min(std::max(slide, least), most);
 }
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

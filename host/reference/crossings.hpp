@@ -5,7 +5,7 @@
 
 #include "host/scene/shape.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 // A ray leaves a surface straight on, on the side that it points to; or scattered to one side of normal_side,
 // where a smooth triangle lifts it.
@@ -51,4 +51,4 @@ double for_each_crossing(const Object& object, const Ray& ray, const Visit& visi
   return HUGE_VAL;
 }
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -8,7 +8,7 @@
 #include "host/reference/spherical_area.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 namespace {
 
@@ -334,4 +334,4 @@ std::pair<Vec3, Vec3> tangents(const Vec3& n) {
   return {s, glm::cross(n, s)};
 }
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

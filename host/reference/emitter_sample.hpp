@@ -5,7 +5,7 @@
 
 #include "host/scene/emitters.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 struct EmitterSample {
   Vec3 position;
@@ -27,4 +27,4 @@ Vec2 on_disk(const Vec2& u);
 // Two unit vectors that are square to the unit vector n and to each other, as all executors choose them.
 std::pair<Vec3, Vec3> tangents(const Vec3& n);
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -6,7 +6,7 @@
 
 #include "host/scene/whole_shares.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 namespace {
 
@@ -94,4 +94,4 @@ double environment_density(const EnvironmentMap& environment, const Vec3& d) {
   return density(environment, cell_at(environment, place(environment, d)));
 }
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -3,7 +3,7 @@
 
 #include "host/scene/environment.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 // From the unit direction `d`: bilinear between the centres of texels, in longitude and latitude.
 Vec3 environment_radiance(const EnvironmentMap& environment, const Vec3& d);
@@ -17,4 +17,4 @@ EnvironmentSample sample_environment(const EnvironmentMap& environment, const Ve
 // That sample_environment chooses `d`.
 double environment_density(const EnvironmentMap& environment, const Vec3& d);
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -4,7 +4,7 @@
 
 #include "host/reference/emitter_sample.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 namespace {
 
 // Of standard deviation 1, cut off at 3: rings that hold as much as those of a disk hold.
@@ -55,4 +55,4 @@ Vec2 filtered(const ImageSettings& image, const Vec2& u) {
   return u;
 }
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

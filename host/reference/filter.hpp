@@ -3,9 +3,9 @@
 
 #include "host/scene/scene.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 // A place in the pixel, from its top left corner, drawn from its filter by `u`, one drawn evenly.
 Vec2 filtered(const ImageSettings& image, const Vec2& u);
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

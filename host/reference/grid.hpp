@@ -5,7 +5,7 @@
 
 #include "host/core/vec.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 // The place in the pixel of what lies at `in_cell` of cell `index` of `samples`, a square number.
 inline Vec2 in_grid(int samples, uint32_t index, const Vec2& in_cell) {
@@ -13,4 +13,4 @@ inline Vec2 in_grid(int samples, uint32_t index, const Vec2& in_cell) {
   return (Vec2(index % n, index / n) + in_cell) / double(n);
 }
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -3,7 +3,7 @@
 
 #include "host/reference/objects.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 class GroupGeometry {
  public:
@@ -43,4 +43,4 @@ class GroupGeometry {
   PrimitiveIds::First before_;
 };
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

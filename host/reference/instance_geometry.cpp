@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 namespace {
 
@@ -56,4 +56,4 @@ double InstanceGeometry::reach(uint32_t triangle, const Vec3& eye) const {
   return map_.reach(box, eye);
 }
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

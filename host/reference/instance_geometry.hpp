@@ -4,7 +4,7 @@
 #include "host/reference/instance_map.hpp"
 #include "host/reference/mesh_geometry.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 class InstanceGeometry {
  public:
@@ -41,4 +41,4 @@ class InstanceGeometry {
   int material_;
 };
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -1,6 +1,6 @@
 #include "host/reference/instance_map.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 namespace {
 
@@ -64,4 +64,4 @@ double InstanceMap::growth() const {
   return magnitude(size(to_world_.linear) * (size(glm::transpose(to_world_.cotangent)) * Vec3(1)));
 }
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -4,7 +4,7 @@
 #include "host/scene/affine.hpp"
 #include "host/scene/shape.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 class InstanceMap {
  public:
@@ -26,4 +26,4 @@ class InstanceMap {
   Affine to_world_;
 };
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -1,6 +1,6 @@
 #include "host/reference/integrator.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 // Each integrator's .cpp defines its own; one that is missing is a link error that bears its name.
 #define X(name, ...) extern const Integrator name##_integrator;
@@ -14,4 +14,4 @@ const Integrator& integrator(IntegratorType type) {
   return *integrators[uint32_t(type)];
 }
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

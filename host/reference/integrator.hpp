@@ -11,7 +11,7 @@
 #include "host/rounding/displacement.hpp"
 #include "host/scene/integrator.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 // A sample: its pixel, counted along the rows, and which of the pixel's it is.
 struct SampleId {
@@ -33,4 +33,4 @@ const Integrator& integrator(IntegratorType type);
 AuxiliarySample path_auxiliary(const Tracer& tracer, const SampleId& id, const Ray& ray,
                                const MediaStack& media);
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -2,7 +2,7 @@
 #include "host/reference/rng.hpp"
 #include "host/reference/sampler.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 extern const Sampler jittered_sampler{
     .manual = "Each sample lies at a random place of its cell, by `seed` of [render](#render).",
@@ -10,4 +10,4 @@ extern const Sampler jittered_sampler{
                 uint32_t seed) { return in_grid(samples, index, random_pair(pixel, index, 0, seed)); },
     .pair = random_pair};
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -4,7 +4,7 @@
 
 #include "host/reference/emitter_sample.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 namespace {
 
@@ -35,4 +35,4 @@ bool in_disk(const Illumination& light, const Vec3& d) {
   return glm::length(glm::cross(d, light.l)) < std::sin(light.angle) && glm::dot(d, light.l) > 0;
 }
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

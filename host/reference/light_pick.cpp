@@ -7,7 +7,7 @@
 #include "host/reference/rng.hpp"
 #include "host/scene/whole_shares.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 namespace {
 
@@ -95,4 +95,4 @@ double light_share(const LightChoice& choice, const LitPoint& point, size_t ligh
   }
 }
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

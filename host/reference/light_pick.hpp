@@ -5,7 +5,7 @@
 
 #include "host/scene/light_choice.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 struct LightPick {
   size_t light;  // as LightChoice counts them
@@ -26,4 +26,4 @@ double light_share(const LightChoice& choice, const LitPoint& point, size_t ligh
 // What of the light of a node may arrive in the point: above 0 wherever any does.
 double importance(const LightBounds& bounds, const LitPoint& point);
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

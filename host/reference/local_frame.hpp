@@ -5,7 +5,7 @@
 
 #include "host/reference/emitter_sample.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 class LocalFrame {
  public:
@@ -40,4 +40,4 @@ class LocalFrame {
   Vec3 s_, t_, n_;
 };
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

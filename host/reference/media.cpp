@@ -4,7 +4,7 @@
 
 #include "host/reference/crossings.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 namespace {
 
@@ -115,4 +115,4 @@ void MediaStack::remove(int material) {
   }
 }
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

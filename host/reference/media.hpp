@@ -5,7 +5,7 @@
 
 #include "host/reference/tracer.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 // The materials whose media surround a point, outermost first: indices in Scene::materials. More than four
 // may come back, though no ray keeps more.
@@ -28,4 +28,4 @@ class MediaStack {
   size_t size_ = 0;
 };
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 namespace {
 
@@ -43,4 +43,4 @@ double medium_distance(const MediumExtent& extent, const Ray& ray, double length
   return all.begin + (all.decay == 0 ? distance : -std::log1p(-all.decay * distance) / all.decay);
 }
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -5,7 +5,7 @@
 #include "host/reference/rng.hpp"
 #include "host/scene/affine.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 namespace {
 
@@ -19,7 +19,7 @@ Bounds bounds_of(const Corners& corners) {
 
 MeshGeometry::MeshGeometry(const Mesh& mesh, Acceleration acceleration)
     : mesh_(mesh),
-      bounds_(eyeray::bounds(mesh)),
+      bounds_(eyeray::engine::bounds(mesh)),
       bvh_(
           uint32_t(mesh.triangles.size()), [this](uint32_t i) { return bounds_of(corners(i)); },
           acceleration) {}
@@ -93,4 +93,4 @@ uint32_t MeshGeometry::count_crossed(const Ray& ray, double t_end, uint32_t most
   return count;
 }
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

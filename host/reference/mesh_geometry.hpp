@@ -8,7 +8,7 @@
 #include "host/scene/mesh.hpp"
 #include "host/scene/triangle.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 struct TriangleHit : Intersection {
   uint32_t triangle = 0;  // index in Mesh::triangles
@@ -47,4 +47,4 @@ class MeshGeometry {
   Bvh bvh_;
 };
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -6,7 +6,7 @@
 #include "host/reference/crossings.hpp"
 #include "host/reference/rng.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 namespace {
 
@@ -185,4 +185,4 @@ bool Objects::add_shares(const Ray& ray, double t_end, size_t space, std::vector
   return lost;
 }
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

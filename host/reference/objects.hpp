@@ -9,7 +9,7 @@
 #include "host/scene/primitive_ids.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 class Objects {
  public:
@@ -95,4 +95,4 @@ class Objects {
   Bvh bvh_;            // of boxes_
 };
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

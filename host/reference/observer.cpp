@@ -1,6 +1,6 @@
 #include "host/reference/observer.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 void Observer::ray(RayKind kind, const Ray& ray, int depth, size_t number) const {
   if (!recorder_) return;
@@ -32,4 +32,4 @@ void Observer::miss(const Vec3& throughput, const Vec3& light) const {
   value("light", light);
 }
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -4,7 +4,7 @@
 #include "host/core/ray_tree.hpp"
 #include "host/reference/tracer.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 // Shows what it is told to a recorder, or, mostly, to none.
 class Observer {
@@ -38,4 +38,4 @@ class Observer {
   std::vector<uint32_t>* events_ = nullptr;
 };
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -8,7 +8,7 @@
 #include "host/reference/path_sample.hpp"
 #include "host/reference/phase.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 extern const Integrator path_integrator;
 
@@ -238,4 +238,4 @@ AuxiliarySample path_auxiliary(const Tracer& tracer, const SampleId& id, const R
 
 extern const Integrator path_integrator{.manual = manual, .sample = path};
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -9,7 +9,7 @@
 #include "host/reference/path_sample.hpp"
 #include "host/reference/phase.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 // On edge a place is infinitely dense.
 double power_heuristic(double p, double q) {
@@ -151,4 +151,4 @@ Vec3 PathSample::direct_in(const Interaction& at, const MediaStack& media) {
   return direct(at, *light, {Vec3(phase), phase}, media);
 }
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -16,7 +16,7 @@
 #include "host/reference/sample_rays.hpp"
 #include "host/reference/sampler.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 // What pairs of random numbers are for; of the vertices after the first, `pairs_a_vertex` further on each.
 inline constexpr uint32_t scatter_pair = 4, direction_pair = 5, light_pair = 6, place_pair = 7,
@@ -139,4 +139,4 @@ class PathSample {
   LitPoint chosen_at_{};  // and where it was chosen
 };
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

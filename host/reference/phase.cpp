@@ -4,7 +4,7 @@
 
 #include "host/reference/emitter_sample.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 double phase_value(double g, double cosine) {
   return (1 - g * g) / (4 * M_PI * std::pow(1 + g * g - 2 * g * cosine, 1.5));
@@ -19,4 +19,4 @@ Vec3 phase_direction(double g, const Vec3& before, const Vec2& u) {
   return glm::normalize(sine * std::cos(angle) * x + sine * std::sin(angle) * y + cosine * before);
 }
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -4,11 +4,11 @@
 
 #include "host/core/vec.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 // Of light that is turned by that angle: by solid angle, and its density too.
 double phase_value(double g, double cosine);
 // By that density, for light that came in direction `before`.
 Vec3 phase_direction(double g, const Vec3& before, const Vec2& u);
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

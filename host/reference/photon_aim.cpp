@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 namespace {
 
 constexpr double aimed_share = 0.5;
@@ -60,4 +60,4 @@ Aimed aimed(std::span<const Window> windows, double chance, const Vec3& by_chanc
   return it;
 }
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -7,7 +7,7 @@
 
 #include "host/scene/photons.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 // What a target looks like from where photons start: a cap of the sphere of directions, or a disk of places.
 // Archimedes: a cap has the area of a disk as wide as its chord. So of both, what is `distance` from the
@@ -38,4 +38,4 @@ struct Aimed {
 Aimed aimed(std::span<const Window> windows, double chance, const Vec3& by_chance,
             const std::function<Vec3(const Window&)>& in);
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

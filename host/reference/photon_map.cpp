@@ -7,7 +7,7 @@
 #include "host/core/parallel_for.hpp"
 #include "host/reference/path_sample.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 PhotonMap::PhotonMap(const Tracer& tracer, uint32_t index, std::span<const uint32_t> left_out) {
   const PhotonSources sources(tracer);
@@ -70,4 +70,4 @@ void PhotonMaps::leave_out(LeftOutPhotons photons) {
   kept_.clear();
 }
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -10,7 +10,7 @@
 
 #include "host/scene/photons.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 class Tracer;
 
@@ -73,4 +73,4 @@ class PhotonMaps {
   LeftOutPhotons left_out_;
 };
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -10,7 +10,7 @@
 #include "host/reference/sample_rays.hpp"
 #include "host/scene/integrator.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 namespace {
 
 Vec3 around_axis(const Vec3& axis, double cosine, double turn) {
@@ -204,4 +204,4 @@ PhotonSource PhotonSources::draw(const std::function<Vec2(uint32_t)>& pair) cons
   return source;
 }
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -7,7 +7,7 @@
 #include "host/reference/media.hpp"
 #include "host/scene/photons.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 struct PhotonSource {
   Ray ray;
@@ -43,4 +43,4 @@ class PhotonSources {
   std::vector<MediaStack> media_;  // of media_of_lights
 };
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -2,7 +2,7 @@
 
 #include "host/reference/path_sample.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 PhotonTrace PhotonTraces::trace(uint32_t index, uint32_t number,
                                 const rounding::Displacement& displacement) const {
@@ -14,4 +14,4 @@ PhotonTrace PhotonTraces::trace(uint32_t index, uint32_t number,
   return trace;
 }
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -7,7 +7,7 @@
 #include "host/reference/integrator.hpp"
 #include "host/reference/photon_source.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 struct PhotonTrace {
   std::vector<uint32_t> events;  // what it decides on its way (trail.hpp)
@@ -27,4 +27,4 @@ class PhotonTraces {
   PhotonSources sources_;
 };
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

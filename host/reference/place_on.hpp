@@ -4,10 +4,10 @@
 #include "host/scene/shape.hpp"
 #include "host/scene/texture.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 inline TextureContext place_on(const SurfacePoint& point) {
   return {point.uv, point.second ? point.second->uv : point.uv, point.position};
 }
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -1,7 +1,7 @@
 #include "host/reference/rng.hpp"
 #include "host/reference/sampler.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 extern const Sampler random_sampler{
     .manual =
@@ -11,4 +11,4 @@ extern const Sampler random_sampler{
                 uint32_t seed) { return random_pair(pixel, index, 0, seed); },
     .pair = random_pair};
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

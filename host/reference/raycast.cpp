@@ -3,7 +3,7 @@
 #include "host/reference/place_on.hpp"
 #include "host/reference/rng.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 extern const Integrator raycast_integrator;
 
@@ -52,4 +52,4 @@ PixelSample raycast(const Tracer& tracer, const SampleId& id, const Ray& eye_ray
 
 extern const Integrator raycast_integrator{.manual = manual, .sample = raycast};
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -2,7 +2,7 @@
 #include "host/reference/rng.hpp"
 #include "host/reference/sampler.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 extern const Sampler regular_sampler{
     .manual = "The samples of a pixel lie at the centres of the n × n cells that it is cut into.",
@@ -10,4 +10,4 @@ extern const Sampler regular_sampler{
                 uint32_t) { return in_grid(samples, index, Vec2(0.5)); },
     .pair = random_pair};
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -7,7 +7,7 @@
 #include "host/reference/sampler.hpp"
 #include "host/scene/integrator.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 Renderer::Renderer(const Scene& scene, Acceleration acceleration)
     : scene_(scene), tracer_(scene, acceleration), camera_(scene.camera, scene.image) {
@@ -97,4 +97,4 @@ double Renderer::pivot(int x, int y, uint32_t which) const {
   return std::isfinite(t) ? t * (1 + std::ldexp(1.0, -1 - int(which % 8))) : 0;
 }
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -7,7 +7,7 @@
 #include "host/reference/integrator.hpp"
 #include "host/reference/tracer.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 class Renderer {
  public:
@@ -54,4 +54,4 @@ class Renderer {
   uint32_t flags_ = 0;
 };
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

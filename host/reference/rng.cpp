@@ -1,6 +1,6 @@
 #include "host/reference/rng.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 uint32_t pcg(uint32_t x) {
   const uint32_t state = x * 747796405u + 2891336453u;
@@ -38,4 +38,4 @@ Vec2 random_pair(uint32_t pixel, uint32_t sample, uint32_t pair, uint32_t seed) 
   return {random(pixel, sample, 2 * pair, seed), random(pixel, sample, 2 * pair + 1, seed)};
 }
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -4,7 +4,7 @@
 
 #include "host/core/vec.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 // O'Neill's permutation of 32-bit integers, as Jarzynski and Olano recommend it for counters (Hash Functions
 // for GPU Rendering, JCGT 9(3), 2020).
@@ -24,4 +24,4 @@ uint32_t alpha_key(uint32_t pixel, uint32_t sample, uint32_t surfaces, uint32_t 
 // that it does not depend on the order of a search.
 double least_alpha(uint32_t key, uint64_t primitive);
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

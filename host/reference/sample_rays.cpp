@@ -13,7 +13,7 @@
 #include "host/reference/rng.hpp"
 #include "host/scene/affine.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 Vec3 Interaction::refracted() const {
   if (ior_before == ior_beyond) return d;
@@ -281,4 +281,4 @@ PixelSample SampleRays::sample(const Vec3& color) const {
   return {color, rays_, hits_, flags_, reflected, refracted, total_reflections, trail_, cut_off};
 }
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

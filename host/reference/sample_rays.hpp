@@ -8,7 +8,7 @@
 #include "host/reference/integrator.hpp"
 #include "host/reference/trail.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 // Where a ray hits a surface, seen from the viewer's side.
 struct Interaction {
@@ -104,4 +104,4 @@ class SampleRays {
   uint32_t trail_ = 1;
 };
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

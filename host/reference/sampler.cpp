@@ -2,7 +2,7 @@
 
 #include "host/reference/filter.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 // Each sampler's .cpp defines its own; one that is missing is a link error that bears its name.
 #define X(name, ...) extern const Sampler name##_sampler;
@@ -21,4 +21,4 @@ Vec2 sample_position(const ImageSettings& image, uint32_t seed, int x, int y, ui
   return filtered(image, sampler(image.pattern).place(image.samples, pixel, index, seed));
 }
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

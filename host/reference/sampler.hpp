@@ -7,7 +7,7 @@
 #include "host/scene/sampler.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 struct Sampler {
   std::string_view manual;  // Markdown
@@ -24,4 +24,4 @@ const Sampler& sampler(SamplePattern pattern);
 // left corner.
 Vec2 sample_position(const ImageSettings& image, uint32_t seed, int x, int y, uint32_t index);
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

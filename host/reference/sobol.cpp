@@ -4,7 +4,7 @@
 #include "host/reference/rng.hpp"
 #include "host/reference/sampler.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 extern const Sampler sobol_sampler;
 
@@ -52,4 +52,4 @@ extern const Sampler sobol_sampler{
     .place = [](int, uint32_t pixel, uint32_t index, uint32_t seed) { return pair(pixel, index, 0, seed); },
     .pair = pair};
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 namespace {
 
@@ -67,4 +67,4 @@ Vec2 SphericalRectangle::place(const Vec2& u) const {
   return {(x - low_.x) / (high_.x - low_.x), (y - low_.y) / (high_.y - low_.y)};
 }
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -6,7 +6,7 @@
 
 #include "host/core/vec.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 // Both from where the point is. Arvo: Stratified Sampling of Spherical Triangles, SIGGRAPH 1995.
 class SphericalTriangle {
@@ -38,4 +38,4 @@ class SphericalRectangle {
   double solid_angle_;
 };
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -6,7 +6,7 @@
 
 #include "host/reference/path_sample.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 extern const Integrator sppm_integrator;
 
@@ -145,4 +145,4 @@ PixelSample sppm(const Tracer& tracer, const SampleId& id, const Ray& ray, const
 
 extern const Integrator sppm_integrator{.manual = manual, .sample = sppm};
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -9,7 +9,7 @@
 #include "host/scene/integrator.hpp"
 #include "host/scene/interfaces.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 namespace {
 
@@ -42,7 +42,7 @@ std::vector<uint64_t> first_ids(const Group& group, const std::vector<Mesh>& mes
 
 Tracer::Tracer(const Scene& scene, Acceleration acceleration)
     : scene_(scene),
-      any_interface_(eyeray::any_interface(scene)),
+      any_interface_(eyeray::engine::any_interface(scene)),
       ids_(scene),
       photon_maps_(std::make_unique<PhotonMaps>()) {
   for (const Mesh& mesh : scene.meshes) meshes_.emplace_back(mesh, acceleration);
@@ -59,7 +59,7 @@ Tracer::Tracer(const Scene& scene, Acceleration acceleration)
   }
   group_bvh_ =
       Bvh(uint32_t(groups_.size()), [this](uint32_t i) { return groups_[i].bounds(); }, acceleration);
-  if (walks_at_random(scene.render.integrator)) light_choice_ = eyeray::light_choice(scene);
+  if (walks_at_random(scene.render.integrator)) light_choice_ = eyeray::engine::light_choice(scene);
 }
 
 Tracer::~Tracer() = default;
@@ -194,4 +194,4 @@ double Tracer::transmittance(const Ray& ray, double t_end, uint32_t& flags) cons
   return product < 1 && walks_at_random(scene_.render.integrator) ? 0 : product;
 }
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

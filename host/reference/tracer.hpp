@@ -11,7 +11,7 @@
 #include "host/scene/primitive_ids.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 class PhotonMap;  // photon_map.hpp
 class PhotonMaps;
@@ -85,4 +85,4 @@ class Tracer {
   std::unique_ptr<PhotonMaps> photon_maps_;
 };
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 uint32_t trail_of(std::span<const uint32_t> events) {
   uint32_t trail = 1;
@@ -32,4 +32,4 @@ std::string describe_event(uint32_t event) {
   return "does what is no event";
 }
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

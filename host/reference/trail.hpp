@@ -8,7 +8,7 @@
 
 #include "host/reference/rng.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 enum class Event : uint32_t {
   hit = 1,  // of a primitive, its number + 1; 0: nothing is hit; `in_medium`: a medium scatters it before
@@ -32,4 +32,4 @@ uint32_t trail_of(std::span<const uint32_t> events);
 // "hits primitive 3".
 std::string describe_event(uint32_t event);
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

@@ -7,7 +7,7 @@
 #include "host/reference/rng.hpp"
 #include "host/reference/sample_rays.hpp"
 
-namespace eyeray::reference {
+namespace eyeray::engine::reference {
 
 extern const Integrator whitted_integrator;
 
@@ -123,4 +123,4 @@ PixelSample whitted(const Tracer& tracer, const SampleId& id, const Ray& ray, co
 
 extern const Integrator whitted_integrator{.manual = manual, .sample = whitted};
 
-}  // namespace eyeray::reference
+}  // namespace eyeray::engine::reference

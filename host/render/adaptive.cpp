@@ -4,7 +4,7 @@
 
 #include "host/core/parallel_for.hpp"
 
-namespace eyeray::render {
+namespace eyeray::engine::render {
 namespace {
 
 // Blocks in a row that have left, between others that have not, take part all the same: a dispatch of its own
@@ -108,4 +108,4 @@ double AdaptiveSampling::samples_to_go(const film::Film& sums, uint64_t samples,
   return sum;
 }
 
-}  // namespace eyeray::render
+}  // namespace eyeray::engine::render

@@ -7,7 +7,7 @@
 #include "host/core/rect.hpp"
 #include "host/film/film.hpp"
 
-namespace eyeray::render {
+namespace eyeray::engine::render {
 
 // Blocks of `film::noise_block` × `film::noise_block` pixels leave when their noise and their neighbours'
 // (Film::noise) is no more than the target. They are judged seldom, after 64, 128, 256, … samples a
@@ -44,4 +44,4 @@ class AdaptiveSampling {
   int64_t left_ = 0;
 };
 
-}  // namespace eyeray::render
+}  // namespace eyeray::engine::render

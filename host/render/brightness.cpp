@@ -6,7 +6,7 @@
 
 #include "host/scene/luminance.hpp"
 
-namespace eyeray::render {
+namespace eyeray::engine::render {
 namespace {
 
 size_t place_of(double luminance) {
@@ -39,4 +39,4 @@ double sum_of_luminances(const image::Image& rows) {
   return sum;
 }
 
-}  // namespace eyeray::render
+}  // namespace eyeray::engine::render

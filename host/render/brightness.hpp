@@ -8,7 +8,7 @@
 #include "host/core/pixel.hpp"
 #include "host/image/image.hpp"
 
-namespace eyeray::render {
+namespace eyeray::engine::render {
 
 class Brightness {
  public:
@@ -34,4 +34,4 @@ class Brightness {
 // Of all pixels of some rows of colours.
 double sum_of_luminances(const image::Image& rows);
 
-}  // namespace eyeray::render
+}  // namespace eyeray::engine::render

@@ -9,7 +9,7 @@
 #include "host/core/error.hpp"
 #include "host/core/escaped_text.hpp"
 
-namespace eyeray::render {
+namespace eyeray::engine::render {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "numbers are written as they lie in memory");
@@ -195,4 +195,4 @@ void Checkpoint::remove() {
   rows_->remove();
 }
 
-}  // namespace eyeray::render
+}  // namespace eyeray::engine::render

@@ -27,7 +27,7 @@
 #include "host/core/stopwatch.hpp"
 #include "host/film/row_store.hpp"
 
-namespace eyeray::render {
+namespace eyeray::engine::render {
 
 // Something that decides a picture's bits: a render is resumed only where all of it is the same.
 struct IdentityPart {
@@ -96,4 +96,4 @@ class Checkpoint {
   bool saved_ = false;
 };
 
-}  // namespace eyeray::render
+}  // namespace eyeray::engine::render

@@ -5,7 +5,7 @@
 #include "host/core/error.hpp"
 #include "host/scene/sampler.hpp"
 
-namespace eyeray::render {
+namespace eyeray::engine::render {
 namespace {
 
 float mean(float a, float b, float c, float d) {
@@ -78,4 +78,4 @@ film::Rows CornerMean::add(const film::Rows& corners) {
   return rows;
 }
 
-}  // namespace eyeray::render
+}  // namespace eyeray::engine::render

@@ -6,7 +6,7 @@
 #include "host/film/film.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray::render {
+namespace eyeray::engine::render {
 
 // Makes the picture one of the corners, a row and a column larger: the centres of its pixels are where the
 // corners of the old ones were. One sample each.
@@ -27,4 +27,4 @@ class CornerMean {
   std::vector<image::Image> last_;
 };
 
-}  // namespace eyeray::render
+}  // namespace eyeray::engine::render

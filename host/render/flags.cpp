@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace eyeray::render {
+namespace eyeray::engine::render {
 
 std::span<const FlagText> flag_texts() {
   static constexpr FlagText texts[] = {
@@ -31,4 +31,4 @@ std::string flag_warning(uint32_t flags, uint64_t pixels) {
   return fmt::format("{} pixel{} may be wrong: {}", pixels, pixels == 1 ? "" : "s", fmt::join(reasons, "; "));
 }
 
-}  // namespace eyeray::render
+}  // namespace eyeray::engine::render

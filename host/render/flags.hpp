@@ -8,7 +8,7 @@
 
 #include "host/core/pixel.hpp"
 
-namespace eyeray::render {
+namespace eyeray::engine::render {
 
 struct FlagText {
   SampleFlag flag;
@@ -21,4 +21,4 @@ std::span<const FlagText> flag_texts();
 // "3 pixels may be wrong: …", by the flags of `pixels` together; "" without a flag.
 std::string flag_warning(uint32_t flags, uint64_t pixels);
 
-}  // namespace eyeray::render
+}  // namespace eyeray::engine::render

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace eyeray::render {
+namespace eyeray::engine::render {
 
 namespace {
 
@@ -44,4 +44,4 @@ std::optional<Legibility> legibility_of(const Scene& scene) {
   return Legibility(scene.render.background, scene.image.tone.exposure);
 }
 
-}  // namespace eyeray::render
+}  // namespace eyeray::engine::render

@@ -9,7 +9,7 @@
 #include "host/image/image.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray::render {
+namespace eyeray::engine::render {
 
 class Legibility {
  public:
@@ -33,4 +33,4 @@ class Legibility {
 // Of the picture of a model alone in eyeray's own light; nothing for a scene that someone lit.
 std::optional<Legibility> legibility_of(const Scene& scene);
 
-}  // namespace eyeray::render
+}  // namespace eyeray::engine::render

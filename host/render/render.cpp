@@ -12,7 +12,7 @@
 #include "host/render/adaptive.hpp"
 #include "host/render/checkpoint.hpp"
 
-namespace eyeray::render {
+namespace eyeray::engine::render {
 namespace {
 
 // How many pixels are traced at a time: tens of megabytes of whatever is made of them.
@@ -393,4 +393,4 @@ Rendering render(const Scene& scene, executors::Executor& executor, const Render
   return result;
 }
 
-}  // namespace eyeray::render
+}  // namespace eyeray::engine::render

@@ -9,7 +9,7 @@
 #include "host/render/brightness.hpp"
 #include "host/render/tiling.hpp"
 
-namespace eyeray::render {
+namespace eyeray::engine::render {
 
 class Checkpoint;  // render/checkpoint.hpp
 
@@ -103,4 +103,4 @@ struct Rendering : RenderTotals {
 // As render_rows; when interrupted, the images are empty unless samples_done > 0, and first_hits is empty.
 Rendering render(const Scene& scene, executors::Executor& executor, const RenderOptions& options);
 
-}  // namespace eyeray::render
+}  // namespace eyeray::engine::render

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <type_traits>
 
-namespace eyeray::render {
+namespace eyeray::engine::render {
 namespace {
 
 using executors::Executor;
@@ -109,4 +109,4 @@ std::unique_ptr<Executor> make_picture_executor(executors::Backend backend, cons
   return std::make_unique<Shutter>(backend, scene, options);
 }
 
-}  // namespace eyeray::render
+}  // namespace eyeray::engine::render

@@ -6,7 +6,7 @@
 #include "host/executors/executor.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray::render {
+namespace eyeray::engine::render {
 
 // Which of `moments`, no more than `samples`, sample `index` shows. Each is shown about as often, to within a
 // run. They come in runs, which keeps those of one moment well spread over the pixel; and after any number of
@@ -19,4 +19,4 @@ int moment_of_sample(int index, int samples, int moments);
 std::unique_ptr<executors::Executor> make_picture_executor(executors::Backend backend, const Scene& scene,
                                                            const executors::ExecutorOptions& options);
 
-}  // namespace eyeray::render
+}  // namespace eyeray::engine::render

@@ -6,7 +6,7 @@
 
 #include "host/core/error.hpp"
 
-namespace eyeray::render {
+namespace eyeray::engine::render {
 namespace {
 
 // Of a shard's pixels P there are √(P / 2048) tiles, each of √(2048 P) pixels. More tiles make shares more
@@ -94,4 +94,4 @@ Rect ShardTiles::in_picture(const Rect& part) const {
   return {tile.x + part.x, tile.y + part.y % Tiling::tile_height, part.width, part.height};
 }
 
-}  // namespace eyeray::render
+}  // namespace eyeray::engine::render

@@ -7,7 +7,7 @@
 #include "host/core/rect.hpp"
 #include "host/film/film.hpp"
 
-namespace eyeray::render {
+namespace eyeray::engine::render {
 
 // A share of a picture: number `index`, from 0, of `count`.
 struct Shard {
@@ -79,4 +79,4 @@ class ShardTiles {
   int64_t pixels_ = 0;
 };
 
-}  // namespace eyeray::render
+}  // namespace eyeray::engine::render

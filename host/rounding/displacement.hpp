@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace eyeray::rounding {
+namespace eyeray::engine::rounding {
 
 // Of what a texture shows as near to a hit as rays may start aside: what it shows at the hit, or the least or
 // the greatest in each channel. For these two rays leave as the mathematics says.
@@ -33,4 +33,4 @@ inline constexpr double float32_room = 16 * float32_share;
 // tells twice that.
 inline constexpr double photon_aside = 1e-3;
 
-}  // namespace eyeray::rounding
+}  // namespace eyeray::engine::rounding

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace eyeray::rounding {
+namespace eyeray::engine::rounding {
 
 namespace {
 
@@ -42,4 +42,4 @@ Places places_around(double rounding, double surfaces, int angles, bool between)
   return places;
 }
 
-}  // namespace eyeray::rounding
+}  // namespace eyeray::engine::rounding

@@ -6,7 +6,7 @@
 
 #include "host/core/vec.hpp"
 
-namespace eyeray::rounding {
+namespace eyeray::engine::rounding {
 
 // Places around a pixel's own, in pixels: `angles` on each of four rings, and before them on one as wide as a
 // rounding error, where that is known. Of a pixel whose rays strike so many surfaces. `between`: half as many
@@ -17,4 +17,4 @@ struct Places {
 };
 Places places_around(double rounding, double surfaces, int angles, bool between = false);
 
-}  // namespace eyeray::rounding
+}  // namespace eyeray::engine::rounding

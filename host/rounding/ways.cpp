@@ -1,6 +1,6 @@
 #include "host/rounding/ways.hpp"
 
-namespace eyeray::rounding {
+namespace eyeray::engine::rounding {
 
 std::vector<Displacement> ways_of_sample(const Sampling& sampling, Chance chance, double pivot, bool moved,
                                          uint32_t seed) {
@@ -75,4 +75,4 @@ std::vector<Displacement> ways_of_probe(bool moved, uint32_t seed) {
   return ways;
 }
 
-}  // namespace eyeray::rounding
+}  // namespace eyeray::engine::rounding

@@ -7,7 +7,7 @@
 
 #include "host/rounding/displacement.hpp"
 
-namespace eyeray::rounding {
+namespace eyeray::engine::rounding {
 
 // What float32 may make of an eye ray that is moved, beside moving it.
 enum class Chance {
@@ -40,4 +40,4 @@ std::array<Displacement, 6> ways_of_photon(double scale, uint32_t seed);
 // Of a sample that is probed: fewer, since each is shown ray by ray.
 std::vector<Displacement> ways_of_probe(bool moved, uint32_t seed);
 
-}  // namespace eyeray::rounding
+}  // namespace eyeray::engine::rounding

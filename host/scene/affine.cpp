@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 namespace {
 
@@ -66,4 +66,4 @@ std::string why_singular(const Mat4& map) {
   return "";
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -6,7 +6,7 @@
 
 #include "host/core/vec.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 using Mat3 = glm::dmat3;
 
@@ -61,4 +61,4 @@ double thinning(const Mat3& linear);
 // Why the map cannot be undone in float32, such as "it shrinks everything to a point", or "".
 std::string why_singular(const Mat4& transform);
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

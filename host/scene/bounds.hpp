@@ -4,7 +4,7 @@
 
 #include "host/core/vec.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // An axis-aligned box; infinite extents for unbounded shapes.
 struct Bounds {
@@ -20,4 +20,4 @@ struct Bounds {
   }
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

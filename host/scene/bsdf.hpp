@@ -4,7 +4,7 @@
 
 #include "host/optics/fresnel.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 struct Bsdf {
   Vec3 diffuse{0};  // albedo, under `layer`
@@ -29,4 +29,4 @@ struct Bsdf {
   Vec3 passed{0};       // … and of what goes straight on, through a pane, under `layer`
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -1,6 +1,6 @@
 #include "host/scene/camera.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 CameraAxes camera_axes(const Camera& camera) {
   CameraAxes axes{.eye = camera.eye, .u = {}, .v = {}, .w = glm::normalize(camera.target - camera.eye)};
@@ -15,4 +15,4 @@ CameraFrame camera_frame(const Camera& camera, const Vec2& size) {
   return {scale.x * axes.u, scale.y * axes.v, scale.z * axes.w};
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

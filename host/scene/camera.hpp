@@ -11,7 +11,7 @@
 
 #include "host/core/vec.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 namespace formula {
 class Formula;  // formula/formula.hpp
@@ -110,4 +110,4 @@ struct CameraFrame {
 };
 CameraFrame camera_frame(const Camera& camera, const Vec2& size);
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

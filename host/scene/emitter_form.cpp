@@ -5,7 +5,7 @@
 
 #include "host/core/error.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 namespace {
 
@@ -202,4 +202,4 @@ Vec3 point_of(const EmitterForm& form) {
               : bounds_of(form).center;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

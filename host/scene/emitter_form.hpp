@@ -8,7 +8,7 @@
 #include "host/scene/light_bvh.hpp"
 #include "host/scene/shape.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 struct ParallelogramForm {
   Vec3 corner, edge_u, edge_v;
@@ -42,4 +42,4 @@ bool is_flat(const EmitterForm& form);
 Vec3 normal_of(const EmitterForm& form);
 Vec3 point_of(const EmitterForm& form);
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

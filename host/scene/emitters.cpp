@@ -7,7 +7,7 @@
 #include "host/scene/scene.hpp"
 #include "host/scene/triangle.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 namespace {
 
@@ -160,4 +160,4 @@ Emitters emitters(const Scene& scene) {
   return found;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -7,7 +7,7 @@
 
 #include "host/scene/emitter_form.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 class Material;
 struct TextureContext;
@@ -43,4 +43,4 @@ Emitters emitters(const Scene& scene);
 // What a place of a surface emits.
 Vec3 emitted(const Material& material, const TextureContext& place, const Vec3& color);
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -9,7 +9,7 @@
 #include "host/scene/luminance.hpp"
 #include "host/scene/whole_shares.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 namespace {
 
@@ -60,4 +60,4 @@ uint32_t environment_numbers(const EnvironmentMap* environment, bool lights) {
   return std::clamp(uint32_t(environment->share * choice_numbers), 1u, choice_numbers - 1);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -8,7 +8,7 @@
 #include "host/core/vec.hpp"
 #include "host/image/image.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // Between the centres of four texels lies a cell: height + 1 rows of them from the upper pole to the lower,
 // width columns the last of which closes the circle. In a cell the density of what is chosen is the same by
@@ -48,4 +48,4 @@ class EnvironmentMap {
 // How many of choice_numbers choose the environment, beside lights or alone; 0 for none or a black one.
 uint32_t environment_numbers(const EnvironmentMap* environment, bool lights);
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

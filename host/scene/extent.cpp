@@ -5,7 +5,7 @@
 #include "host/scene/affine.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 bool is_finite(const Bounds& box) {
   return std::isfinite(glm::length(box.max - box.min));
@@ -27,4 +27,4 @@ Bounds extent(const Scene& scene) {
   return all;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -2,7 +2,7 @@
 
 #include "host/scene/bounds.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 struct Scene;
 
@@ -11,4 +11,4 @@ bool is_finite(const Bounds& box);
 // A box around all shapes that have an end; empty where there is none.
 Bounds extent(const Scene& scene);
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -2,7 +2,7 @@
 
 #include "host/scene/affine.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 Bounds bounds(const Group& group, const std::vector<Mesh>& meshes) {
   Bounds all;
@@ -28,4 +28,4 @@ uint64_t count_primitives(const Group& group, const std::vector<Mesh>& meshes) {
   return group.shapes.size() + count_triangles(group, meshes);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

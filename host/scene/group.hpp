@@ -11,7 +11,7 @@
 #include "host/scene/mesh.hpp"
 #include "host/scene/shape.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // Shapes and meshes in a space of their own. None is without bounds, and none is in two groups.
 struct Group {
@@ -36,4 +36,4 @@ Bounds bounds(const Group& group, const std::vector<Mesh>& meshes);
 uint64_t count_triangles(const Group& group, const std::vector<Mesh>& meshes);
 uint64_t count_primitives(const Group& group, const std::vector<Mesh>& meshes);
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

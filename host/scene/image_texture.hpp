@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 enum class Filter { bilinear, nearest };
 enum class Wrap { repeat, mirror, clamp };
@@ -22,4 +22,4 @@ struct ImageTexture {
   Wrap wrap_v = Wrap::repeat;
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

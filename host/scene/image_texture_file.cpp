@@ -6,7 +6,7 @@
 #include "host/core/error.hpp"
 #include "host/image/coded_image.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 namespace fs = std::filesystem;
 
@@ -38,4 +38,4 @@ ImageTexture decode_image_texture(std::span<const std::byte> bytes, const std::s
   return {.name = name, .width = image.width, .height = image.height, .texels = std::move(image.pixels)};
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -9,7 +9,7 @@
 #include "host/image/coded_image.hpp"
 #include "host/scene/image_texture.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // Error (file_io), as below, where there is no regular file of at most 1 GiB.
 void check_image_file(const std::filesystem::path& path);
@@ -25,4 +25,4 @@ ImageTexture load_image_texture(const std::filesystem::path& path, image::PixelB
 ImageTexture decode_image_texture(std::span<const std::byte> bytes, const std::string& name,
                                   image::PixelBudget& budget, std::vector<std::string>& warnings);
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

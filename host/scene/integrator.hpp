@@ -7,7 +7,7 @@
 
 #include "shaders/integrators/rows.h"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 enum class IntegratorType : uint32_t {
 #define X(name, number, lights, ways) name = number,
@@ -50,4 +50,4 @@ constexpr bool sends_photons(IntegratorType type) {
   return type == IntegratorType::sppm;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -4,7 +4,7 @@
 
 #include "host/scene/integrator.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 bool any_interface(const Scene& scene) {
   if (!walks_at_random(scene.render.integrator)) return false;
@@ -24,4 +24,4 @@ bool any_interface(const Scene& scene) {
   return false;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

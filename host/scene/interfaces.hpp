@@ -3,10 +3,10 @@
 
 #include "host/scene/scene.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // Whether paths of the scene may cross one: where a medium has the index of its surroundings, or of another
 // medium and one of both scatters. Two clear glasses that touch are left alone.
 bool any_interface(const Scene& scene);
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -8,7 +8,7 @@
 
 #include "host/core/vec.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 namespace records {
 class Packer;  // records/packer.hpp
@@ -61,4 +61,4 @@ class Light {
   std::string_view type;  // as its table has it
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -7,7 +7,7 @@
 #include "host/core/error.hpp"
 #include "host/scene/bounds.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 namespace {
 
@@ -206,4 +206,4 @@ LightBvh light_bvh(std::span<const LightBounds> lights) {
   return bvh;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -12,7 +12,7 @@
 
 #include "host/core/vec.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // Where light comes from, and which way it goes: from within the sphere, along normals that are no more than
 // `spread` from the axis, and from there no more than `reach`. Angles in radians; a spread of π is every way.
@@ -44,4 +44,4 @@ struct LightBvh {
 // Over those of `lights` whose power is above 0; at most 2²³.
 LightBvh light_bvh(std::span<const LightBounds> lights);
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -12,7 +12,7 @@
 #include "host/scene/scene.hpp"
 #include "host/scene/whole_shares.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 namespace {
 
@@ -137,4 +137,4 @@ LightChoice light_choice(const Scene& scene) {
   return choice;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -5,7 +5,7 @@
 #include "host/scene/emitters.hpp"
 #include "host/scene/light_bvh.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // Lights are counted on: Scene::lights, then `emitters`.
 struct LightChoice {
@@ -25,4 +25,4 @@ struct LightChoice {
 // have a place, and all others by power. Error (bad_input) where more than 2²⁰ surfaces emit.
 LightChoice light_choice(const Scene& scene);
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

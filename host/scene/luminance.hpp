@@ -2,11 +2,11 @@
 
 #include "host/core/vec.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // Of linear RGB with the primaries of Rec. 709.
 inline double luminance(const Vec3& color) {
   return glm::dot(color, Vec3(0.2126, 0.7152, 0.0722));
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

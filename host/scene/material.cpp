@@ -1,6 +1,6 @@
 #include "host/scene/material.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // More would be light without end.
 Bsdf Material::bsdf(const ScatteringContext&, const Scattering& scattering) const {
@@ -9,4 +9,4 @@ Bsdf Material::bsdf(const ScatteringContext&, const Scattering& scattering) cons
           .transmitted = scattering.transmitted};
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -10,7 +10,7 @@
 #include "host/scene/bsdf.hpp"
 #include "host/scene/texture.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 namespace records {
 class Packer;  // records/packer.hpp
@@ -108,4 +108,4 @@ class Material {
   std::optional<NormalMap> coat_normal_map;  // of a coat, which the others do not bend
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 bool MediumExtent::endless() const {
   const Bounds all = Bounds::unbounded();
@@ -23,4 +23,4 @@ Bounds MediumExtent::bounds() const {
   return box;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

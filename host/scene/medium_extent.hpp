@@ -4,7 +4,7 @@
 
 #include "host/scene/bounds.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 struct MediumExtent {
   Vec3 min = Bounds::unbounded().min;  // corners of the box, whose sides may be infinitely far away
@@ -22,4 +22,4 @@ struct MediumExtent {
   Bounds bounds() const;
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -1,6 +1,6 @@
 #include "host/scene/mesh.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 Bounds bounds(const Mesh& mesh) {
   Bounds bounds;
@@ -8,4 +8,4 @@ Bounds bounds(const Mesh& mesh) {
   return bounds;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -11,7 +11,7 @@
 #include "host/scene/bounds.hpp"
 #include "host/scene/names.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // Triangles that share their vertices, in a space of their own. Whoever makes one sees to it that indices are
 // in range, that every value is finite, that no triangle is without area, and that the normal at each corner
@@ -42,4 +42,4 @@ struct Instance {
 
 Bounds bounds(const Mesh& mesh);
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

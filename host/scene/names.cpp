@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 int32_t Names::add(std::string_view text, uint32_t number, int32_t group) {
   const auto [place, fresh] = places_.try_emplace(std::string(text), uint32_t(texts_.size()));
@@ -30,4 +30,4 @@ std::string describe(std::string_view kind, const NameRef& name, const Names& na
   return fmt::format("{} {}\"{}\"", kind, name.own ? "" : "in ", names.path(name.index));
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

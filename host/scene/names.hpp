@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // A tree of names: of objects, and of the groups that hold them. Each text is kept once, and each object of a
 // name takes 12 bytes, however many copies of its groups there are. Copying indices is all that objects do.
@@ -46,4 +46,4 @@ struct NameRef {
 // `sphere "cart/wheel 3"`, `sphere in "cart"`, or "sphere".
 std::string describe(std::string_view kind, const NameRef& name, const Names& names);
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 Objects::Objects(const Scene& scene) : scene_(scene), ids_(scene) {
   first_in_group_.push_back(scene.shapes.size() + scene.instances.size());
@@ -59,7 +59,7 @@ size_t Objects::of(uint64_t primitive) const {
 std::string Objects::describe(uint64_t primitive) const {
   const Object object = (*this)[of(primitive)];
   std::string text = object.kind == "mesh" ? fmt::format("triangle {} of ", primitive - object.first) : "";
-  text += eyeray::describe(object, scene_.names);
+  text += eyeray::engine::describe(object, scene_.names);
   if (path(object, scene_.names).empty() && !object.mesh.empty()) text += fmt::format(" \"{}\"", object.mesh);
   if (object.position->line > 0) text += fmt::format(", {}:{}", object.position->file, object.position->line);
   return text;
@@ -77,4 +77,4 @@ std::string describe(const Object& object, const Names& names) {
   return fmt::format("{} {}\"{}\"", object.kind, object.name.own ? "" : "in ", name);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -4,7 +4,7 @@
 #include "host/scene/primitive_ids.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // A shape of the scene, or an instance of a mesh; the scene's own, or as a group instance shows it.
 struct Object {
@@ -43,4 +43,4 @@ std::string path(const Object& object, const Names& names);
 // As describe() of a name.
 std::string describe(const Object& object, const Names& names);
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -7,7 +7,7 @@
 #include "host/scene/emitter_form.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 namespace {
 
 // Rounding hides nothing at a sphere's rim, and lights that stand on one see it.
@@ -143,4 +143,4 @@ std::vector<PhotonTarget> photon_targets(const Scene& scene, double reach) {
   return targets;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

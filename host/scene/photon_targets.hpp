@@ -5,7 +5,7 @@
 
 #include "host/core/vec.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 class Material;
 struct Scene;
@@ -26,4 +26,4 @@ std::vector<PhotonTarget> photon_targets(const Scene& scene, double reach);
 // Whether photons may stay on it: its roughness may be a texture's, which may be anything.
 bool scatters_widely(const Material& material);
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

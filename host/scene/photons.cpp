@@ -6,7 +6,7 @@
 #include "host/scene/extent.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 namespace {
 
 constexpr double pixels_across = 2;
@@ -62,4 +62,4 @@ double photon_radius(const PhotonSettings& settings, uint32_t index) {
   return std::sqrt(squared);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -7,7 +7,7 @@
 
 #include "host/scene/photon_targets.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 struct PhotonSettings {
   uint32_t count;  // of each sample
@@ -41,4 +41,4 @@ PhotonSettings photon_settings(const Scene& scene);
 // samples converges (Knaus, Zwicker: Progressive Photon Mapping: A Probabilistic Approach, TOG 2011).
 double photon_radius(const PhotonSettings& settings, uint32_t index);
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -5,7 +5,7 @@
 
 #include "host/scene/scene.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 PrimitiveIds::PrimitiveIds(const Scene& scene) {
   // Shapes: the scene's own, and between them those of groups.
@@ -81,4 +81,4 @@ PrimitiveIds::Location PrimitiveIds::locate(uint64_t primitive, const Scene& sce
   return location;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 struct Scene;
 
@@ -48,4 +48,4 @@ class PrimitiveIds {
   uint64_t count_ = 0;
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

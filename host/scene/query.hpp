@@ -6,7 +6,7 @@
 
 #include "host/core/vec.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // In world space.
 struct Query {
@@ -33,4 +33,4 @@ struct QueryHit {
   uint32_t flags = 0;      // SampleFlag bits (core/pixel.hpp); 0 when nothing went wrong
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

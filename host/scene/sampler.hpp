@@ -7,7 +7,7 @@
 
 #include "shaders/samplers/rows.h"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 enum class SamplePattern : uint32_t {
 #define X(name, number, count) name = number,
@@ -34,4 +34,4 @@ constexpr SampleCount sample_count_of(SamplePattern pattern) {
   return counts[uint32_t(pattern)];
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -2,7 +2,7 @@
 
 #include "host/scene/integrator.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 bool fills(const Material& material, IntegratorType integrator) {
   return material.medium() && !(material.thin() && walks_at_random(integrator));
@@ -17,4 +17,4 @@ uint64_t Scene::primitive_count() const {
   return count;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -18,7 +18,7 @@
 #include "host/scene/mesh.hpp"
 #include "host/scene/shape.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // The rows of registries (scene/sampler.hpp, scene/integrator.hpp). Only their numbers stand here: what only
 // sees a scene is not compiled anew for another row.
@@ -130,4 +130,4 @@ void for_each_leaf(const Scene& scene, const Visit& visit) {
   for_each_shape(scene, [&](const Shape& shape) { for_each_leaf(shape, visit); });
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

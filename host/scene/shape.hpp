@@ -17,7 +17,7 @@
 #include "host/scene/bounds.hpp"
 #include "host/scene/names.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 namespace formula {
 class Formula;  // formula/formula.hpp
@@ -210,4 +210,4 @@ void for_each_leaf(const Shape& shape, const Visit& visit) {
     for (const Shape* each : *list) for_each_leaf(*each, visit);
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

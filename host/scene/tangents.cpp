@@ -8,7 +8,7 @@
 #include "host/scene/affine.hpp"
 #include "host/scene/triangle.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 namespace {
 
 // Appends another vertex like that one.
@@ -91,4 +91,4 @@ void make_tangents(Scene& scene) {
   }
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

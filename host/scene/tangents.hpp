@@ -3,7 +3,7 @@
 
 #include "host/scene/scene.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // Gives Mesh::tangents to each mesh of a material with a normal map that has normals and uv and none yet: at
 // a vertex the mean of its triangles' ∂p/∂u, of the uv that the map reads, in the plane square to the normal,
@@ -11,4 +11,4 @@ namespace eyeray {
 // Where pictures meet that are mirrored, vertices are split.
 void make_tangents(Scene& scene);
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

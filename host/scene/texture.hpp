@@ -8,7 +8,7 @@
 
 #include "host/core/vec.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 namespace records {
 class Packer;  // records/packer.hpp
@@ -51,4 +51,4 @@ class Texture {
   virtual uint32_t pack(records::Packer& packer) const = 0;
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

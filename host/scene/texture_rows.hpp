@@ -6,7 +6,7 @@
 
 #include "shaders/textures/rows.h"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 struct TextureRow {
   std::string_view name;
@@ -19,4 +19,4 @@ inline constexpr TextureRow texture_rows[] = {
 #undef X
 };
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

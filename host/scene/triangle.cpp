@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace eyeray {
+namespace eyeray::engine {
 namespace {
 
 // On which side of the line through both points the origin is. Swapped ends give exactly the negative.
@@ -91,4 +91,4 @@ std::optional<Intersection> intersect_triangle(const Corners& corners, const Vec
   return Intersection{t, w1 / area, w2 / area};
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

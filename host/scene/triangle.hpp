@@ -8,7 +8,7 @@
 #include "host/scene/affine.hpp"
 #include "host/scene/shape.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 using Corners = std::array<Vec3, 3>;
 
@@ -65,4 +65,4 @@ class CornerNormals {
 // that share an edge. Woop, Benthin and Wald: Watertight Ray/Triangle Intersection, JCGT 2(1), 2013.
 std::optional<Intersection> intersect_triangle(const Corners& corners, const Vec3& normal, const Ray& ray);
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

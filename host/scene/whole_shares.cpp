@@ -4,7 +4,7 @@
 
 #include "host/core/error.hpp"
 
-namespace eyeray {
+namespace eyeray::engine {
 
 void whole_shares(std::span<const double> shares, std::span<uint32_t> ends) {
   CHECK_EQ(shares.size(), ends.size());
@@ -21,4 +21,4 @@ void whole_shares(std::span<const double> shares, std::span<uint32_t> ends) {
   for (uint32_t& each : ends) each = end += each;
 }
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-namespace eyeray {
+namespace eyeray::engine {
 
 // Of how many numbers one is drawn.
 inline constexpr uint32_t choice_numbers = 1u << 24;
@@ -14,4 +14,4 @@ inline constexpr uint32_t choice_numbers = 1u << 24;
 // choice_numbers together, or 0 where no share is above 0.
 void whole_shares(std::span<const double> shares, std::span<uint32_t> ends);
 
-}  // namespace eyeray
+}  // namespace eyeray::engine

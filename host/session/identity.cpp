@@ -5,7 +5,7 @@
 #include "host/core/host_arithmetic.hpp"
 #include "host/shards/part.hpp"
 
-namespace eyeray::session {
+namespace eyeray::engine::session {
 
 namespace {
 
@@ -58,4 +58,4 @@ std::vector<render::IdentityPart> identity_of_part(const Plan& plan) {
   return identity;
 }
 
-}  // namespace eyeray::session
+}  // namespace eyeray::engine::session

@@ -6,11 +6,11 @@
 #include "host/render/checkpoint.hpp"
 #include "host/session/output.hpp"
 
-namespace eyeray::session {
+namespace eyeray::engine::session {
 
 // Error (file_io) when a file of the scene or a shader cannot be read any more.
 std::vector<render::IdentityPart> identity_of_checkpoint(const Plan& plan);
 // The same of a part, which must go with those of other machines: of the device only what decides bits.
 std::vector<render::IdentityPart> identity_of_part(const Plan& plan);
 
-}  // namespace eyeray::session
+}  // namespace eyeray::engine::session

@@ -6,7 +6,7 @@
 
 namespace fs = std::filesystem;
 
-namespace eyeray::session {
+namespace eyeray::engine::session {
 namespace {
 
 // How many values are put together at a time.
@@ -77,4 +77,4 @@ void LayeredFile::finish(std::vector<fs::path>& files, bool with_aovs) {
   files.push_back(path_);
 }
 
-}  // namespace eyeray::session
+}  // namespace eyeray::engine::session

@@ -9,7 +9,7 @@
 #include "host/image/exr_file.hpp"
 #include "host/image/image.hpp"
 
-namespace eyeray::session {
+namespace eyeray::engine::session {
 
 // A row of the file holds all layers, and these come one after the other: until the last has come they wait,
 // in a file beside it that nobody sees.
@@ -42,4 +42,4 @@ class LayeredFile {
   AtomicFile waiting_;  // never committed
 };
 
-}  // namespace eyeray::session
+}  // namespace eyeray::engine::session

@@ -11,7 +11,7 @@
 #include "host/session/request.hpp"
 #include "host/session/result.hpp"
 
-namespace eyeray::session {
+namespace eyeray::engine::session {
 
 // A picture about to be rendered.
 struct Plan {
@@ -43,4 +43,4 @@ class Output {
   virtual void finish(const film::ChannelValues& values, Result& result) = 0;
 };
 
-}  // namespace eyeray::session
+}  // namespace eyeray::engine::session

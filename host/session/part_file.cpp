@@ -4,7 +4,7 @@
 #include "host/scene/integrator.hpp"
 #include "host/session/identity.hpp"
 
-namespace eyeray::session {
+namespace eyeray::engine::session {
 namespace {
 
 shards::PartHeader header_of(const Plan& plan, const std::string& scene) {
@@ -59,4 +59,4 @@ void PartFile::finish(const film::ChannelValues& values, Result& result) {
   result.files.emplace_back(file_);
 }
 
-}  // namespace eyeray::session
+}  // namespace eyeray::engine::session

@@ -7,7 +7,7 @@
 #include "host/session/output.hpp"
 #include "host/shards/part_writer.hpp"
 
-namespace eyeray::session {
+namespace eyeray::engine::session {
 
 // Nothing of it is seen before all of it is there; Error (file_io) when the file cannot be written.
 class PartFile final : public Output {
@@ -28,4 +28,4 @@ class PartFile final : public Output {
   std::optional<shards::PartWriter> part_;
 };
 
-}  // namespace eyeray::session
+}  // namespace eyeray::engine::session

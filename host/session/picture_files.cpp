@@ -8,7 +8,7 @@
 
 namespace fs = std::filesystem;
 
-namespace eyeray::session {
+namespace eyeray::engine::session {
 namespace {
 
 // How many pixels are painted at a time.
@@ -134,4 +134,4 @@ void PictureFiles::finish_aovs(const LegendOf& write_legend) {
       written_.push_back(write_legend(i, film::channel_file(outputs_[0], aovs_[i], "json")));
 }
 
-}  // namespace eyeray::session
+}  // namespace eyeray::engine::session

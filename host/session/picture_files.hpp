@@ -14,7 +14,7 @@
 #include "host/session/layered_file.hpp"
 #include "host/session/output.hpp"
 
-namespace eyeray::session {
+namespace eyeray::engine::session {
 
 // All that a picture with these outputs and AOVs writes.
 std::vector<std::filesystem::path> files_written(const std::vector<std::string>& outputs,
@@ -79,4 +79,4 @@ class PictureFiles final : public Output {
   std::vector<std::filesystem::path> written_;
 };
 
-}  // namespace eyeray::session
+}  // namespace eyeray::engine::session

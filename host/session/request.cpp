@@ -8,7 +8,7 @@
 #include "host/render/corners.hpp"
 #include "host/scene/sampler.hpp"
 
-namespace eyeray::session {
+namespace eyeray::engine::session {
 namespace {
 
 void check_noise(const Request& request, const Scene& scene) {
@@ -79,4 +79,4 @@ film::Channels check(const Request& request, const Scene& scene) {
   return film::channels_of(scene, request.channels);
 }
 
-}  // namespace eyeray::session
+}  // namespace eyeray::engine::session

@@ -11,7 +11,7 @@
 #include "host/render/render.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray::session {
+namespace eyeray::engine::session {
 
 // Where a long render keeps what is done; neither file: nowhere.
 struct CheckpointFile {
@@ -55,4 +55,4 @@ void make_classic(Scene& scene, Request& request);
 // those that the scene does not have where all were asked for.
 film::Channels check(const Request& request, const Scene& scene);
 
-}  // namespace eyeray::session
+}  // namespace eyeray::engine::session

@@ -13,7 +13,7 @@
 #include "host/render/render.hpp"
 #include "host/session/warnings.hpp"
 
-namespace eyeray::session {
+namespace eyeray::engine::session {
 
 struct Result {
   render::RenderTotals totals;  // `interrupted` also where first hits were
@@ -40,4 +40,4 @@ struct Result {
   double rays_per_second() const;
 };
 
-}  // namespace eyeray::session
+}  // namespace eyeray::engine::session

@@ -12,7 +12,7 @@
 
 namespace fs = std::filesystem;
 
-namespace eyeray::session {
+namespace eyeray::engine::session {
 namespace {
 
 // Throws where what is to be written would take the place of what was read, links followed.
@@ -197,4 +197,4 @@ Result Session::render(const Scene& scene, const Request& request, Output& outpu
   return result;
 }
 
-}  // namespace eyeray::session
+}  // namespace eyeray::engine::session

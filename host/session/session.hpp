@@ -8,7 +8,7 @@
 #include "host/session/request.hpp"
 #include "host/session/result.hpp"
 
-namespace eyeray::session {
+namespace eyeray::engine::session {
 
 // What requests share: how executors are made, and the device, which stays open between them.
 class Session {
@@ -31,4 +31,4 @@ class Session {
   executors::ExecutorOptions options_;
 };
 
-}  // namespace eyeray::session
+}  // namespace eyeray::engine::session

@@ -5,7 +5,7 @@
 #include "host/render/flags.hpp"
 #include "host/scene/integrator.hpp"
 
-namespace eyeray::session {
+namespace eyeray::engine::session {
 
 PictureQuality quality_of(const Scene& scene, double noise, double clamp, int64_t pixels,
                           const render::RenderTotals& totals) {
@@ -49,4 +49,4 @@ std::vector<Diagnostic> warnings_of(const PictureQuality& quality) {
   return warnings;
 }
 
-}  // namespace eyeray::session
+}  // namespace eyeray::engine::session

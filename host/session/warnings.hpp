@@ -8,7 +8,7 @@
 #include "host/core/diagnostic.hpp"
 #include "host/render/render.hpp"
 
-namespace eyeray::session {
+namespace eyeray::engine::session {
 
 struct PictureQuality {
   uint32_t flags = 0;          // all SampleFlags seen …
@@ -33,4 +33,4 @@ std::vector<Diagnostic> warnings_of(const PictureQuality& quality);
 // A sentence as such a warning.
 Diagnostic warning(std::string sentence);
 
-}  // namespace eyeray::session
+}  // namespace eyeray::engine::session

@@ -9,7 +9,7 @@
 #include "host/shapes/make.hpp"
 #include "host/shapes/registry.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 namespace {
 
@@ -198,4 +198,4 @@ std::unique_ptr<Shape> make_bezier(const std::array<Vec3, 16>& net, const Mat4& 
   return std::make_unique<Bezier>(transformed(net, map), map.mirrors());
 }
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

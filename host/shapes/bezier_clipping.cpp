@@ -5,7 +5,7 @@
 
 #include "host/scene/affine.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 namespace {
 
 // No more than these. Beyond the many a ray runs along the patch.
@@ -179,4 +179,4 @@ std::optional<Intersection> clip_bezier(const BezierNet& net, const Ray& ray) {
   return Search(net, ray).nearest();
 }
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

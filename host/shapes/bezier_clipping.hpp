@@ -7,10 +7,10 @@
 #include "host/scene/shape.hpp"
 #include "host/shapes/bezier_net.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 // The nearest intersection with t > 0, with u and v of it. Borders belong to the patch, and are as wide as
 // float64 rounds.
 std::optional<Intersection> clip_bezier(const BezierNet& net, const Ray& ray);
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

@@ -6,7 +6,7 @@
 
 #include "host/scene/affine.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 namespace {
 
 constexpr double flat_enough = 0.3;
@@ -177,4 +177,4 @@ std::vector<BezierPiece> bezier_pieces(const BezierNet& net) {
   return pieces;
 }
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

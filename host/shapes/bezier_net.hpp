@@ -7,7 +7,7 @@
 #include "host/core/vec.hpp"
 #include "host/scene/bounds.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 // p₀₀ … p₃₃ of Σ Bᵢ(v)·Bⱼ(u)·pᵢⱼ: four rows, u running along them.
 using BezierNet = std::array<Vec3, 16>;
@@ -40,4 +40,4 @@ struct BezierPiece {
 // middle, or else as small as 2⁻¹⁴ of it: at points where it has no normal. At most some thousands.
 std::vector<BezierPiece> bezier_pieces(const BezierNet& net);
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

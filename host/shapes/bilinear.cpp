@@ -9,7 +9,7 @@
 #include "host/shapes/object_shape.hpp"
 #include "host/shapes/registry.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 namespace {
 
@@ -169,4 +169,4 @@ std::unique_ptr<Shape> make_bilinear(const std::array<Vec3, 4>& corners, const M
   return std::make_unique<Bilinear>(transformed(corners, map), map.mirrors());
 }
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

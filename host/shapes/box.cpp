@@ -5,7 +5,7 @@
 #include "host/shapes/object_shape.hpp"
 #include "host/shapes/registry.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 namespace {
 
@@ -84,4 +84,4 @@ std::unique_ptr<Shape> make_box(const Vec3& min, const Vec3& max, const Mat4& tr
   return std::make_unique<Box>(transform * cube::placed(min, max));
 }
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

@@ -8,7 +8,7 @@
 #include "host/shapes/object_shape.hpp"
 #include "host/shapes/registry.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 namespace {
 
@@ -140,4 +140,4 @@ std::unique_ptr<Shape> make_capsule(const Vec3& from, const Vec3& to, double rad
   return std::make_unique<Capsule>(transform * placed(from, to, radius), half_length(from, to, radius));
 }
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 namespace {
 
@@ -52,4 +52,4 @@ bool ChebyshevSeries::monotone() const {
   return std::fabs(c_[1]) > rest;
 }
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

@@ -3,7 +3,7 @@
 
 #include <array>
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 class ChebyshevSeries {
  public:
@@ -26,4 +26,4 @@ class ChebyshevSeries {
   std::array<double, points> c_;
 };
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

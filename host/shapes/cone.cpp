@@ -6,7 +6,7 @@
 #include "host/shapes/registry.hpp"
 #include "host/shapes/revolution.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 namespace {
 
@@ -93,4 +93,4 @@ std::unique_ptr<Shape> make_cone(Vec3 from, Vec3 to, double radius, double to_ra
   return std::make_unique<Cone>(transform * along_axis(from, to, radius, 0, 1), 1 - to_radius / radius, open);
 }
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

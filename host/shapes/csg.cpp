@@ -13,7 +13,7 @@
 #include "host/shapes/registry.hpp"
 #include "host/shapes/spans.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 namespace {
 
@@ -325,4 +325,4 @@ std::unique_ptr<Shape> make_csg(bool all, std::vector<std::unique_ptr<Shape>> op
   return std::make_unique<Csg>(all, std::move(operands), std::move(removed));
 }
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

@@ -6,7 +6,7 @@
 
 #include "host/scene/shape.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 // A CSG object's leaves, those of its operands and of theirs, are bits of a word in the shaders.
 inline constexpr size_t most_csg_leaves = 32;
@@ -68,4 +68,4 @@ class Csg final : public Shape {
   std::vector<std::vector<uint32_t>> parts_;  // by operand, removed ones last: what their parts are here
 };
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

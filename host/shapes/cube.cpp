@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace eyeray::shapes::cube {
+namespace eyeray::engine::shapes::cube {
 
 namespace {
 
@@ -60,4 +60,4 @@ Vec2 uv(int face, const Vec3& p) {
   return inner_uv(right_and_up[face / 2] * 0.5 + 0.5);
 }
 
-}  // namespace eyeray::shapes::cube
+}  // namespace eyeray::engine::shapes::cube

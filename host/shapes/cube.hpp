@@ -6,7 +6,7 @@
 
 #include "host/scene/shape.hpp"
 
-namespace eyeray::shapes::cube {
+namespace eyeray::engine::shapes::cube {
 
 // A face by its number: 2 · axis, and 1 more for the upper.
 struct Crossing {
@@ -33,4 +33,4 @@ Vec2 uv(int face, const Vec3& p);
 // still.
 std::pair<Vec3, Vec3> along_uv(int face, const Vec3& gradient);
 
-}  // namespace eyeray::shapes::cube
+}  // namespace eyeray::engine::shapes::cube

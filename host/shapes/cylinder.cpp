@@ -4,7 +4,7 @@
 #include "host/shapes/registry.hpp"
 #include "host/shapes/revolution.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 namespace {
 
@@ -71,4 +71,4 @@ std::unique_ptr<Shape> make_cylinder(const Vec3& from, const Vec3& to, double ra
   return std::make_unique<Cylinder>(transform * along_axis(from, to, radius, -1, 1), open);
 }
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

@@ -6,7 +6,7 @@
 #include "host/shapes/object_shape.hpp"
 #include "host/shapes/registry.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 namespace {
 
@@ -104,4 +104,4 @@ std::unique_ptr<Shape> make_disk(const Vec3& center, const Vec3& normal, double 
   return std::make_unique<Disk>(transform * placed(center, normal, radius), inner_radius / radius);
 }
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

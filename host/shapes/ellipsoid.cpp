@@ -7,7 +7,7 @@
 #include "host/shapes/object_shape.hpp"
 #include "host/shapes/registry.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 namespace {
 
@@ -101,4 +101,4 @@ std::unique_ptr<Shape> make_ellipsoid(const Vec3& center, const Vec3& radii, con
   return std::make_unique<Ellipsoid>(transform * placed(center, radii));
 }
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

@@ -7,7 +7,7 @@
 #include "host/formula/formula.hpp"
 #include "host/shapes/chebyshev.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 namespace {
 
@@ -148,4 +148,4 @@ std::optional<FormulaSurface::Change> FormulaSurface::first_change(const Ray& ra
   return search.between(first, search.sample(end), first.f < 0);
 }
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

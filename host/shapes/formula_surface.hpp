@@ -5,7 +5,7 @@
 
 #include "host/scene/shape.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 class FormulaSurface {
  public:
@@ -32,4 +32,4 @@ class FormulaSurface {
   Vec3 center_, extent_;
 };
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

@@ -7,7 +7,7 @@
 #include "host/shapes/registry.hpp"
 #include "host/shapes/revolution.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 namespace {
 
@@ -125,4 +125,4 @@ std::unique_ptr<Shape> make_hyperboloid(const Vec3& from, const Vec3& to, double
                                        open);
 }
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

@@ -13,7 +13,7 @@
 #include "host/shapes/ready_formulas.hpp"
 #include "host/shapes/registry.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 namespace {
 
@@ -256,4 +256,4 @@ std::unique_ptr<Shape> make_implicit(FormulaUse use, bool open, const Mat4& tran
   return std::make_unique<Implicit>(to_world, std::move(use), open);
 }
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

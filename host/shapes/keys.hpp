@@ -4,7 +4,7 @@
 #include "host/scene/affine.hpp"
 #include "host/shapes/registry.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 constexpr Key point_key(std::string_view name, std::string_view doc) {
   return {.name = name, .type = KeyType::vec3, .doc = doc, .min = -max_coordinate, .max = max_coordinate};
@@ -29,4 +29,4 @@ inline constexpr Key box_open_key = {.name = "open",
                                      .doc = "Whether the box's faces are left out.",
                                      .fallback = "false"};
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

@@ -9,7 +9,7 @@
 #include "host/scene/shape.hpp"
 #include "host/shapes/planar_region.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 // An ellipsoid where `transform` is no similarity.
 std::unique_ptr<Shape> make_sphere(const Vec3& center, double radius, const Mat4& transform = Mat4(1.0));
@@ -76,4 +76,4 @@ std::unique_ptr<Shape> make_implicit(FormulaUse use, bool open, const Mat4& tran
 std::unique_ptr<Shape> make_csg(bool all, std::vector<std::unique_ptr<Shape>> operands,
                                 std::vector<std::unique_ptr<Shape>> removed = {});
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

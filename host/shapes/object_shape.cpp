@@ -8,7 +8,7 @@
 #include "host/records/packer.hpp"
 #include "host/shapes/registry.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 namespace {
 
@@ -182,4 +182,4 @@ std::vector<double> quadratic_roots(double a, double b, double c) {
   return roots;
 }
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

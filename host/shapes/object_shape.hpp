@@ -8,7 +8,7 @@
 #include "host/scene/shape.hpp"
 #include "host/shapes/registry.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 class ObjectShape : public Shape {
  public:
@@ -84,4 +84,4 @@ Vec3 along_meridian(const Vec3& direction);
 // The real roots of a·t² + 2b·t + c = 0, without cancellation; none where all of a, b and c are 0.
 std::vector<double> quadratic_roots(double a, double b, double c);
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

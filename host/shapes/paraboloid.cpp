@@ -3,7 +3,7 @@
 #include "host/shapes/registry.hpp"
 #include "host/shapes/revolution.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 namespace {
 
@@ -82,4 +82,4 @@ std::unique_ptr<Shape> make_paraboloid(const Vec3& tip, const Vec3& to, double r
   return std::make_unique<Paraboloid>(transform * along_axis(tip, to, radius, 0, 1), open);
 }
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

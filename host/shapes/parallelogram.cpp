@@ -6,7 +6,7 @@
 #include "host/shapes/make.hpp"
 #include "host/shapes/registry.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 namespace {
 
@@ -146,4 +146,4 @@ std::unique_ptr<Shape> make_parallelogram(const Vec3& origin, const Vec3& edge_u
                                          map.normal(normal));
 }
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 Vec3 area_of(const Outline& outer) {
   double size = 0;
@@ -70,4 +70,4 @@ int winding(std::span<const Vec2> outline, const Vec2& point) {
   return turns;
 }
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

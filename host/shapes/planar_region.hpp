@@ -10,7 +10,7 @@
 #include "host/scene/affine.hpp"
 #include "host/shapes/registry.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 // Vertices in order, either way round; the last is joined to the first.
 using Outline = std::vector<Vec3>;
@@ -63,4 +63,4 @@ inline constexpr Key holes_key{.name = "holes",
 // other.
 std::optional<PlanarRegion> read_region(TableReader& table);
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

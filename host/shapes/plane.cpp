@@ -6,7 +6,7 @@
 #include "host/shapes/plane_axes.hpp"
 #include "host/shapes/registry.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 namespace {
 
@@ -128,4 +128,4 @@ std::unique_ptr<Shape> make_plane(const Vec3& point, const Vec3& normal, const M
                                  tangential(map.cotangent * v, world_normal));
 }
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

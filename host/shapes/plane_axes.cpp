@@ -4,7 +4,7 @@
 
 #include "host/scene/affine.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 namespace {
 
@@ -31,4 +31,4 @@ const char* why_no_u_axis(const Vec3& normal, const Vec3& u_axis) {
   return "";
 }
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

@@ -5,7 +5,7 @@
 
 #include "host/core/vec.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 // Unit, with (u, v, normal) right-handed.
 struct PlaneAxes {
@@ -23,4 +23,4 @@ PlaneAxes plane_axes(const Vec3& normal, const std::optional<Vec3>& u_axis = {})
 // Why `u_axis` cannot be one, or "".
 const char* why_no_u_axis(const Vec3& normal, const Vec3& u_axis);
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

@@ -6,7 +6,7 @@
 #include "host/shapes/plane_axes.hpp"
 #include "host/shapes/registry.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 namespace {
 
@@ -184,4 +184,4 @@ std::unique_ptr<Shape> make_polygon(const PlanarRegion& region, const Mat4& tran
                                    tangential(map.cotangent * v, world_normal));
 }
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

@@ -7,7 +7,7 @@
 #include "host/shapes/plane_axes.hpp"
 #include "host/shapes/registry.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 namespace {
 
@@ -216,4 +216,4 @@ std::unique_ptr<Shape> make_prism(const PlanarRegion& region, const Vec3& extrus
   return std::make_unique<Prism>(PrismForm(region, extrusion), transform);
 }
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

@@ -8,7 +8,7 @@
 #include "host/shapes/object_shape.hpp"
 #include "host/shapes/registry.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 namespace {
 
@@ -214,4 +214,4 @@ std::unique_ptr<Shape> make_quadric(const QuadricValues& values, const Vec3& min
   return std::make_unique<Quadric>(transform * cube::placed(min, max), in_cube(values, min, max), open);
 }
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

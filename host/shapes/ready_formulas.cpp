@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 namespace {
 
@@ -231,4 +231,4 @@ std::span<const ReadyFormula> ready_formulas() {
   return all;
 }
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

@@ -7,7 +7,7 @@
 
 #include "host/formula/formula.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 struct ReadyFormula {
   std::string_view name;
@@ -23,4 +23,4 @@ std::span<const ReadyFormula> ready_formulas();
 inline constexpr std::string_view ready_names[] = {"metaballs",    "gyroid",     "rounded-box",
                                                    "smooth-union", "mandelbulb", "height-field"};
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

@@ -7,7 +7,7 @@
 #include "host/shapes/plane_axes.hpp"
 #include "host/shapes/registry.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 namespace {
 
@@ -239,4 +239,4 @@ std::optional<PlanarRegion> read_region(TableReader& table) {
   return region;
 }
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

@@ -2,7 +2,7 @@
 
 #include "shaders/shapes/rows.h"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 // Each shape's .cpp defines its own; one that is missing is a link error that bears its name.
 #define X(name, number) extern const ShapeType name##_type;
@@ -16,4 +16,4 @@ std::span<const ShapeType* const> types() {
   return types;
 }
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

@@ -9,7 +9,7 @@
 #include "host/reading/table_reader.hpp"
 #include "host/scene/shape.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 // The words that each kind declares its keys with, and reads them.
 using reading::Key, reading::KeyType, reading::TableReader;
@@ -32,4 +32,4 @@ struct ShapeType {
 // Every kind of shape, in registry order: the order of Scene::shapes, hence of primitive indices.
 std::span<const ShapeType* const> types();
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

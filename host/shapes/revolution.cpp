@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 namespace {
 
@@ -101,4 +101,4 @@ Bounds Revolution::extent() const {
   return {{-widest, profile_.bottom, -widest}, {widest, profile_.top, widest}};
 }
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

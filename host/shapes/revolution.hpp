@@ -4,7 +4,7 @@
 
 #include "host/shapes/object_shape.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 class Revolution : public ObjectShape {
  public:
@@ -32,4 +32,4 @@ class Revolution : public ObjectShape {
   bool open_;
 };
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

@@ -4,7 +4,7 @@
 #include <iterator>
 #include <tuple>
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 namespace {
 
@@ -68,4 +68,4 @@ std::vector<Span> subtract(const std::vector<Span>& a, const std::vector<Span>& 
   return all;
 }
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

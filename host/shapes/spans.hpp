@@ -6,10 +6,10 @@
 
 #include "host/scene/shape.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 std::vector<Span> unite(const std::vector<Span>& a, const std::vector<Span>& b);
 std::vector<Span> intersect(const std::vector<Span>& a, const std::vector<Span>& b);
 std::vector<Span> subtract(const std::vector<Span>& a, const std::vector<Span>& b);
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

@@ -9,7 +9,7 @@
 #include "host/shapes/object_shape.hpp"
 #include "host/shapes/registry.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 namespace {
 
@@ -150,4 +150,4 @@ std::unique_ptr<Shape> make_sphere(const Vec3& center, double radius, const Mat4
   return std::make_unique<Sphere>(map->point(center), radius * map->scale, map->axes);
 }
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

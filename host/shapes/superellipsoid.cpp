@@ -8,7 +8,7 @@
 #include "host/shapes/object_shape.hpp"
 #include "host/shapes/registry.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 namespace {
 
@@ -171,4 +171,4 @@ std::unique_ptr<Shape> make_superellipsoid(const Vec3& center, const Vec3& radii
   return std::make_unique<Superellipsoid>(transform * placed(center, radii), 2 / e, 2 / n);
 }
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

@@ -7,7 +7,7 @@
 #include "host/shapes/object_shape.hpp"
 #include "host/shapes/registry.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 namespace {
 
@@ -187,4 +187,4 @@ std::unique_ptr<Shape> make_torus(const Vec3& center, const Vec3& axis, double m
   return std::make_unique<Torus>(transform * placed(center, axis, major_radius), minor_radius / major_radius);
 }
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

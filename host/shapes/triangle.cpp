@@ -9,7 +9,7 @@
 #include "host/shapes/make.hpp"
 #include "host/shapes/registry.hpp"
 
-namespace eyeray::shapes {
+namespace eyeray::engine::shapes {
 
 namespace {
 
@@ -208,4 +208,4 @@ std::unique_ptr<Shape> make_triangle(const TriangleValues& values, const Mat4& t
   return std::make_unique<Triangle>(transformed(values, Affine(transform)));
 }
 
-}  // namespace eyeray::shapes
+}  // namespace eyeray::engine::shapes

@@ -13,7 +13,7 @@
 #include "host/core/json_depth.hpp"
 #include "host/core/json_number.hpp"
 
-namespace eyeray::shards {
+namespace eyeray::engine::shards {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -205,4 +205,4 @@ render::Shard parse_shard(const std::string& text) {
   return {number - 1, count};
 }
 
-}  // namespace eyeray::shards
+}  // namespace eyeray::engine::shards

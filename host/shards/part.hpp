@@ -36,7 +36,7 @@
 #include "host/render/checkpoint.hpp"
 #include "host/render/tiling.hpp"
 
-namespace eyeray::shards {
+namespace eyeray::engine::shards {
 
 // Known before the first sample.
 struct PartHeader {
@@ -93,4 +93,4 @@ std::string shard_text(const render::Shard& shard);
 // The same back; Error (bad_input) where that is no share.
 render::Shard parse_shard(const std::string& text);
 
-}  // namespace eyeray::shards
+}  // namespace eyeray::engine::shards

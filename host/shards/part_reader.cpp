@@ -13,7 +13,7 @@
 #include "host/core/checksum.hpp"
 #include "host/core/error.hpp"
 
-namespace eyeray::shards {
+namespace eyeray::engine::shards {
 namespace {
 
 [[noreturn]] void refuse(const std::string& why) {
@@ -156,4 +156,4 @@ void PartReader::check() {
   begin_planes();
 }
 
-}  // namespace eyeray::shards
+}  // namespace eyeray::engine::shards

@@ -7,7 +7,7 @@
 
 #include "host/shards/part.hpp"
 
-namespace eyeray::shards {
+namespace eyeray::engine::shards {
 
 class PartReader {
  public:
@@ -49,4 +49,4 @@ class PartReader {
   std::vector<Plane> planes_;
 };
 
-}  // namespace eyeray::shards
+}  // namespace eyeray::engine::shards

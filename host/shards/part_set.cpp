@@ -12,7 +12,7 @@
 #include "host/core/parallel_for.hpp"
 #include "host/core/termination.hpp"
 
-namespace eyeray::shards {
+namespace eyeray::engine::shards {
 namespace {
 
 // Of each fault as many are named.
@@ -190,4 +190,4 @@ void PartSet::merge(const PlaneSink& sink) {
   }
 }
 
-}  // namespace eyeray::shards
+}  // namespace eyeray::engine::shards

@@ -7,7 +7,7 @@
 
 #include "host/shards/part_reader.hpp"
 
-namespace eyeray::shards {
+namespace eyeray::engine::shards {
 
 // What keeps files from making one picture. Sentences that name them.
 struct PartFaults {
@@ -52,4 +52,4 @@ class PartSet {
   const PartHeader* wanted_ = nullptr;
 };
 
-}  // namespace eyeray::shards
+}  // namespace eyeray::engine::shards

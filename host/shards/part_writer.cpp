@@ -5,7 +5,7 @@
 #include "host/core/checksum.hpp"
 #include "host/core/error.hpp"
 
-namespace eyeray::shards {
+namespace eyeray::engine::shards {
 namespace {
 
 // Bytes of a plane to gather before they are written.
@@ -83,4 +83,4 @@ void PartWriter::finish(const PartTotals& totals) {
   file_.commit();
 }
 
-}  // namespace eyeray::shards
+}  // namespace eyeray::engine::shards

@@ -9,7 +9,7 @@
 #include "host/image/image.hpp"
 #include "host/shards/part.hpp"
 
-namespace eyeray::shards {
+namespace eyeray::engine::shards {
 
 // Nothing of it is seen before finish(); Error (file_io) when the file cannot be written.
 class PartWriter {
@@ -41,4 +41,4 @@ class PartWriter {
   uint64_t end_ = 0;  // of the planes
 };
 
-}  // namespace eyeray::shards
+}  // namespace eyeray::engine::shards

@@ -16,7 +16,7 @@
 
 namespace fs = std::filesystem;
 
-namespace eyeray::slurm {
+namespace eyeray::engine::slurm {
 namespace {
 
 // A scheduler that is busy answers late.
@@ -167,4 +167,4 @@ std::vector<std::string> submit(const Array& array, const ArrayState& state) {
   return jobs;
 }
 
-}  // namespace eyeray::slurm
+}  // namespace eyeray::engine::slurm

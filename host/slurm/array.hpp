@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace eyeray::slurm {
+namespace eyeray::engine::slurm {
 
 struct Array {
   std::string program;  // eyeray itself, where the nodes find it
@@ -54,4 +54,4 @@ ArrayState state_of(const Array& array);
 // words where it takes none.
 std::vector<std::string> submit(const Array& array, const ArrayState& state);
 
-}  // namespace eyeray::slurm
+}  // namespace eyeray::engine::slurm

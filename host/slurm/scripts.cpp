@@ -5,7 +5,7 @@
 #include "host/core/escaped_text.hpp"
 #include "host/slurm/array.hpp"
 
-namespace eyeray::slurm {
+namespace eyeray::engine::slurm {
 namespace {
 
 constexpr const char* head = R"(#!/bin/sh
@@ -77,4 +77,4 @@ std::string merge_script(const Array& array) {
                                    array.is_picture() ? merge : render_of(array), joined(array.last_words));
 }
 
-}  // namespace eyeray::slurm
+}  // namespace eyeray::engine::slurm

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace eyeray::tables {
+namespace eyeray::engine::tables {
 
 extern const optics::GgxAlbedo ggx_numbers[ggx_side * ggx_side];
 extern const optics::SheenAlbedo sheen_numbers[sheen_side * sheen_side];
@@ -67,4 +67,4 @@ double glass_albedo(double cosine, double roughness, double ior_from, double ior
   return std::lerp(at(slice), at(slice + 1), place - slice);
 }
 
-}  // namespace eyeray::tables
+}  // namespace eyeray::engine::tables

@@ -8,7 +8,7 @@
 #include "host/optics/ggx_albedo.hpp"
 #include "host/optics/sheen_albedo.hpp"
 
-namespace eyeray::tables {
+namespace eyeray::engine::tables {
 
 inline constexpr int ggx_side = 64, sheen_side = 32, glass_side = 32;  // rows, and places in each
 
@@ -34,4 +34,4 @@ optics::GgxAlbedo ggx_albedo(double cosine, double roughness);
 optics::SheenAlbedo sheen_albedo(double cosine, double roughness);
 double glass_albedo(double cosine, double roughness, double ior_from, double ior_to);
 
-}  // namespace eyeray::tables
+}  // namespace eyeray::engine::tables

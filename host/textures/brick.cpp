@@ -4,7 +4,7 @@
 #include "host/textures/pattern.hpp"
 #include "host/textures/registry.hpp"
 
-namespace eyeray::textures {
+namespace eyeray::engine::textures {
 
 extern const TextureType brick_type;
 
@@ -53,4 +53,4 @@ TexturePtr parse(TableReader& table) {
 
 extern const TextureType brick_type{.name = "brick", .manual = manual, .keys = keys, .parse = parse};
 
-}  // namespace eyeray::textures
+}  // namespace eyeray::engine::textures

@@ -4,7 +4,7 @@
 #include "host/textures/make.hpp"
 #include "host/textures/registry.hpp"
 
-namespace eyeray::textures {
+namespace eyeray::engine::textures {
 
 extern const TextureType checker_type;
 
@@ -62,4 +62,4 @@ TexturePtr make_checker(const Vec3& even, const Vec3& odd, const Vec2& size) {
   return std::make_shared<Checker>(even, odd, size);
 }
 
-}  // namespace eyeray::textures
+}  // namespace eyeray::engine::textures

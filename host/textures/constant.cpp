@@ -2,7 +2,7 @@
 #include "host/textures/make.hpp"
 #include "host/textures/registry.hpp"
 
-namespace eyeray::textures {
+namespace eyeray::engine::textures {
 
 extern const TextureType constant_type;
 
@@ -38,4 +38,4 @@ TexturePtr make_constant(const Vec3& color) {
   return std::make_shared<Constant>(color);
 }
 
-}  // namespace eyeray::textures
+}  // namespace eyeray::engine::textures

@@ -5,7 +5,7 @@
 #include "host/textures/make.hpp"
 #include "host/textures/registry.hpp"
 
-namespace eyeray::textures {
+namespace eyeray::engine::textures {
 
 extern const TextureType formula_type;
 
@@ -85,4 +85,4 @@ TexturePtr make_formula(std::shared_ptr<const formula::Formula> formula, const V
   return std::make_shared<FormulaTexture>(std::move(formula), tint);
 }
 
-}  // namespace eyeray::textures
+}  // namespace eyeray::engine::textures

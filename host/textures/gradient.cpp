@@ -4,7 +4,7 @@
 #include "host/textures/pattern.hpp"
 #include "host/textures/registry.hpp"
 
-namespace eyeray::textures {
+namespace eyeray::engine::textures {
 
 extern const TextureType gradient_type;
 
@@ -35,4 +35,4 @@ TexturePtr parse(TableReader& table) {
 
 extern const TextureType gradient_type{.name = "gradient", .manual = manual, .keys = keys, .parse = parse};
 
-}  // namespace eyeray::textures
+}  // namespace eyeray::engine::textures

@@ -7,7 +7,7 @@
 #include "host/textures/make.hpp"
 #include "host/textures/registry.hpp"
 
-namespace eyeray::textures {
+namespace eyeray::engine::textures {
 
 extern const TextureType image_type;
 
@@ -165,4 +165,4 @@ TexturePtr make_image(std::shared_ptr<const ImageTexture> image, const Vec3& tin
   return std::make_shared<Image>(std::move(image), srgb, tint, size, second_uv);
 }
 
-}  // namespace eyeray::textures
+}  // namespace eyeray::engine::textures

@@ -5,7 +5,7 @@
 #include "host/scene/image_texture.hpp"
 #include "host/scene/texture.hpp"
 
-namespace eyeray::textures {
+namespace eyeray::engine::textures {
 
 TexturePtr make_constant(const Vec3& color);
 
@@ -21,4 +21,4 @@ TexturePtr make_formula(std::shared_ptr<const formula::Formula> formula, const V
 TexturePtr make_image(std::shared_ptr<const ImageTexture> image, const Vec3& tint = Vec3(1),
                       const Vec2& size = Vec2(1), bool second_uv = false);
 
-}  // namespace eyeray::textures
+}  // namespace eyeray::engine::textures

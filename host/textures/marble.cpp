@@ -4,7 +4,7 @@
 #include "host/textures/pattern.hpp"
 #include "host/textures/registry.hpp"
 
-namespace eyeray::textures {
+namespace eyeray::engine::textures {
 
 extern const TextureType marble_type;
 
@@ -52,4 +52,4 @@ TexturePtr parse(TableReader& table) {
 
 extern const TextureType marble_type{.name = "marble", .manual = manual, .keys = keys, .parse = parse};
 
-}  // namespace eyeray::textures
+}  // namespace eyeray::engine::textures

@@ -4,7 +4,7 @@
 #include "host/textures/pattern.hpp"
 #include "host/textures/registry.hpp"
 
-namespace eyeray::textures {
+namespace eyeray::engine::textures {
 
 extern const TextureType noise_type;
 
@@ -43,4 +43,4 @@ TexturePtr parse(TableReader& table) {
 
 extern const TextureType noise_type{.name = "noise", .manual = manual, .keys = keys, .parse = parse};
 
-}  // namespace eyeray::textures
+}  // namespace eyeray::engine::textures

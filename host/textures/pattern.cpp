@@ -7,7 +7,7 @@
 #include "host/records/packer.hpp"
 #include "host/textures/registry.hpp"
 
-namespace eyeray::textures {
+namespace eyeray::engine::textures {
 namespace {
 
 // Perlin's twelve slopes, four of them twice; "Improving Noise" (2002).
@@ -103,4 +103,4 @@ uint32_t Pattern::pack(records::Packer& packer) const {
                                     .c = {packer.add_vertices(data), uint32_t(colors_.size()), 0, 0}});
 }
 
-}  // namespace eyeray::textures
+}  // namespace eyeray::engine::textures

@@ -8,7 +8,7 @@
 #include "host/scene/texture.hpp"
 #include "host/textures/registry.hpp"
 
-namespace eyeray::textures {
+namespace eyeray::engine::textures {
 
 // The keys that all patterns have.
 inline constexpr Key pattern_transform_key{
@@ -63,4 +63,4 @@ double turbulence(const Vec3& p, int octaves);
 uint32_t cell_hash(const Vec3& corner);
 uint32_t next_hash(uint32_t hash);
 
-}  // namespace eyeray::textures
+}  // namespace eyeray::engine::textures

@@ -2,7 +2,7 @@
 
 #include "shaders/textures/rows.h"
 
-namespace eyeray::textures {
+namespace eyeray::engine::textures {
 
 // Each texture's .cpp defines its own; one that is missing is a link error that bears its name.
 #define X(name, ...) extern const TextureType name##_type;
@@ -16,4 +16,4 @@ std::span<const TextureType* const> types() {
   return types;
 }
 
-}  // namespace eyeray::textures
+}  // namespace eyeray::engine::textures

@@ -6,11 +6,11 @@
 #include "host/reading/table_reader.hpp"
 #include "host/reading/texture_type.hpp"
 
-namespace eyeray::textures {
+namespace eyeray::engine::textures {
 
 using reading::Key, reading::KeyType, reading::TableReader, reading::TextureType;
 
 // Every kind of texture, in registry order.
 std::span<const TextureType* const> types();
 
-}  // namespace eyeray::textures
+}  // namespace eyeray::engine::textures

@@ -4,7 +4,7 @@
 #include "host/textures/pattern.hpp"
 #include "host/textures/registry.hpp"
 
-namespace eyeray::textures {
+namespace eyeray::engine::textures {
 
 extern const TextureType solid_checker_type;
 
@@ -38,4 +38,4 @@ TexturePtr parse(TableReader& table) {
 extern const TextureType solid_checker_type{
     .name = "solid_checker", .manual = manual, .keys = keys, .parse = parse};
 
-}  // namespace eyeray::textures
+}  // namespace eyeray::engine::textures

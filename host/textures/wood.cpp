@@ -4,7 +4,7 @@
 #include "host/textures/pattern.hpp"
 #include "host/textures/registry.hpp"
 
-namespace eyeray::textures {
+namespace eyeray::engine::textures {
 
 extern const TextureType wood_type;
 
@@ -51,4 +51,4 @@ TexturePtr parse(TableReader& table) {
 
 extern const TextureType wood_type{.name = "wood", .manual = manual, .keys = keys, .parse = parse};
 
-}  // namespace eyeray::textures
+}  // namespace eyeray::engine::textures

@@ -12,7 +12,7 @@
 
 #include "shaders/language.h"
 
-namespace eyeray::shader {
+namespace eyeray::engine::shader {
 
 using std::printf;
 
@@ -27,4 +27,4 @@ using glm::radians, glm::degrees, glm::sin, glm::cos, glm::tan, glm::asin, glm::
 using glm::sign, glm::trunc, glm::round, glm::roundEven, glm::ceil, glm::fract;
 using glm::sinh, glm::cosh, glm::tanh, glm::asinh, glm::acosh, glm::atanh;
 
-}  // namespace eyeray::shader
+}  // namespace eyeray::engine::shader

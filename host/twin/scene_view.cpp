@@ -5,7 +5,7 @@
 #include "host/twin/straight_line.hpp"
 #include "host/twin/twin.hpp"
 
-namespace eyeray::twin {
+namespace eyeray::engine::twin {
 namespace {
 
 using shader::vec2, shader::vec3, shader::vec4;
@@ -116,4 +116,4 @@ Spectator spectator_for(std::vector<uint32_t>& events) {
           .back = [](void*, uint32_t) {}};
 }
 
-}  // namespace eyeray::twin
+}  // namespace eyeray::engine::twin

@@ -4,7 +4,7 @@
 
 #include "host/records/records.hpp"
 
-namespace eyeray::twin {
+namespace eyeray::engine::twin {
 
 // Functions of the scene, by number; each is given `scene`.
 struct FormulaView {
@@ -94,4 +94,4 @@ struct Functions {
   shader::QueryHit (*query)(const SceneView& scene, const shader::QueryRay& ray, bool any);
 };
 
-}  // namespace eyeray::twin
+}  // namespace eyeray::engine::twin

@@ -7,7 +7,7 @@
 
 #include "host/twin/scene_view.hpp"
 
-namespace eyeray::shader {
+namespace eyeray::engine::shader {
 namespace {
 
 thread_local const twin::SceneView* bound_scene = nullptr;
@@ -131,7 +131,7 @@ void show(const char* name, uint line, const T& shown) {
 }
 
 }  // namespace
-}  // namespace eyeray::shader
+}  // namespace eyeray::engine::shader
 
 // What a specialised kernel gets from its generated scene.glsl, here for every scene
 // (shaders/kernels/features.h).

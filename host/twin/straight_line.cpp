@@ -12,7 +12,7 @@
 #include "shaders/math/dual.glsl"
 #pragma GCC diagnostic pop
 
-namespace eyeray::twin {
+namespace eyeray::engine::twin {
 namespace {
 
 using expression::Op;
@@ -104,4 +104,4 @@ shader::vec4 differentiate(const StraightLine& line, const shader::vec3& p) {
   return all[line.size() - 1].number;
 }
 
-}  // namespace eyeray::twin
+}  // namespace eyeray::engine::twin

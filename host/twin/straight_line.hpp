@@ -5,7 +5,7 @@
 #include "host/expression/expression.hpp"
 #include "shaders/language.h"
 
-namespace eyeray::twin {
+namespace eyeray::engine::twin {
 
 // By math/affine_bound.glsl, of coordinates bounded along a ray.
 shader::vec3 affine_bound(const expression::StraightLine& line, const shader::vec3& x, const shader::vec3& y,
@@ -14,4 +14,4 @@ shader::vec3 affine_bound(const expression::StraightLine& line, const shader::ve
 // By math/dual.glsl: gradient and value.
 shader::vec4 differentiate(const expression::StraightLine& line, const shader::vec3& p);
 
-}  // namespace eyeray::twin
+}  // namespace eyeray::engine::twin

@@ -1,6 +1,6 @@
 #include "host/twin/shader_functions.hpp"
 
-namespace eyeray::twin {
+namespace eyeray::engine::twin {
 namespace {
 
 shader::SampleResult sample(const SceneView& scene, uint32_t x, uint32_t y, uint32_t index,
@@ -35,4 +35,4 @@ shader::QueryHit query(const SceneView& scene, const shader::QueryRay& ray, bool
 extern "C" [[gnu::visibility("default")]] const Functions eyeray_twin;
 const Functions eyeray_twin{sample, auxiliary, first_hit, photon, query};
 
-}  // namespace eyeray::twin
+}  // namespace eyeray::engine::twin

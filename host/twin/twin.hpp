@@ -7,7 +7,7 @@
 #include "host/records/packer.hpp"
 #include "host/twin/scene_view.hpp"
 
-namespace eyeray::twin {
+namespace eyeray::engine::twin {
 
 // The twin of eyeray's own shaders.
 extern "C" const Functions eyeray_twin;
@@ -18,4 +18,4 @@ Spectator spectator_for(RayRecorder& recorder);
 // Takes what random paths decide alone: each `event` that is PROBEd.
 Spectator spectator_for(std::vector<uint32_t>& events);
 
-}  // namespace eyeray::twin
+}  // namespace eyeray::engine::twin

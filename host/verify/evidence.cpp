@@ -9,7 +9,7 @@
 
 namespace fs = std::filesystem;
 
-namespace eyeray::verify {
+namespace eyeray::engine::verify {
 namespace {
 
 // The words that this process was started with, as a shell takes them.
@@ -53,4 +53,4 @@ void keep_evidence(const fs::path& folder, std::span<const compare::Frame> frame
   write_file_atomically(folder / "command.txt", own_command_line() + "\n");
 }
 
-}  // namespace eyeray::verify
+}  // namespace eyeray::engine::verify

@@ -6,7 +6,7 @@
 
 #include "host/compare/report.hpp"
 
-namespace eyeray::verify {
+namespace eyeray::engine::verify {
 
 // Writes into `folder` (made where missing) every frame as NAME.pfm, its difference from the last frame as
 // NAME-difference.png in false colour, why its pixels differ as NAME-causes.png and .json
@@ -18,4 +18,4 @@ void keep_evidence(const std::filesystem::path& folder, std::span<const compare:
                    std::span<const std::vector<compare::PixelOutcome>> outcomes,
                    const compare::Report& report);
 
-}  // namespace eyeray::verify
+}  // namespace eyeray::engine::verify

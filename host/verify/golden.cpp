@@ -14,7 +14,7 @@
 
 namespace fs = std::filesystem;
 
-namespace eyeray::verify {
+namespace eyeray::engine::verify {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -121,4 +121,4 @@ void bless(const Golden& golden, const Scene& scene, const compare::Frame& frame
   result.updated = true;
 }
 
-}  // namespace eyeray::verify
+}  // namespace eyeray::engine::verify

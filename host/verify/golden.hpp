@@ -10,7 +10,7 @@
 #include "host/compare/report.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray::verify {
+namespace eyeray::engine::verify {
 
 enum class Update {
   never,
@@ -37,4 +37,4 @@ compare::GoldenResult compare_with_golden(const Golden& golden, const Scene& sce
 // cannot be written.
 void bless(const Golden& golden, const Scene& scene, const compare::Frame& frame, compare::Report& report);
 
-}  // namespace eyeray::verify
+}  // namespace eyeray::engine::verify

@@ -7,7 +7,7 @@
 #include "host/scene/integrator.hpp"
 #include "host/scene/photons.hpp"
 
-namespace eyeray::verify {
+namespace eyeray::engine::verify {
 namespace {
 
 uint64_t mix(uint64_t hash, uint64_t value) {
@@ -95,4 +95,4 @@ compare::PathReference path_neighbours(const Scene& scene, const reference::Rend
   return paths;
 }
 
-}  // namespace eyeray::verify
+}  // namespace eyeray::engine::verify

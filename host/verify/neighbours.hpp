@@ -6,7 +6,7 @@
 #include "host/reference/renderer.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray::verify {
+namespace eyeray::engine::verify {
 
 // `renderer` is that of `scene`; both must outlive what is returned.
 compare::Reference neighbours(const Scene& scene, const reference::Renderer& renderer);
@@ -15,4 +15,4 @@ compare::Reference neighbours(const Scene& scene, const reference::Renderer& ren
 compare::PathReference path_neighbours(const Scene& scene, const reference::Renderer& renderer,
                                        const executors::Twin* twin);
 
-}  // namespace eyeray::verify
+}  // namespace eyeray::engine::verify

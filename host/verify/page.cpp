@@ -13,7 +13,7 @@
 #include "host/image/image_file.hpp"
 #include "host/image/srgb.hpp"
 
-namespace eyeray::verify {
+namespace eyeray::engine::verify {
 
 std::span<const EmbeddedFile> page_files();  // page.html
 
@@ -134,4 +134,4 @@ std::string Page::html(const std::string& summary) const {
   return page.replace(page.find(place), place.size(), data);
 }
 
-}  // namespace eyeray::verify
+}  // namespace eyeray::engine::verify

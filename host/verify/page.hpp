@@ -7,7 +7,7 @@
 
 #include "host/compare/report.hpp"
 
-namespace eyeray::verify {
+namespace eyeray::engine::verify {
 
 class Page {
  public:
@@ -25,4 +25,4 @@ class Page {
   std::vector<std::string> scenes_;  // JSON
 };
 
-}  // namespace eyeray::verify
+}  // namespace eyeray::engine::verify

@@ -10,7 +10,7 @@
 #include "host/reference/trail.hpp"
 #include "host/rounding/ways.hpp"
 
-namespace eyeray::verify {
+namespace eyeray::engine::verify {
 namespace {
 
 constexpr uint32_t seeds = 64;
@@ -98,4 +98,4 @@ JudgedPhotons judge_photons(const Scene& scene,
   return judged;
 }
 
-}  // namespace eyeray::verify
+}  // namespace eyeray::engine::verify

@@ -7,7 +7,7 @@
 #include "host/reference/renderer.hpp"
 #include "host/scene/photons.hpp"
 
-namespace eyeray::verify {
+namespace eyeray::engine::verify {
 
 struct JudgedPhotons {
   LeftOutPhotons left_out;  // those that no picture may show
@@ -22,4 +22,4 @@ JudgedPhotons judge_photons(const Scene& scene,
                             const std::function<std::vector<PhotonWay>(uint32_t index)>& ways,
                             const reference::Renderer& renderer);
 
-}  // namespace eyeray::verify
+}  // namespace eyeray::engine::verify

@@ -12,7 +12,7 @@
 #include "host/verify/neighbours.hpp"
 #include "host/verify/photon_judge.hpp"
 
-namespace eyeray::verify {
+namespace eyeray::engine::verify {
 namespace {
 
 // How many samples a pixel are kept, so that those of one executor fit into some 400 MB.
@@ -207,4 +207,4 @@ compare::Report verify_scene(const Subject& subject, const Options& options) {
   return report;
 }
 
-}  // namespace eyeray::verify
+}  // namespace eyeray::engine::verify

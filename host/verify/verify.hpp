@@ -13,7 +13,7 @@
 #include "host/render/render.hpp"
 #include "host/verify/golden.hpp"
 
-namespace eyeray::verify {
+namespace eyeray::engine::verify {
 
 // How scenes are verified.
 struct Options {
@@ -51,4 +51,4 @@ struct Subject {
 // and what make_executor and render throw.
 compare::Report verify_scene(const Subject& subject, const Options& options);
 
-}  // namespace eyeray::verify
+}  // namespace eyeray::engine::verify

@@ -29,11 +29,7 @@
 
 #define EYERAY_API [[gnu::visibility("default")]]
 
-#ifdef EYERAY_ITSELF  // eyeray's own files have another eyeray::Scene
-namespace eyeray::v0 {
-#else
 namespace eyeray::inline v0 {
-#endif
 
 // The version of the library that runs, as "0.1.0"; EYERAY_VERSION is the header's. Versions follow
 // semver.org: while the first number is 0, another second number may break programs.

@@ -10,8 +10,8 @@
 #include "tests/support/doctest.hpp"
 #include "tests/support/process.hpp"
 
-using namespace eyeray;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::test;
 
 namespace fs = std::filesystem;
 

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <string>
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 // What a layer links, layers and libraries.
 using Links = std::set<std::string>;
@@ -34,4 +34,4 @@ inline std::map<std::string, Links> read_layers() {
   return layers;
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

@@ -7,7 +7,7 @@
 #include "sources.hpp"
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray::test;
+using namespace eyeray::engine::test;
 
 namespace {
 

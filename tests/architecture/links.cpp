@@ -6,7 +6,7 @@
 #include "layering.hpp"
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray::test;
+using namespace eyeray::engine::test;
 
 namespace {
 
@@ -16,14 +16,14 @@ struct Symbols {
 };
 
 Symbols symbols_of(const std::string& layer) {
-  const eyeray::ProcessResult nm =
-      eyeray::run_process({"nm", "-C", std::string(LIBRARY_FOLDER) + "/lib" + layer + ".a"});
+  const eyeray::engine::ProcessResult nm =
+      eyeray::engine::run_process({"nm", "-C", std::string(LIBRARY_FOLDER) + "/lib" + layer + ".a"});
   REQUIRE_MESSAGE(nm.code == 0, nm.err);
   Symbols symbols;
   std::istringstream lines(nm.out);
   for (std::string line; std::getline(lines, line);) {
     // "0000000000000040 T eyeray::…", sixteen blanks where there is no address.
-    if (line.size() < 20 || line.find("eyeray::") == std::string::npos) continue;
+    if (line.size() < 20 || line.find("eyeray::engine::") == std::string::npos) continue;
     (line[17] == 'U' ? symbols.undefined : symbols.defined).insert(line.substr(19));
   }
   return symbols;

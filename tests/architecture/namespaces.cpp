@@ -6,7 +6,7 @@
 #include "sources.hpp"
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray::test;
+using namespace eyeray::engine::test;
 
 namespace {
 
@@ -18,7 +18,7 @@ const std::set<std::string> speaks_shader = {"records", "twin"};
 // A line of a namespace's body, which clang-format leaves at the margin.
 struct Line {
   size_t number;
-  std::string scope;  // "eyeray::loader", with "{}" at its end inside an unnamed namespace
+  std::string scope;  // "eyeray::engine::loader", with "{}" at its end inside an unnamed namespace
   std::string text;
 };
 
@@ -70,11 +70,12 @@ std::vector<Line> top_level(const SourceFile& file) {
 }
 
 bool in_its_own_namespace(const SourceFile& file, const std::string& name) {
-  const std::string own = "eyeray::" + file.layer();
+  const std::string own = "eyeray::engine::" + file.layer();
   if (name == own || name.starts_with(own + "::")) return true;
   if (file.layer() == "library" && name == "eyeray::v0") return true;  // what other programs know
-  if (of_everyone.contains(file.layer()) && (name == "eyeray" || name == "eyeray::detail")) return true;
-  return speaks_shader.contains(file.layer()) && name == "eyeray::shader";
+  if (of_everyone.contains(file.layer()) && (name == "eyeray::engine" || name == "eyeray::engine::detail"))
+    return true;
+  return speaks_shader.contains(file.layer()) && name == "eyeray::engine::shader";
 }
 
 }  // namespace
@@ -108,8 +109,8 @@ TEST_CASE("no two files define a type of one name in one namespace") {
     }
   }
   CHECK(defined.size() > 300);
-  CHECK(defined.contains("eyeray::loader::Batch"));
-  CHECK(defined.contains("eyeray::bench::Batch"));
+  CHECK(defined.contains("eyeray::engine::loader::Batch"));
+  CHECK(defined.contains("eyeray::engine::bench::Batch"));
 }
 
 TEST_CASE("forward declarations do not reach where includes may not") {

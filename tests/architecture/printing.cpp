@@ -5,7 +5,7 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray::test;
+using namespace eyeray::engine::test;
 
 TEST_CASE("text for people is printed by print_lines, and JSON is made by json_text") {
   // A whole text may be printed as it is: some function has made it for its target.

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 struct SourceFile {
   std::string path;  // from the source root: "host/scene/key.cpp"
@@ -67,4 +67,4 @@ inline std::string code(const std::string& line) {
   return line.substr(0, line.find("//"));
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

@@ -8,11 +8,11 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::loader;
-using namespace eyeray::generate;
-using namespace eyeray::contenders;
-using eyeray::test::Random;
+using namespace eyeray::engine;
+using namespace eyeray::engine::loader;
+using namespace eyeray::engine::generate;
+using namespace eyeray::engine::contenders;
+using eyeray::engine::test::Random;
 
 namespace {
 

@@ -7,10 +7,10 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::bench;
-using eyeray::test::TemporaryFolder;
-using eyeray::test::write_text;
+using namespace eyeray::engine;
+using namespace eyeray::engine::bench;
+using eyeray::engine::test::TemporaryFolder;
+using eyeray::engine::test::write_text;
 
 namespace {
 

@@ -5,11 +5,11 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::loader;
-using namespace eyeray::generate;
-using namespace eyeray::contenders;
-using namespace eyeray::bench;
+using namespace eyeray::engine;
+using namespace eyeray::engine::loader;
+using namespace eyeray::engine::generate;
+using namespace eyeray::engine::contenders;
+using namespace eyeray::engine::bench;
 
 namespace {
 

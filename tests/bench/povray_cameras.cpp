@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "benchmarks/bench/programs.hpp"
-#include "host/cameras/make.hpp"
 #include "benchmarks/contenders/povray_scene.hpp"
+#include "host/cameras/make.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/core/scratch_folder.hpp"
 #include "host/image/image_file.hpp"
@@ -13,8 +13,8 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::bench;
+using namespace eyeray::engine;
+using namespace eyeray::engine::bench;
 
 namespace {
 

@@ -8,9 +8,9 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::loader;
-using namespace eyeray::bench;
+using namespace eyeray::engine;
+using namespace eyeray::engine::loader;
+using namespace eyeray::engine::bench;
 
 TEST_CASE("contenders take turns after a round that does not count, and are compared with the first") {
   std::string order;

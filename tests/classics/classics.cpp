@@ -2,7 +2,7 @@
 
 #include "host/core/atomic_file.hpp"
 
-namespace eyeray::classics {
+namespace eyeray::engine::classics {
 namespace {
 
 // In float32, as renderers keep it.
@@ -35,4 +35,4 @@ void write(const Classic& classic, int size_factor, const std::filesystem::path&
   write_file_atomically(folder / "scene.toml", scene);
 }
 
-}  // namespace eyeray::classics
+}  // namespace eyeray::engine::classics

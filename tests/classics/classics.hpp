@@ -15,7 +15,7 @@
 #include "host/generate/classic.hpp"
 #include "host/scene/mesh.hpp"
 
-namespace eyeray::classics {
+namespace eyeray::engine::classics {
 
 using namespace generate;
 
@@ -93,4 +93,4 @@ std::vector<BezierPatch> teapot_patches();
 // The surface itself: 32 [[bezier]] in one table.
 std::string teapot_bezier();
 
-}  // namespace eyeray::classics
+}  // namespace eyeray::engine::classics

@@ -4,7 +4,7 @@
 
 #include "classics.hpp"
 
-namespace eyeray::classics {
+namespace eyeray::engine::classics {
 namespace {
 
 constexpr int teeth = 36;
@@ -98,4 +98,4 @@ const Classic gears_classic = {
     .scene = scene,
 };
 
-}  // namespace eyeray::classics
+}  // namespace eyeray::engine::classics

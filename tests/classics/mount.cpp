@@ -3,7 +3,7 @@
 #include "classics.hpp"
 #include "host/core/parallel_for.hpp"
 
-namespace eyeray::classics {
+namespace eyeray::engine::classics {
 namespace {
 
 // √(2^(1/3) − 1): displacements for the fractal dimension 2.2.
@@ -119,4 +119,4 @@ const Classic mount_classic = {
     .mesh_material = "rock",
 };
 
-}  // namespace eyeray::classics
+}  // namespace eyeray::engine::classics

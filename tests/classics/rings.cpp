@@ -3,7 +3,7 @@
 
 #include "classics.hpp"
 
-namespace eyeray::classics {
+namespace eyeray::engine::classics {
 namespace {
 
 // 1 / sin 22.5°: from one layer of rings to the next.
@@ -82,4 +82,4 @@ const Classic rings_classic = {
     .scene = scene,
 };
 
-}  // namespace eyeray::classics
+}  // namespace eyeray::engine::classics

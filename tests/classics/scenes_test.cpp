@@ -12,10 +12,10 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::loader;
-using namespace eyeray::classics;
-using eyeray::test::pixel;
+using namespace eyeray::engine;
+using namespace eyeray::engine::loader;
+using namespace eyeray::engine::classics;
+using eyeray::engine::test::pixel;
 
 namespace {
 

@@ -3,7 +3,7 @@
 
 #include "classics.hpp"
 
-namespace eyeray::classics {
+namespace eyeray::engine::classics {
 namespace {
 
 // Bernstein's cubic polynomials, and their derivatives.
@@ -125,4 +125,4 @@ const Classic teapot_classic = {
     .mesh_material = "teapot",
 };
 
-}  // namespace eyeray::classics
+}  // namespace eyeray::engine::classics

@@ -1,7 +1,7 @@
 // Newell's numbers.
 #include "classics.hpp"
 
-namespace eyeray::classics {
+namespace eyeray::engine::classics {
 namespace {
 
 struct Ring {
@@ -72,4 +72,4 @@ std::vector<BezierPatch> teapot_patches() {
   return all;
 }
 
-}  // namespace eyeray::classics
+}  // namespace eyeray::engine::classics

@@ -1,6 +1,6 @@
 #include "classics.hpp"
 
-namespace eyeray::classics {
+namespace eyeray::engine::classics {
 namespace {
 
 constexpr Vec3 corners[4] = {{-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}, {1, 1, 1}};
@@ -44,4 +44,4 @@ const Classic tetra_classic = {
     .mesh_material = "tetra",
 };
 
-}  // namespace eyeray::classics
+}  // namespace eyeray::engine::classics

@@ -1,6 +1,6 @@
 #include "classics.hpp"
 
-namespace eyeray::classics {
+namespace eyeray::engine::classics {
 namespace {
 
 // A map of space, first `linear`, then moved.
@@ -69,4 +69,4 @@ const Classic tree_classic = {
     .scene = scene,
 };
 
-}  // namespace eyeray::classics
+}  // namespace eyeray::engine::classics

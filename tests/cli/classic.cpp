@@ -6,9 +6,9 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::image;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::image;
+using namespace eyeray::engine::test;
 
 TEST_CASE("--stats counts rays by kind, in words and in JSON") {
   const SceneFolder folder;

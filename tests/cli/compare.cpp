@@ -4,8 +4,8 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::test;
 
 TEST_CASE("alpha is compared; grey is the same as equal red, green and blue") {
   const TemporaryFolder folder;

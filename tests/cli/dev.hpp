@@ -7,7 +7,7 @@
 //
 #include "tests/support/doctest.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 // A running `eyeray dev`, and the place in its words up to which they have been looked at.
 class Dev {
@@ -48,4 +48,4 @@ class Dev {
   size_t seen_ = 0;
 };
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

@@ -6,8 +6,8 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::test;
 
 TEST_CASE("a golden picture is made on request, compared with, and replaced where the scene's differs") {
   const SceneFolder folder;

@@ -7,9 +7,9 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::image;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::image;
+using namespace eyeray::engine::test;
 
 TEST_CASE(
     "--noise gives each pixel as many samples as it needs, the same by every executor that has its bits") {
@@ -53,9 +53,10 @@ TEST_CASE("--noise that cannot be reached is told, and what makes none is refuse
     CHECK(result.code == 2);
     return result.err;
   };
-  CHECK(refusal({"--noise", "0.1"}) ==
-        "eyeray: error: noise stops after any number of samples, and the pattern 'regular' needs all of them: "
-        "set image.pattern to \"sobol\" or \"random\"\n");
+  CHECK(
+      refusal({"--noise", "0.1"}) ==
+      "eyeray: error: noise stops after any number of samples, and the pattern 'regular' needs all of them: "
+      "set image.pattern to \"sobol\" or \"random\"\n");
   for (const std::string wrong : {"nan", "0", "-1", "2", "x"})
     CHECK(refusal({"--noise", wrong}).find("is a number from 0.0001 to 1, not") != std::string::npos);
   refusal({"--noise", "0.1", "--classic"});

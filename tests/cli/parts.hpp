@@ -6,7 +6,7 @@
 #include "scene.hpp"
 #include "tests/support/doctest.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 using Words = std::vector<std::string>;
 
@@ -38,4 +38,4 @@ inline void render_part(const SceneFolder& folder, const Words& picture, int ind
   REQUIRE(result.code == 0);
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

@@ -4,8 +4,8 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::test;
 
 TEST_CASE("verify records what a healthy scene needs, and nothing of one that fails") {
   const SceneFolder folder;

@@ -10,9 +10,9 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::image;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::image;
+using namespace eyeray::engine::test;
 
 TEST_CASE("render writes what was asked for, and says so on standard error") {
   const SceneFolder folder;

@@ -3,7 +3,7 @@
 
 #include "tests/support/shader_overlay.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 inline constexpr const char* small_scene = R"([image]
 width = 64
@@ -63,4 +63,4 @@ inline void lay_endless_shader(const std::string& folder) {
                       "  float e = 1.0;\n  do {\n" + work + "  } while (e < 100.0);\n  color.x += e;\n"));
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

@@ -6,8 +6,8 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::test;
 
 TEST_CASE("verify takes a folder: every scene in it and below, and no part of another") {
   const SceneFolder folder;

@@ -13,7 +13,7 @@
 //
 #include "tests/support/doctest.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 inline const Environment xterm{{"TERM", "xterm"}, {"NO_COLOR", "1"}};
 
@@ -72,4 +72,4 @@ class Terminal {
   std::string shown_;
 };
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

@@ -11,11 +11,11 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::compare;
-using namespace eyeray::image;
-using eyeray::test::Random;
-namespace book = eyeray::test::book;
+using namespace eyeray::engine;
+using namespace eyeray::engine::compare;
+using namespace eyeray::engine::image;
+using eyeray::engine::test::Random;
+namespace book = eyeray::engine::test::book;
 
 namespace {
 

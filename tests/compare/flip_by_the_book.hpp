@@ -10,7 +10,7 @@
 
 #include "host/image/image.hpp"
 
-namespace eyeray::test::book {
+namespace eyeray::engine::test::book {
 
 using Color = std::array<double, 3>;
 
@@ -223,4 +223,4 @@ inline HdrFlip hdr_flip(const Picture& a, const Picture& reference) {
   return result;
 }
 
-}  // namespace eyeray::test::book
+}  // namespace eyeray::engine::test::book

@@ -10,10 +10,10 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::compare;
-using namespace eyeray::image;
-using eyeray::test::Random;
+using namespace eyeray::engine;
+using namespace eyeray::engine::compare;
+using namespace eyeray::engine::image;
+using eyeray::engine::test::Random;
 
 namespace {
 

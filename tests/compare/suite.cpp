@@ -6,9 +6,9 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::compare;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::compare;
+using namespace eyeray::engine::test;
 
 namespace {
 

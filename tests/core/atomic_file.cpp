@@ -4,10 +4,10 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using eyeray::test::read_text;
-using eyeray::test::TemporaryFolder;
-using eyeray::test::write_text;
+using namespace eyeray::engine;
+using eyeray::engine::test::read_text;
+using eyeray::engine::test::TemporaryFolder;
+using eyeray::engine::test::write_text;
 
 namespace {
 

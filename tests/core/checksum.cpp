@@ -4,7 +4,7 @@
 
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
+using namespace eyeray::engine;
 
 TEST_CASE("checksums go on where another ended, past nothing too") {
   const auto bytes = [](std::string_view text) { return std::as_bytes(std::span(text)); };

@@ -6,7 +6,7 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
+using namespace eyeray::engine;
 
 TEST_CASE("a diagnostic shows where, what and the line") {
   CHECK(format_diagnostic({Severity::error, {"a.toml", 12, 5}, "wrong", "x = 1.2", 1}) ==

@@ -7,8 +7,8 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::test;
 using std::filesystem::perms;
 
 TEST_CASE("a cache folder that others may write to is not used") {

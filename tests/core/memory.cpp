@@ -5,7 +5,7 @@
 #include "host/core/raw_vector.hpp"
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
+using namespace eyeray::engine;
 
 TEST_CASE("what is freed gives its memory back") {
   std::string text(1000, 'a');

@@ -5,7 +5,7 @@
 
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
+using namespace eyeray::engine;
 
 TEST_CASE("rays and values come to where they belong, however the loop goes about it") {
   RayRecorder recorder;

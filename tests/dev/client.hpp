@@ -8,7 +8,7 @@
 
 #include <string>
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 // A client of a server on this machine that says whatever it likes.
 class Client {
@@ -51,4 +51,4 @@ class Client {
   bool connected_;
 };
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

@@ -15,9 +15,9 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::dev;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::dev;
+using namespace eyeray::engine::test;
 
 namespace {
 

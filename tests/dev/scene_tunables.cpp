@@ -3,7 +3,7 @@
 
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray::dev;
+using namespace eyeray::engine::dev;
 
 TEST_CASE("tunables of a scene are named as -D names them") {
   const auto found = scene_tunables(R"(

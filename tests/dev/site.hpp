@@ -13,7 +13,7 @@
 #include "client.hpp"
 #include "host/dev/web_server.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 using dev::Json;
 
@@ -85,4 +85,4 @@ inline std::vector<std::unique_ptr<Client>> clients(const Site& site, int count)
   return list;
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

@@ -5,8 +5,8 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray::dev;
-using namespace eyeray::test;
+using namespace eyeray::engine::dev;
+using namespace eyeray::engine::test;
 namespace fs = std::filesystem;
 
 namespace {

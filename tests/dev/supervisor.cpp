@@ -6,8 +6,8 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::dev;
+using namespace eyeray::engine;
+using namespace eyeray::engine::dev;
 
 namespace {
 

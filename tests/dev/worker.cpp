@@ -12,8 +12,8 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray::dev;
-using eyeray::test::wait_until_ended;
+using namespace eyeray::engine::dev;
+using eyeray::engine::test::wait_until_ended;
 
 namespace {
 
@@ -111,7 +111,7 @@ TEST_CASE("a worker that a debugger holds is known") {
   CHECK_FALSE(worker.debugged());
   worker.start();
   CHECK_FALSE(worker.debugged());
-  const pid_t pid = std::stoi(eyeray::test::read_text("/proc/thread-self/children"));
+  const pid_t pid = std::stoi(eyeray::engine::test::read_text("/proc/thread-self/children"));
   REQUIRE(ptrace(PTRACE_SEIZE, pid, 0, 0) == 0);
   CHECK(worker.debugged());
   ::kill(pid, SIGKILL);

@@ -12,8 +12,8 @@
 #include "tests/support/doctest.hpp"
 #include "tests/support/process.hpp"
 
-using namespace eyeray;
-using namespace eyeray::records;
+using namespace eyeray::engine;
+using namespace eyeray::engine::records;
 
 namespace {
 

@@ -9,9 +9,9 @@
 
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::executors;
-using namespace eyeray::records;
+using namespace eyeray::engine;
+using namespace eyeray::engine::executors;
+using namespace eyeray::engine::records;
 
 TEST_CASE("no entry contains an operation whose rounding is left to the driver" *
           doctest::test_suite("long")) {

@@ -10,12 +10,12 @@
 
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::pack;
-using namespace eyeray::executors;
-using namespace eyeray::shapes;
-using namespace eyeray::materials;
-using namespace eyeray::records;
+using namespace eyeray::engine;
+using namespace eyeray::engine::pack;
+using namespace eyeray::engine::executors;
+using namespace eyeray::engine::shapes;
+using namespace eyeray::engine::materials;
+using namespace eyeray::engine::records;
 using test::Random;
 
 namespace {

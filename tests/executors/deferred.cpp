@@ -9,11 +9,11 @@
 
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::loader;
-using namespace eyeray::executors;
-using namespace eyeray::records;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::loader;
+using namespace eyeray::engine::executors;
+using namespace eyeray::engine::records;
+using namespace eyeray::engine::test;
 
 namespace {
 

@@ -7,7 +7,7 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
+using namespace eyeray::engine;
 
 TEST_CASE("the text that specialisation writes for a scene is the one that was reviewed") {
   for (const std::string name :

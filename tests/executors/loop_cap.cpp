@@ -11,12 +11,12 @@
 
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::loader;
-using namespace eyeray::executors;
-using namespace eyeray::shapes;
-using namespace eyeray::materials;
-using namespace eyeray::records;
+using namespace eyeray::engine;
+using namespace eyeray::engine::loader;
+using namespace eyeray::engine::executors;
+using namespace eyeray::engine::shapes;
+using namespace eyeray::engine::materials;
+using namespace eyeray::engine::records;
 
 namespace {
 

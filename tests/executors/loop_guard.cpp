@@ -4,8 +4,8 @@
 #include "host/records/packer.hpp"
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::executors;
+using namespace eyeray::engine;
+using namespace eyeray::engine::executors;
 
 namespace {
 

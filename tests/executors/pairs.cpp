@@ -20,7 +20,7 @@
 
 #include "tests/support/doctest.hpp"
 
-namespace eyeray::pairs {
+namespace eyeray::engine::pairs {
 namespace {
 
 using namespace test;
@@ -319,4 +319,4 @@ TEST_CASE("… 60 of them" * doctest::test_suite("long")) {
   for (uint64_t seed = 1; seed <= 60; ++seed) check_verified(seed);
 }
 
-}  // namespace eyeray::pairs
+}  // namespace eyeray::engine::pairs

@@ -6,9 +6,9 @@
 
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::executors;
-using namespace eyeray::records;
+using namespace eyeray::engine;
+using namespace eyeray::engine::executors;
+using namespace eyeray::engine::records;
 
 TEST_CASE("nearest and any: every bit is the same on the GPU, unrolled or looping, and on the twin") {
   gpu::Device device({});

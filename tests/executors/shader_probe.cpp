@@ -11,9 +11,9 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::executors;
-using namespace eyeray::records;
+using namespace eyeray::engine;
+using namespace eyeray::engine::executors;
+using namespace eyeray::engine::records;
 
 namespace {
 

@@ -9,10 +9,10 @@
 
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::executors;
-using namespace eyeray::shapes;
-using namespace eyeray::materials;
+using namespace eyeray::engine;
+using namespace eyeray::engine::executors;
+using namespace eyeray::engine::shapes;
+using namespace eyeray::engine::materials;
 using test::Random;
 
 namespace {

@@ -7,8 +7,8 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::executors;
+using namespace eyeray::engine;
+using namespace eyeray::engine::executors;
 
 TEST_CASE("a constant with a control is read from the buffer, in its own line") {
   Tunables tunables;

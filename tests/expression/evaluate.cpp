@@ -11,7 +11,7 @@
 #include "shaders/shapes/implicit/bound_march.glsl"
 #pragma GCC diagnostic pop
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 expression::StraightLine straight_line(const std::string& glsl) {
   return formula::Formula({glsl, {"f.glsl", 10, 1}}, {}, "it").straight_line();
@@ -53,4 +53,4 @@ FirstRoot march(const expression::StraightLine& line, const shader::vec3& o, con
   return {march.found ? march.root : -1, steps, march.over};
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

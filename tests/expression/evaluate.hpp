@@ -5,7 +5,7 @@
 #include "host/expression/expression.hpp"
 #include "shaders/language.h"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 // A formula's text, its first line being f.glsl:10, as straight-line code.
 expression::StraightLine straight_line(const std::string& glsl);
@@ -24,4 +24,4 @@ struct FirstRoot {
 FirstRoot march(const expression::StraightLine& line, const shader::vec3& o, const shader::vec3& d, float end,
                 float finest, int most);
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

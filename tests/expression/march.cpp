@@ -8,7 +8,7 @@
 
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
+using namespace eyeray::engine;
 using test::Random;
 
 namespace {

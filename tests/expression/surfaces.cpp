@@ -6,7 +6,7 @@
 
 #include "host/shapes/ready_formulas.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 namespace {
 
 double square(double x) {
@@ -189,4 +189,4 @@ float f(vec3 p) { return smooth_min(distance(p, vec3(0.4, 0.0, 0.0)) - 0.6, toru
   return surfaces;
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

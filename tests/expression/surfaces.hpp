@@ -8,7 +8,7 @@
 
 #include "host/core/vec.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 struct TestSurface {
   std::string_view name;
@@ -20,4 +20,4 @@ struct TestSurface {
 
 const std::vector<TestSurface>& test_surfaces();
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

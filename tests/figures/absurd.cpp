@@ -15,10 +15,10 @@
 
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::loader;
-using namespace eyeray::shapes;
-using namespace eyeray::records;
+using namespace eyeray::engine;
+using namespace eyeray::engine::loader;
+using namespace eyeray::engine::shapes;
+using namespace eyeray::engine::records;
 using test::Random;
 
 namespace {

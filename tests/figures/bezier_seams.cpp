@@ -15,9 +15,9 @@
 
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::shapes;
-using namespace eyeray::records;
+using namespace eyeray::engine;
+using namespace eyeray::engine::shapes;
+using namespace eyeray::engine::records;
 using test::Random;
 
 namespace {

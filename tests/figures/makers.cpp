@@ -10,7 +10,7 @@
 #include "host/shapes/ready_formulas.hpp"
 #include "host/shapes/registry.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 namespace {
 
@@ -228,4 +228,4 @@ const std::map<std::string, MakeShape>& shape_makers() {
   return makers;
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

@@ -8,11 +8,11 @@
 #include "host/scene/shape.hpp"
 #include "tests/support/random.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 using MakeShape = std::unique_ptr<Shape> (*)(Random& random, double size);
 
 // By the shapes' names.
 const std::map<std::string, MakeShape>& shape_makers();
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

@@ -3,7 +3,7 @@
 
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
+using namespace eyeray::engine;
 
 namespace {
 

@@ -11,8 +11,8 @@
 #include "host/core/error.hpp"
 #include "host/render/checkpoint.hpp"
 
-using namespace eyeray;
-using namespace eyeray::render;
+using namespace eyeray::engine;
+using namespace eyeray::engine::render;
 
 namespace {
 

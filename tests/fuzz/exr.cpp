@@ -10,11 +10,12 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   for (const std::string layer : {"", "depth"}) {
     try {
       std::vector<std::string> warnings;
-      const eyeray::image::Image image = eyeray::image::decode_exr(bytes, INPUT_NAME, layer, warnings);
-      eyeray::image::decode_exr_alpha(bytes, INPUT_NAME);
+      const eyeray::engine::image::Image image =
+          eyeray::engine::image::decode_exr(bytes, INPUT_NAME, layer, warnings);
+      eyeray::engine::image::decode_exr_alpha(bytes, INPUT_NAME);
       if (image.width() < 1 || image.height() < 1 || (image.channels() != 1 && image.channels() != 3))
         std::abort();
-    } catch (const eyeray::Error&) {
+    } catch (const eyeray::engine::Error&) {
     }
   }
   return 0;

@@ -8,7 +8,7 @@
 #include "tests/support/known_formula.hpp"
 #include "tests/support/random_formula.hpp"
 
-using namespace eyeray;
+using namespace eyeray::engine;
 
 namespace {
 

@@ -5,13 +5,13 @@
 #include "host/importers/obj_materials.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  eyeray::importers::AssetFiles none;
-  eyeray::image::PixelBudget pixels;
-  eyeray::importers::ObjMaterials materials(none, pixels);
+  eyeray::engine::importers::AssetFiles none;
+  eyeray::engine::image::PixelBudget pixels;
+  eyeray::engine::importers::ObjMaterials materials(none, pixels);
   materials.parse({reinterpret_cast<const char*>(data), size});
   for (const auto& material : materials.materials) {
-    const eyeray::Scattering s = material->scattering({eyeray::Vec2(0), 1, 1, 1});
-    for (const eyeray::Vec3& share : {s.diffuse, s.specular, s.reflected, s.transmitted})
+    const eyeray::engine::Scattering s = material->scattering({eyeray::engine::Vec2(0), 1, 1, 1});
+    for (const eyeray::engine::Vec3& share : {s.diffuse, s.specular, s.reflected, s.transmitted})
       for (int i = 0; i < 3; ++i)
         if (!(share[i] >= 0 && share[i] <= 1)) std::abort();
     if (!(s.shininess >= 1 && s.shininess <= 10000)) std::abort();

@@ -11,8 +11,8 @@
 #include "host/core/error.hpp"
 #include "host/shards/part_reader.hpp"
 
-using namespace eyeray;
-using namespace eyeray::shards;
+using namespace eyeray::engine;
+using namespace eyeray::engine::shards;
 
 namespace {
 

@@ -8,10 +8,10 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::generate;
-using eyeray::test::read_text;
-using eyeray::test::TemporaryFolder;
+using namespace eyeray::engine;
+using namespace eyeray::engine::generate;
+using eyeray::engine::test::read_text;
+using eyeray::engine::test::TemporaryFolder;
 
 namespace {
 

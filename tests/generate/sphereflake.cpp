@@ -9,10 +9,10 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::loader;
-using namespace eyeray::generate;
-using eyeray::test::pixel;
+using namespace eyeray::engine;
+using namespace eyeray::engine::loader;
+using namespace eyeray::engine::generate;
+using eyeray::engine::test::pixel;
 
 namespace {
 

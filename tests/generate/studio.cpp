@@ -5,7 +5,7 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
+using namespace eyeray::engine;
 
 TEST_CASE("the studio that scenes are lit by is the one that is generated") {
   const test::TemporaryFolder folder;

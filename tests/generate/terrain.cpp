@@ -5,9 +5,9 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::loader;
-using namespace eyeray::generate;
+using namespace eyeray::engine;
+using namespace eyeray::engine::loader;
+using namespace eyeray::engine::generate;
 
 namespace {
 

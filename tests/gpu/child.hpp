@@ -4,7 +4,7 @@
 
 #include "support.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 // "list": names the devices on standard output; "endless": work that outlasts its time-out.
 void child_work(std::string_view name);
@@ -12,4 +12,4 @@ void child_work(std::string_view name);
 // "failing calls": says on standard output which calls of Vulkan end badly when they fail.
 void fail_every_call();
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

@@ -6,8 +6,8 @@
 #include "host/core/process.hpp"
 #include "host/core/termination.hpp"
 
-using namespace eyeray;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::test;
 
 namespace {
 

@@ -1,8 +1,8 @@
 #include "host/gpu/device_choice.hpp"
 #include "support.hpp"
 
-using namespace eyeray;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::test;
 using gpu::DeviceInfo;
 using gpu::DeviceType;
 

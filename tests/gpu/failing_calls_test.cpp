@@ -15,8 +15,8 @@
 #include "shim/failing_vulkan.hpp"
 #include "tests/support/process.hpp"
 
-using namespace eyeray;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::test;
 
 namespace {
 

@@ -8,8 +8,8 @@
 #include "host/gpu/spirv.hpp"
 #include "support.hpp"
 
-using namespace eyeray;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::test;
 
 namespace {
 

@@ -12,11 +12,11 @@
 int main(int argc, char** argv) {
   if (argc == 3 && std::string_view(argv[1]) == "child") {
     try {
-      eyeray::test::child_work(argv[2]);
+      eyeray::engine::test::child_work(argv[2]);
       return 0;
-    } catch (const eyeray::Error& error) {
+    } catch (const eyeray::engine::Error& error) {
       std::fprintf(stderr, "%s\n", error.what());
-      return eyeray::exit_status(error.code());
+      return eyeray::engine::exit_status(error.code());
     }
   }
   return doctest::Context(argc, argv).run();

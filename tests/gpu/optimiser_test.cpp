@@ -7,8 +7,8 @@
 #include "support.hpp"
 #include "tests/support/process.hpp"
 
-using namespace eyeray;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::test;
 
 namespace {
 

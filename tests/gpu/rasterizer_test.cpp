@@ -4,8 +4,8 @@
 
 #include "support.hpp"
 
-using namespace eyeray;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::test;
 
 namespace {
 

@@ -1,7 +1,7 @@
 #include "support.hpp"
 
-using namespace eyeray;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::test;
 
 TEST_CASE("bindings, push constants, work group and member offsets come out of the SPIR-V") {
   const gpu::Reflection reflection = gpu::reflect(compile(R"(#version 450

@@ -9,8 +9,8 @@
 #include "host/gpu/spirv_optimiser.hpp"
 #include "support.hpp"
 
-using namespace eyeray;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::test;
 
 namespace {
 

@@ -13,7 +13,7 @@
 #include "host/gpu/shader_compiler.hpp"
 #include "tests/support/doctest.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 inline const DiskCache no_cache{{}};
 
@@ -72,4 +72,4 @@ inline bool contains(std::string_view text, std::string_view part) {
   return text.find(part) != std::string_view::npos;
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

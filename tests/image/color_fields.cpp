@@ -9,8 +9,8 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::image;
+using namespace eyeray::engine;
+using namespace eyeray::engine::image;
 
 namespace {
 

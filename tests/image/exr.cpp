@@ -13,9 +13,9 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::image;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::image;
+using namespace eyeray::engine::test;
 
 namespace {
 

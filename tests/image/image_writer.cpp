@@ -11,12 +11,12 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::image;
-using eyeray::test::Random;
-using eyeray::test::read_text;
-using eyeray::test::TemporaryFolder;
-using eyeray::test::write_text;
+using namespace eyeray::engine;
+using namespace eyeray::engine::image;
+using eyeray::engine::test::Random;
+using eyeray::engine::test::read_text;
+using eyeray::engine::test::TemporaryFolder;
+using eyeray::engine::test::write_text;
 
 namespace {
 

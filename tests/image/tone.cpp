@@ -2,7 +2,7 @@
 
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray::image;
+using namespace eyeray::engine::image;
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <string>
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 class Bytes {
  public:
@@ -39,4 +39,4 @@ class Bytes {
   std::string text_;
 };
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

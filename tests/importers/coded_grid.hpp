@@ -9,7 +9,7 @@
 
 #include "gltf_files.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 inline constexpr int grid_side = 12;  // vertices
 
@@ -223,4 +223,4 @@ inline GltfFile draco_grid(const DracoCoding& coding = {}) {
   return file;
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

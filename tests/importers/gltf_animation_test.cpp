@@ -4,9 +4,9 @@
 
 #include "gltf_files.hpp"
 
-using namespace eyeray;
-using namespace eyeray::importers;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::importers;
+using namespace eyeray::engine::test;
 
 namespace {
 

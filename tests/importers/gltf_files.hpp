@@ -12,7 +12,7 @@
 #include "bytes.hpp"
 #include "support.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 using Json = nlohmann::json;
 
@@ -144,4 +144,4 @@ inline GltfFile square_file() {
   return file;
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

@@ -3,9 +3,9 @@
 
 #include "gltf_files.hpp"
 
-using namespace eyeray;
-using namespace eyeray::importers;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::importers;
+using namespace eyeray::engine::test;
 
 TEST_CASE("a key that stands twice in an object is refused, with its place") {
   const std::string plain = square_file().gltf();

@@ -2,9 +2,9 @@
 // rule.
 #include "gltf_rich_file.hpp"
 
-using namespace eyeray;
-using namespace eyeray::importers;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::importers;
+using namespace eyeray::engine::test;
 
 namespace {
 

@@ -1,9 +1,9 @@
 // EXT_meshopt_compression: what the library's encoder makes is read back; all else is refused.
 #include "coded_grid.hpp"
 
-using namespace eyeray;
-using namespace eyeray::importers;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::importers;
+using namespace eyeray::engine::test;
 
 namespace {
 

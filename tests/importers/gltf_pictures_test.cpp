@@ -4,10 +4,10 @@
 #include "gltf_rich_file.hpp"
 #include "host/image/coded_image.hpp"
 
-using namespace eyeray;
-using namespace eyeray::importers;
-using namespace eyeray::image;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::importers;
+using namespace eyeray::engine::image;
+using namespace eyeray::engine::test;
 
 TEST_CASE("rules of glTF: samplers, and pictures without uv") {
   GltfFile file = rich_file();

@@ -6,7 +6,7 @@
 
 #include "gltf_files.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 // The accessors of the file below, in order.
 enum Accessor { positions, indices, normals, uv, joints, weights, bind_matrices, target };
@@ -75,4 +75,4 @@ inline void check_rules(std::span<const Rule> table) {
   }
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

@@ -4,9 +4,9 @@
 #include "host/scene/image_texture_file.hpp"
 #include "host/textures/make.hpp"
 
-using namespace eyeray;
-using namespace eyeray::importers;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::importers;
+using namespace eyeray::engine::test;
 
 namespace {
 

@@ -1,9 +1,9 @@
 #include "bytes.hpp"
 #include "support.hpp"
 
-using namespace eyeray;
-using namespace eyeray::importers;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::importers;
+using namespace eyeray::engine::test;
 
 namespace {
 

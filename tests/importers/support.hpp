@@ -9,7 +9,7 @@
 //
 #include "tests/support/doctest.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 // What the importers make of the bytes, which must keep all promises.
 inline importers::ImportedScene import_sound(const std::string& bytes, const std::string& name,
@@ -60,4 +60,4 @@ class Folder : public TemporaryFolder {
   }
 };
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

@@ -7,7 +7,7 @@
 
 #include "tests/support/process.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 class Folder : public TemporaryFolder {
  public:
@@ -18,4 +18,4 @@ class Folder : public TemporaryFolder {
   }
 };
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

@@ -9,9 +9,9 @@
 #include "tests/support/camera.hpp"
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::loader;
-using eyeray::test::Folder;
+using namespace eyeray::engine;
+using namespace eyeray::engine::loader;
+using eyeray::engine::test::Folder;
 
 namespace {
 

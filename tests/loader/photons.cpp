@@ -6,8 +6,8 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::loader;
+using namespace eyeray::engine;
+using namespace eyeray::engine::loader;
 
 TEST_CASE("`sppm` refuses these scenes of the suite, and says where and why") {
   std::ifstream list("tests/loader/refused_by_sppm.txt");

@@ -3,8 +3,8 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::reading;
+using namespace eyeray::engine;
+using namespace eyeray::engine::reading;
 
 namespace {
 

@@ -10,8 +10,8 @@
 #include "tests/support/camera.hpp"
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::loader;
+using namespace eyeray::engine;
+using namespace eyeray::engine::loader;
 
 namespace {
 

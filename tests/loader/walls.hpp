@@ -7,7 +7,7 @@
 
 #include "host/loader/scene_file.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 inline Scene parse_walls(const std::string& text) {
   return loader::parse_scene("[[material]]\nname = \"wall\"\ntype = \"phong\"\n" + text, "scene.toml");
@@ -27,4 +27,4 @@ inline std::string sphere(const std::string& table, double x) {
   return fmt::format("[[{}]]\ncenter = [{}, 0, 0]\nradius = 1\nmaterial = \"wall\"\n", table, x);
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

@@ -5,9 +5,9 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::compare;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::compare;
+using namespace eyeray::engine::test;
 
 TEST_CASE("an edge does not excuse a value that is on neither side of it") {
   // At the opening's edge, the shadow's, the checker's and the mirror's.

@@ -6,7 +6,7 @@
 #include "host/compare/against_reference.hpp"
 #include "tests/support/analytic_picture.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 // As float32 would see the picture: off by less than the offsets that explain.
 inline const Vec2 honest_shift(5e-5, 5e-5);
@@ -31,4 +31,4 @@ inline void for_each_pixel(compare::Frame& frame,
   }
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

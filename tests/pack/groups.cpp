@@ -14,10 +14,10 @@
 
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::loader;
-using namespace eyeray::records;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::loader;
+using namespace eyeray::engine::records;
+using namespace eyeray::engine::test;
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include "tests/support/empty_scene.hpp"
 #include "tests/support/random_scene.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 class HardScene {
  public:
@@ -372,4 +372,4 @@ class HardScene {
   std::vector<RayTarget> targets_;
 };
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

@@ -4,7 +4,7 @@
 #include "host/pack/pack.hpp"
 #include "tests/support/random.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 struct RayTarget {
   glm::vec3 a, b, c;  // the corners; of a sphere its centre, and points at its poles and on it
@@ -56,4 +56,4 @@ inline std::vector<RayTarget> ray_targets(const Scene& scene, Random& random) {
   return targets;
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

@@ -6,8 +6,8 @@
 #include "host/raster/judge.hpp"
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::raster;
+using namespace eyeray::engine;
+using namespace eyeray::engine::raster;
 
 namespace {
 

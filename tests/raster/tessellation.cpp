@@ -10,9 +10,9 @@
 #include "tests/support/doctest.hpp"
 #include "tests/support/random.hpp"
 
-using namespace eyeray;
-using namespace eyeray::raster;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::raster;
+using namespace eyeray::engine::test;
 
 namespace {
 

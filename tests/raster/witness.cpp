@@ -13,8 +13,8 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::raster;
+using namespace eyeray::engine;
+using namespace eyeray::engine::raster;
 
 namespace {
 

@@ -2,9 +2,9 @@
 
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::shapes;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::shapes;
+using namespace eyeray::engine::test;
 
 namespace {
 

@@ -6,8 +6,8 @@
 
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::test;
 
 TEST_CASE("a ray that leaves a triangle of an instance does not hit it again") {
   Dice dice;

@@ -4,10 +4,10 @@
 
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::shapes;
-using namespace eyeray::materials;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::shapes;
+using namespace eyeray::engine::materials;
+using namespace eyeray::engine::test;
 
 namespace {
 

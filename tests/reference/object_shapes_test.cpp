@@ -4,9 +4,9 @@
 
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::shapes;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::shapes;
+using namespace eyeray::engine::test;
 
 TEST_CASE("box: from outside, inside, behind, beside, and along a face") {
   const auto box = make_box({-1, 0, 2}, {1, 4, 3});

@@ -10,8 +10,8 @@
 
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using eyeray::test::Random;
+using namespace eyeray::engine;
+using eyeray::engine::test::Random;
 using reference::BsdfSample;
 using reference::BsdfValue;
 using reference::ViewedBsdf;

@@ -9,8 +9,8 @@
 
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::shapes;
+using namespace eyeray::engine;
+using namespace eyeray::engine::shapes;
 using test::Random;
 
 TEST_CASE("a Chebyshev series knows how far it stays from zero, and whether it turns") {

@@ -2,9 +2,9 @@
 
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::shapes;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::shapes;
+using namespace eyeray::engine::test;
 
 TEST_CASE("superellipsoid: with exponents of 1 an ellipsoid, of 2 an octahedron, and a pillow of power 4") {
   const auto ball = make_superellipsoid({1, 2, 3}, {2, 3, 4}, 1, 1);

@@ -2,9 +2,9 @@
 
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::shapes;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::shapes;
+using namespace eyeray::engine::test;
 
 TEST_CASE("torus: four crossings, one after the other, the hole and the pole") {
   // About the x axis through (1, 2, 3): the tube runs at the distance 2 and is 0.5 thick.

@@ -5,11 +5,11 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::loader;
-using namespace eyeray::render;
-using namespace eyeray::executors;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::loader;
+using namespace eyeray::engine::render;
+using namespace eyeray::engine::executors;
+using namespace eyeray::engine::test;
 
 namespace {
 

@@ -6,7 +6,7 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
+using namespace eyeray::engine;
 using render::Brightness;
 
 TEST_CASE("samples are counted by brightness, and numbers that are none are not bright") {

@@ -8,9 +8,9 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::render;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::render;
+using namespace eyeray::engine::test;
 
 namespace {
 

@@ -10,9 +10,9 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::render;
-using namespace eyeray::cameras;
+using namespace eyeray::engine;
+using namespace eyeray::engine::render;
+using namespace eyeray::engine::cameras;
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include "host/render/render.hpp"
 #include "tests/support/empty_scene.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 class FakeExecutor : public executors::Executor {
  public:
@@ -78,4 +78,4 @@ inline bool same_rendering(const render::Rendering& a, const render::Rendering& 
          a.flagged_pixels == b.flagged_pixels && a.samples_done == b.samples_done;
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

@@ -5,7 +5,7 @@
 
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
+using namespace eyeray::engine;
 using render::Legibility;
 
 namespace {

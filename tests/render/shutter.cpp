@@ -11,8 +11,8 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::render;
+using namespace eyeray::engine;
+using namespace eyeray::engine::render;
 
 namespace {
 

@@ -8,8 +8,8 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::render;
+using namespace eyeray::engine;
+using namespace eyeray::engine::render;
 
 TEST_CASE("the shards' parts are all of the picture, and no pixel twice") {
   test::Random random(5);

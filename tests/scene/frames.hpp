@@ -7,7 +7,7 @@
 #include "host/reference/renderer.hpp"
 #include "host/render/render.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 inline constexpr executors::Backend backends[] = {executors::Backend::gpu, executors::Backend::twin,
                                                   executors::Backend::reference};
@@ -51,4 +51,4 @@ inline compare::ReferenceComparison compare_with_reference(const Scene& scene, c
   return compare::compare_with_reference(value, render_frame(scene, executors::Backend::reference), around);
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

@@ -18,7 +18,7 @@
 #include "host/textures/registry.hpp"
 #include "shaders/shapes/rows.h"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 using reading::Key, reading::KeyType;
 
@@ -302,4 +302,4 @@ std::string random_scene_text(Random& random, const Wildness& wildness) {
   return Writer(random, wildness).write();
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

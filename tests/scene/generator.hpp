@@ -6,7 +6,7 @@
 
 #include "tests/support/random.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 struct Wildness {
   double share = 0;   // of numbers that are extreme, and of structures that are degenerate
@@ -17,4 +17,4 @@ struct Wildness {
 // one that renders.
 std::string random_scene_text(Random& random, const Wildness& wildness);
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

@@ -9,13 +9,13 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::loader;
-using namespace eyeray::render;
-using namespace eyeray::executors;
-using namespace eyeray::compare;
-using namespace eyeray::image;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::loader;
+using namespace eyeray::engine::render;
+using namespace eyeray::engine::executors;
+using namespace eyeray::engine::compare;
+using namespace eyeray::engine::image;
+using namespace eyeray::engine::test;
 
 namespace {
 

@@ -11,14 +11,14 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::executors;
-using namespace eyeray::compare;
-using namespace eyeray::shapes;
-using namespace eyeray::materials;
-using namespace eyeray::lights;
-using namespace eyeray::cameras;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::executors;
+using namespace eyeray::engine::compare;
+using namespace eyeray::engine::shapes;
+using namespace eyeray::engine::materials;
+using namespace eyeray::engine::lights;
+using namespace eyeray::engine::cameras;
+using namespace eyeray::engine::test;
 
 namespace {
 

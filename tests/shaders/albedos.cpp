@@ -14,7 +14,7 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
+using namespace eyeray::engine;
 
 TEST_CASE("the directional albedo of GGX: 1 − ln 2 at roughness 1, and its table beside the integral") {
   CHECK(tables::ggx_albedo(1, 1).once == doctest::Approx(1 - std::log(2.0)).epsilon(1e-4));

@@ -16,10 +16,10 @@
 
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
+using namespace eyeray::engine;
 using reference::BsdfValue;
 using reference::ViewedBsdf;
-using namespace eyeray::test;
+using namespace eyeray::engine::test;
 
 namespace {
 

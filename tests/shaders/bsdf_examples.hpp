@@ -12,7 +12,7 @@
 #include "host/twin/shader_functions.hpp"
 #include "host/twin/twin.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 struct Named {
   std::string name;
@@ -121,4 +121,4 @@ inline Vec3 towards(double cosine, double turn = 0.7) {
   return {sine * std::cos(turn), sine * std::sin(turn), cosine};
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

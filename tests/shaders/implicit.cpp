@@ -3,7 +3,7 @@
 
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
+using namespace eyeray::engine;
 
 TEST_CASE("a crossing is a later one than the one before, whatever rounding makes of it") {
   const shader::ObjectRay ray{{}, {0, 0, 1}, 0};

@@ -10,7 +10,7 @@
 
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
+using namespace eyeray::engine;
 using test::Random;
 
 namespace {

@@ -12,8 +12,8 @@
 
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::records;
+using namespace eyeray::engine;
+using namespace eyeray::engine::records;
 using test::Random;
 using textures::make_image;
 

@@ -10,9 +10,9 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::shards;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::shards;
+using namespace eyeray::engine::test;
 
 namespace {
 

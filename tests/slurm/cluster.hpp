@@ -13,7 +13,7 @@
 
 #include "tests/support/process.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 class Cluster {
  public:
@@ -119,4 +119,4 @@ PartitionName=main Nodes={0} Default=YES State=UP
   std::optional<Process> munged_, controller_, node_;
 };
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

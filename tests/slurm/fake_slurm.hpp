@@ -6,7 +6,7 @@
 
 #include "tests/support/process.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 // Shell scripts that are first in this process's PATH as long as this lives; $folder has their files.
 class FakePrograms {
@@ -49,4 +49,4 @@ struct FakeSlurm : FakePrograms {
   }
 };
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

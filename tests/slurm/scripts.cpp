@@ -14,9 +14,9 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::slurm;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::slurm;
+using namespace eyeray::engine::test;
 
 namespace {
 

@@ -3,7 +3,7 @@
 
 #include <cstdlib>
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 // EYERAY_FULL_TESTS=1 draws `full`, as the documents report it; EYERAY_FEW_TESTS=1 draws `few`, which
 // `scripts/test` has time for.
@@ -11,4 +11,4 @@ inline int amount(int few, int usual, int full) {
   return std::getenv("EYERAY_FULL_TESTS") ? full : std::getenv("EYERAY_FEW_TESTS") ? few : usual;
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

@@ -8,7 +8,7 @@
 
 #include "host/compare/explain.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 inline constexpr int picture_width = 96;
 inline constexpr int picture_height = 72;
@@ -99,4 +99,4 @@ inline compare::Frame picture_frame(const Vec2& shift = Vec2(0.0),
   return frame;
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

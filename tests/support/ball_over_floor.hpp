@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 // `image`: the keys of [image]. `ball`: those of the ball's material.
 inline std::string ball_over_floor(const std::string& image, const std::string& ball) {
@@ -35,4 +35,4 @@ name = "ball"
 )" + ball;
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

@@ -3,7 +3,7 @@
 
 #include "host/scene/scene.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 // The camera in terms of a PerspectiveCamera or another form; std::bad_variant_access where it is no such.
 template <typename Form>
@@ -20,4 +20,4 @@ inline Vec2 place_seen(const Scene& scene, const Vec3& point) {
   return distance / glm::dot(way, camera.w) * Vec2(glm::dot(way, camera.u), glm::dot(way, camera.v));
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

@@ -3,7 +3,7 @@
 #include "host/cameras/make.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 // A scene with nothing in it but the camera of a file that says nothing.
 inline Scene empty_scene() {
@@ -12,4 +12,4 @@ inline Scene empty_scene() {
   return scene;
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

@@ -6,7 +6,7 @@
 #include "host/executors/specialise.hpp"
 #include "host/gpu/kernel_compiler.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 inline gpu::ShaderSource entry_source(const char* entry, const records::PackedScene& scene,
                                       const executors::Specialisation& specialisation) {
@@ -26,4 +26,4 @@ inline shader::QueryRay query_ray(const Vec3& origin, const Vec3& direction, dou
   return executors::to_query_ray({origin, direction, t_max}, Vec3(0));
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

@@ -6,7 +6,7 @@
 #include "host/scene/environment.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 // radiance(d) of the direction of each texel's centre, where nothing is turned.
 template <typename Radiance>
@@ -24,4 +24,4 @@ std::shared_ptr<EnvironmentMap> environment(int width, int height, const Radianc
   return std::make_shared<EnvironmentMap>(std::move(picture), turn);
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

@@ -9,7 +9,7 @@
 #include "tests/support/amount.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 struct Estimate {
   double mean;
@@ -41,4 +41,4 @@ inline double greatest_error() {
   return 0.005 * amount(8, 1, 1);
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

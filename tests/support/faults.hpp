@@ -6,7 +6,7 @@
 
 #include "tests/support/shader_overlay.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 // In a shader's file the text `from` becomes `to`. docs/verification.md says what each does, and what the
 // report says of it.
@@ -155,4 +155,4 @@ inline std::string lay_fault(const TemporaryFolder& folder, const std::string& n
   return folder / name;
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

@@ -13,7 +13,7 @@
 
 #include "tests/support/random.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 class KnownFormula {
  public:
@@ -255,4 +255,4 @@ class KnownFormula {
   uint32_t expected_ = 0;
 };
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

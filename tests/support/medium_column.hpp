@@ -6,7 +6,7 @@
 
 #include "host/scene/medium_extent.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 // ∫ f(t, density) dt over the part of the ray up to `end` that is in the medium's box.
 template <typename Function>
@@ -37,4 +37,4 @@ inline double length_in(const MediumExtent& extent, const Ray& ray, double end, 
   return along(extent, ray, end, steps, [](double, double density) { return density; });
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

@@ -8,7 +8,7 @@
 #include "host/scene/triangle.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 inline int add(Scene& scene, Mesh mesh) {
   scene.meshes.push_back(std::move(mesh));
@@ -116,4 +116,4 @@ inline Mat4 random_map(Dice& dice, double strongest, double reach) {
   return map;
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

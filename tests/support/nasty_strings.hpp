@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 inline const std::vector<std::string> nasty_strings = {
     // Commands of GitHub's workflows.
@@ -55,4 +55,4 @@ inline const std::vector<std::string> nasty_strings = {
     "\xff\xfe\xc0\xaf",
 };
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

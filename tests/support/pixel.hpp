@@ -3,7 +3,7 @@
 
 #include "tests/support/camera.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 // In pixels from its top left corner.
 inline Vec2 pixel(const Scene& scene, const Vec3& point) {
@@ -11,4 +11,4 @@ inline Vec2 pixel(const Scene& scene, const Vec3& point) {
   return {(1 + place.x) / 2 * scene.image.width, (scene.image.height - place.y * scene.image.width) / 2};
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

@@ -13,7 +13,7 @@
 
 #include "host/core/process.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 // The eyeray under test: $EYERAY_BINARY, which ctest sets.
 inline std::string eyeray_binary() {
@@ -83,4 +83,4 @@ inline bool wait_until_ended(pid_t pid, double seconds = 600) {
   return false;
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

@@ -16,7 +16,7 @@
 #include "host/twin/twin.hpp"
 #include "tests/support/entries.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 class QueryKernel {
  public:
@@ -123,4 +123,4 @@ inline int differences_on_gpu(gpu::Device& device, const records::PackedScene& p
   return different;
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

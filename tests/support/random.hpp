@@ -9,7 +9,7 @@
 
 #include "host/core/vec.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 class Random {
  public:
@@ -51,4 +51,4 @@ inline uint64_t seed() {
   return set ? std::strtoull(set, nullptr, 10) : 0;
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

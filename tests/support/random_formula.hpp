@@ -9,7 +9,7 @@
 
 #include "tests/support/random.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 class RandomFormula {
  public:
@@ -343,4 +343,4 @@ class RandomFormula {
   std::vector<Function> functions_;
 };
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

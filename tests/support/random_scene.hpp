@@ -7,7 +7,7 @@
 #include "tests/support/meshes.hpp"
 #include "tests/support/random.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 // `count` primitives of each kind within a few units of the eye, at the origin, with duplicates now and then,
 // all of one opaque material.
@@ -60,4 +60,4 @@ inline std::vector<shader::QueryRay> random_rays(Random& random, size_t count) {
   return rays;
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

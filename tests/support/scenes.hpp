@@ -10,7 +10,7 @@
 #include "host/shapes/make.hpp"
 #include "tests/support/empty_scene.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 inline TexturePtr gray(double value) {
   return textures::make_constant(Vec3(value));
@@ -91,4 +91,4 @@ class Dice {
   std::mt19937_64 engine_{1980};
 };
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

@@ -3,7 +3,7 @@
 
 #include "tests/support/process.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 // `text` with its only occurrence of `before` replaced; throws where there is none, or another.
 inline std::string replaced(std::string text, const std::string& before, const std::string& after) {
@@ -31,4 +31,4 @@ inline void lay_changed_shader(const std::filesystem::path& folder, const std::s
   lay_shader(folder, file, replaced(own_shader(file), before, after));
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

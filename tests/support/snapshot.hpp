@@ -9,7 +9,7 @@
 #include "tests/support/doctest.hpp"
 #include "tests/support/process.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 // Fails where `text` differs from the file's, at the first line that does. `scripts/test --bless` writes the
 // files anew instead.
@@ -32,4 +32,4 @@ inline void check_snapshot(const std::string& file, const std::string& text) {
              "\nIf that is meant, scripts/test --bless writes it there.");
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

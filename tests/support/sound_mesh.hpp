@@ -9,7 +9,7 @@
 #include "host/scene/affine.hpp"
 #include "host/scene/triangle.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 inline bool finite(const Vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -72,4 +72,4 @@ inline std::string broken_promise(const importers::ImportedScene& scene) {
   return "";
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

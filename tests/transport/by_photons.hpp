@@ -6,7 +6,7 @@
 
 #include "patch.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 // The mean of the pixels of `tile`, by as many samples as the scene has.
 inline Estimate by_samples(const Scene& scene, Backend backend, const Rect& tile = {0, 0, 1, 1}) {
@@ -70,4 +70,4 @@ inline void check_as_paths(const std::function<Scene()>& make, Backend backend, 
   CHECK(std::abs(near.mean - bias - path.mean) < 5 * std::hypot(1.4 * near.error, wide.error, path.error));
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

@@ -7,8 +7,8 @@
 
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::test;
 
 TEST_CASE("whole shares are all numbers together, one at least of what has a share") {
   Random random(1);

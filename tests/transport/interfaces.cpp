@@ -4,8 +4,8 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::test;
 
 TEST_CASE("interfaces: the light of a sun and of a point is weakened as Beer and Lambert say") {
   const double sun = 0.5, slanted = std::sqrt(2.0), absorption = 0.3;

@@ -3,8 +3,8 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::test;
+using namespace eyeray::engine;
+using namespace eyeray::engine::test;
 
 TEST_CASE("panes: R' = 2R / (1 + R), and what is left goes straight on, seen and as light") {
   const double r = 0.04, mirrored = 2 * r / (1 + r), through = 1 - mirrored;

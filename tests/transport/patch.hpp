@@ -10,7 +10,7 @@
 
 #include "tests/support/doctest.hpp"
 
-namespace eyeray::test {
+namespace eyeray::engine::test {
 
 using namespace shapes;
 using namespace materials;
@@ -71,4 +71,4 @@ inline double irradiance_of(const std::vector<Vec3>& corners) {
   return std::abs(sum) / 2;
 }
 
-}  // namespace eyeray::test
+}  // namespace eyeray::engine::test

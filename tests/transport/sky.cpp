@@ -6,8 +6,8 @@
 
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::lights;
+using namespace eyeray::engine;
+using namespace eyeray::engine::lights;
 
 namespace {
 

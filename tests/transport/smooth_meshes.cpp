@@ -9,9 +9,9 @@
 
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::test;
-using namespace eyeray::materials;
+using namespace eyeray::engine;
+using namespace eyeray::engine::test;
+using namespace eyeray::engine::materials;
 using executors::Backend;
 
 namespace {

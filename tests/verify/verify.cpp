@@ -5,12 +5,12 @@
 //
 #include "tests/support/doctest.hpp"
 
-using namespace eyeray;
-using namespace eyeray::loader;
-using namespace eyeray::render;
-using namespace eyeray::executors;
-using namespace eyeray::compare;
-using eyeray::test::TemporaryFolder;
+using namespace eyeray::engine;
+using namespace eyeray::engine::loader;
+using namespace eyeray::engine::render;
+using namespace eyeray::engine::executors;
+using namespace eyeray::engine::compare;
+using eyeray::engine::test::TemporaryFolder;
 namespace fs = std::filesystem;
 
 namespace {
