@@ -64,7 +64,7 @@ std::string Value::of_unsigned(uint64_t value) {
 }
 
 std::string Value::quoted(std::string_view text) {
-  return toml_string(text);
+  return engine::toml_string(text);
 }
 
 Value::Value(std::initializer_list<Value> list) : toml_(engine::library::list_of(list.begin(), list.end())) {}

@@ -26,7 +26,7 @@ TEST_CASE("an edge does not excuse a value that is on neither side of it") {
 
 TEST_CASE("too many explained pixels fail, all of them explained") {
   // The picture with an edge along a whole column.
-  const Reference split = [](int x, int y, const Vec2& shift, Chance) {
+  const Reference split = [](int x, int y, const Vec2& shift, rounding::Chance) {
     Neighbour neighbour = picture_reference(x, y, shift);
     if (x + 0.5 + shift.x >= 40.5 + beyond) neighbour.samples[0].color *= 0.5;
     return neighbour;
@@ -44,7 +44,7 @@ TEST_CASE("too many explained pixels fail, all of them explained") {
 TEST_CASE("an extreme between the usual places is looked for, in few pixels") {
   // Left of a column the picture is twice as bright in a direction that lies between two of the 64.
   const auto unexplained = [](int columns) {
-    const Reference wedge = [columns](int x, int y, const Vec2& shift, Chance) {
+    const Reference wedge = [columns](int x, int y, const Vec2& shift, rounding::Chance) {
       Neighbour neighbour = picture_reference(x, y, shift);
       const bool meets = std::fabs(std::atan2(shift.y, shift.x) - M_PI / 64) < M_PI / 200;
       if (x < columns && y == 0 && meets) neighbour.samples[0].color *= 2.0;
@@ -62,7 +62,7 @@ TEST_CASE("an extreme between the usual places is looked for, in few pixels") {
 
 TEST_CASE("what is not looked into fails, even where all that was looked into is explained") {
   // Seventy columns with an edge each: more than are looked into.
-  const Reference stripes = [](int x, int y, const Vec2& shift, Chance) {
+  const Reference stripes = [](int x, int y, const Vec2& shift, rounding::Chance) {
     Neighbour neighbour;
     const double place = x + 0.5 + shift.x;
     neighbour.samples[0].color =
