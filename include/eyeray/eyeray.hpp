@@ -347,4 +347,4 @@ class EYERAY_API Renderer {
   std::unique_ptr<Data> data_;
 };
 
-}  // namespace eyeray::v0
+}  // namespace eyeray::inline v0
