@@ -8,6 +8,7 @@
 
 #include "host/core/diagnostic_log.hpp"
 #include "host/loader/csg_parts.hpp"
+#include "host/reading/source_position.hpp"
 #include "host/reading/table.hpp"
 
 namespace eyeray::engine::loader {

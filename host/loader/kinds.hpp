@@ -11,6 +11,7 @@
 
 #include "host/core/diagnostic_log.hpp"
 #include "host/loader/sections.hpp"
+#include "host/reading/source_position.hpp"
 #include "host/reading/table.hpp"
 
 namespace eyeray::engine::loader {

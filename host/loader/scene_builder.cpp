@@ -20,6 +20,7 @@
 #include "host/loader/photon_check.hpp"
 #include "host/loader/sections.hpp"
 #include "host/loader/settings.hpp"
+#include "host/reading/source_position.hpp"
 #include "host/reading/table.hpp"
 #include "host/scene/affine.hpp"
 #include "host/scene/integrator.hpp"

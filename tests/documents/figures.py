@@ -9,7 +9,7 @@ FIGURES = [
     ("verification.md", "Pixels that differ are examined {} at a time", "compare/against_reference.cpp", "examined_at_once"),
     ("verification.md", "Pixels that differ are examined {} at a time", "compare/paths.cpp", "examined_at_once"),
     ("verification.md", "equal even so, and N is at most {}.", "compare/exact.cpp", "max_bound"),
-    ("verification.md", "by 1 + n / 8, at most {}fold", "compare/explain.cpp", "most_reach"),
+    ("rounding.md", "wider by 1 + n / 8, at most {}fold", "rounding/places.cpp", "most_reach"),
     ("verification.md", "gate's at the share that the scene allows, but at {} pixels", "compare/against_reference.cpp", "always_allowed"),
     ("verification.md", "leave unexplained, if there are {} at most", "compare/against_reference.cpp", "few"),
     ("verification.md", "is looked at again as of gate B, if there are {} at most", "compare/paths.cpp", "few"),
@@ -18,8 +18,8 @@ FIGURES = [
     ("verification.md", "of up to {} pixels that differ", "verify/page.cpp", "most_pixels"),
     ("verification.md", "Of more than {} rays and values", "core/ray_tree.hpp", "most"),
     ("verification.md", "where `max_depth` is above {}, and", "compare/report.cpp", "usual_depth"),
-    ("command-line.md", "samples more than {} times as bright", "render/render.hpp", "times"),
-    ("command-line.md", "`--spp N` is the most, {}", "cli/picture.hpp", "most_samples_by_default"),
+    ("command-line.md", "samples more than {} times as bright", "render/brightness.hpp", "times_of_fireflies"),
+    ("command-line.md", "`--spp N` is the most, {}", "cli/picture_options.hpp", "most_samples_by_default"),
     ("command-line.md", "on 127.0.0.1 and ::1; {}, and another", "cli/dev.cpp", "usual_port"),
     ("dev-loop.md", "not for scenes of more than {} primitives", "dev/render_server.cpp", "most_previewed"),
     ("performance.md", "in BVHs of up to {} primitives", "executors/trace_plan.cpp", "most_in_packets"),
@@ -59,7 +59,7 @@ UNITS = {"KiB": 1 << 10, "MiB": 1 << 20, "GiB": 1 << 30}
 RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789")
 
 
-def told(text):
+def value_of(text):
     """2²⁰, 2^28, 16 384, 4 GiB, eight."""
     if text in WORDS:
         return WORDS[text]
@@ -94,7 +94,7 @@ for page, words, source, name in FIGURES:
         wrong.append(f"docs/{page} has {len(found)} times: {words}")
     elif value is None:
         wrong.append(f"host/{source} has no {name}")
-    elif told(found[0]) != value:
+    elif value_of(found[0]) != value:
         wrong.append(f"docs/{page}: {words.format(found[0])}; host/{source}: {name} is {value}")
 print("\n".join(wrong) or f"{len(FIGURES)} figures are as the code has them")
 sys.exit(1 if wrong else 0)
