@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace eyeray::v0 {
+namespace eyeray::inline v0 {
 
 // Copies of an exception must not throw: they share.
 Error::Error(ErrorKind kind, const std::string& what, std::vector<Diagnostic> diagnostics)
@@ -19,4 +19,4 @@ std::string_view version() noexcept {
   return EYERAY_VERSION;
 }
 
-}  // namespace eyeray::v0
+}  // namespace eyeray::inline v0

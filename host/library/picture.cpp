@@ -15,7 +15,7 @@ v0::Plane plane_of(const image::Image& image) {
 }  // namespace
 }  // namespace eyeray::engine::library
 
-namespace eyeray::v0 {
+namespace eyeray::inline v0 {
 
 Plane Picture::color() const {
   return engine::library::plane_of(data_->color);
@@ -82,4 +82,4 @@ void Picture::write(const std::filesystem::path& file) const {
   });
 }
 
-}  // namespace eyeray::v0
+}  // namespace eyeray::inline v0

@@ -10,7 +10,7 @@
 #include "host/image/image.hpp"
 #include "host/image/tone.hpp"
 
-namespace eyeray::v0 {
+namespace eyeray::inline v0 {
 
 struct Picture::Data {
   engine::image::Tone tone;
@@ -24,4 +24,4 @@ struct Picture::Data {
   std::vector<Diagnostic> warnings;
 };
 
-}  // namespace eyeray::v0
+}  // namespace eyeray::inline v0

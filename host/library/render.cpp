@@ -81,7 +81,7 @@ void render_into(v0::Picture::Data& picture, v0::Renderer::Data& renderer, const
 }  // namespace
 }  // namespace eyeray::engine::library
 
-namespace eyeray::v0 {
+namespace eyeray::inline v0 {
 
 Picture Renderer::render(const Scene& scene, const RenderOptions& options) {
   auto picture = std::make_shared<Picture::Data>();
@@ -98,4 +98,4 @@ Picture Renderer::render(const Scene& scene, const RenderOptions& options) {
   return Picture(std::move(picture));
 }
 
-}  // namespace eyeray::v0
+}  // namespace eyeray::inline v0

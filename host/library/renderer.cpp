@@ -85,7 +85,7 @@ void call_renderer(v0::Renderer::Data& renderer, const v0::Cancellation& cancell
 
 }  // namespace eyeray::engine::library
 
-namespace eyeray::v0 {
+namespace eyeray::inline v0 {
 
 Cancellation::Cancellation() : data_(std::make_shared<Data>()) {}
 
@@ -117,4 +117,4 @@ Renderer::~Renderer() {
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
-}  // namespace eyeray::v0
+}  // namespace eyeray::inline v0

@@ -12,7 +12,7 @@
 #include "host/render/render.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray::v0 {
+namespace eyeray::inline v0 {
 
 struct Cancellation::Data {
   std::atomic<bool> requested = false;
@@ -24,7 +24,7 @@ struct Renderer::Data {
   bool warned_of_caches = false;
 };
 
-}  // namespace eyeray::v0
+}  // namespace eyeray::inline v0
 
 namespace eyeray::engine::library {
 

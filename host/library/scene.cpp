@@ -28,7 +28,7 @@ v0::Scene parse(std::string_view toml, std::string_view name, const v0::SceneOpt
 
 }  // namespace eyeray::engine::library
 
-namespace eyeray::v0 {
+namespace eyeray::inline v0 {
 
 Scene Scene::Data::checked(engine::Scene read) {
   engine::Scene scene = engine::session::checked(std::move(read));
@@ -60,4 +60,4 @@ const std::vector<Diagnostic>& Scene::warnings() const noexcept {
   return data_->warnings;
 }
 
-}  // namespace eyeray::v0
+}  // namespace eyeray::inline v0

@@ -10,7 +10,7 @@
 #include "host/loader/scene_file.hpp"
 #include "host/scene/scene.hpp"
 
-namespace eyeray::v0 {
+namespace eyeray::inline v0 {
 
 struct Scene::Data {
   engine::Scene scene;
@@ -20,7 +20,7 @@ struct Scene::Data {
   static Scene checked(engine::Scene scene);
 };
 
-}  // namespace eyeray::v0
+}  // namespace eyeray::inline v0
 
 namespace eyeray::engine::library {
 

@@ -63,7 +63,7 @@ std::string ply(const v0::MeshArrays& mesh) {
 }  // namespace
 }  // namespace eyeray::engine::library
 
-namespace eyeray::v0 {
+namespace eyeray::inline v0 {
 
 struct SceneBuilder::Data {
   std::string text;
@@ -104,4 +104,4 @@ Scene SceneBuilder::scene(std::string_view name, const SceneOptions& options) co
   return engine::library::parse(data_->text, name, options, data_->meshes);
 }
 
-}  // namespace eyeray::v0
+}  // namespace eyeray::inline v0

@@ -40,7 +40,7 @@ std::string lines(const v0::Table& table) {
 
 }  // namespace eyeray::engine::library
 
-namespace eyeray::v0 {
+namespace eyeray::inline v0 {
 
 // to_chars writes the shortest that is read back the same; what has neither point nor exponent is read as an
 // integer, which every key that wants a number takes, and keys that want an integer take from 3.0.
@@ -81,4 +81,4 @@ Table& Table::set(std::string_view key, const Value& value) {
   return *this;
 }
 
-}  // namespace eyeray::v0
+}  // namespace eyeray::inline v0

@@ -7,7 +7,7 @@
 #include "host/library/scene.hpp"
 #include "host/session/request.hpp"
 
-namespace eyeray::v0 {
+namespace eyeray::inline v0 {
 
 Report Renderer::verify(const Scene& scene, const VerifyOptions& options) {
   Report report;
@@ -31,4 +31,4 @@ Report Renderer::verify(const Scene& scene, const VerifyOptions& options) {
   return report;
 }
 
-}  // namespace eyeray::v0
+}  // namespace eyeray::inline v0

@@ -29,7 +29,7 @@ struct Opening {
   bool declares_only;  // nothing but forward declarations
 };
 
-const std::regex opening(R"(^(?:inline )?namespace ([\w:]*) ?\{$)");
+const std::regex opening(R"(^(?:inline )?namespace ([\w:]*(?:inline \w+)?) ?\{$)");
 const std::regex closing(R"(^\}(?:  // namespace.*)?$)");
 const std::regex declaration(R"(^(?:class|struct) (\w+);.*$)");
 
@@ -72,7 +72,7 @@ std::vector<Line> top_level(const SourceFile& file) {
 bool in_its_own_namespace(const SourceFile& file, const std::string& name) {
   const std::string own = "eyeray::engine::" + file.layer();
   if (name == own || name.starts_with(own + "::")) return true;
-  if (file.layer() == "library" && name == "eyeray::v0") return true;  // what other programs know
+  if (file.layer() == "library" && name == "eyeray::inline v0") return true;  // what other programs know
   if (of_everyone.contains(file.layer()) && (name == "eyeray::engine" || name == "eyeray::engine::detail"))
     return true;
   return speaks_shader.contains(file.layer()) && name == "eyeray::engine::shader";

@@ -159,7 +159,7 @@ TEST_CASE("what cannot be shared is refused before it is rendered") {
     CHECK(folder.names() == std::set<std::string>{"scene.toml"});
     return result.err;
   };
-  CHECK(refusal({"--noise", "0.1"}).find("--noise looks at a pixel's neighbours") != std::string::npos);
+  CHECK(refusal({"--noise", "0.1"}).find("noise is measured from a pixel's neighbours") != std::string::npos);
   CHECK(refusal({"--classic"}).find("--classic makes pixels of corners") != std::string::npos);
   CHECK(refusal({"--half"}).find("eyeray merge") != std::string::npos);
   CHECK(refusal({"-o", folder / "a.png"}).find("--shard writes one part") != std::string::npos);
