@@ -32,7 +32,7 @@ std::string plain_words(const std::string& text) {
       {std::regex(R"(^(.+) was given a disallowed flag override$)"), "--$1 takes no value"},
       {std::regex(R"(^(.+) excludes (.+)$)"), "$1 and $2 exclude each other"},
       {std::regex(R"(^Could not convert: (.+?) = ([^]*)$)"), "$1 does not take the value '$2'"},
-      // Of option_values.hpp, behind the option's name.
+      // The texts of option_values.hpp, which follow the option's name.
       {std::regex(R"(^([\w-]+): ((?:is|wants) [^]*)$)"), "$1 $2"}};
   for (const auto& [pattern, words] : rules)
     if (std::regex_match(text, pattern)) return std::regex_replace(text, pattern, words);

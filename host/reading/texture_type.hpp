@@ -17,7 +17,7 @@ struct TextureType {
   std::string_view manual;
   std::span<const Key> keys = {};
   TexturePtr (*parse)(TableReader& table) = nullptr;  // null after an error, which is reported to the table
-  // Of the kind that is written as a plain color, and has no table.
+  // Only for the kind that is written as a plain color, without a table.
   TexturePtr (*of_color)(const Vec3& color) = nullptr;
 
   // Whether its name is one of its keys and the others stand beside it, { image = "a.png", wrap = … }, or

@@ -31,7 +31,7 @@ class Brightness {
       counts_{};  // by the upper bits of a float32: exponent, and three of its fraction
 };
 
-// Of all pixels of some rows of colours.
+// The luminances of all pixels in rows of colours, added.
 double sum_of_luminances(const image::Image& rows);
 
 }  // namespace eyeray::engine::render

@@ -30,7 +30,7 @@ class Legibility {
   int64_t bright_ = 0;      // of these, with all channels beyond 1
 };
 
-// Of the picture of a model alone in eyeray's own light; nothing for a scene that someone lit.
+// For a model alone in eyeray's own light; nothing for other scenes, or with an environment.
 std::optional<Legibility> legibility_of(const Scene& scene);
 
 }  // namespace eyeray::engine::render

@@ -16,7 +16,7 @@ std::vector<Displacement> ways_of_sample(const Sampling& sampling, Chance chance
       {.share = share, .seed = seed, .room = float32_room},
   };
   if (sampling.random_paths) {
-    // Weights ask how far off a ray starts, where a lamp or the surface's own curve is as near as that: so
+    // Weights ask how far off a ray starts, where a light or the surface's own curve is as near as that: so
     // twice as far, and eight times, as a bilinear patch has it (docs/numerics.md). Long paths bring other
     // light for less than that: so an eighth as well. And directions are rounded as numbers are that they
     // are drawn by.

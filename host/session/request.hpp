@@ -34,7 +34,8 @@ struct Request {
   size_t band_bytes = render::RenderOptions().band_bytes;
   std::string overrides;                                  // what was laid over the scene's file, as text
   std::function<void(const render::Progress&)> progress;  // first before kernels compile; may be empty
-  std::function<void(const std::string&)> warn;  // is told at once what will cost time later; may be empty
+  std::function<void(const std::string&)>
+      warn;  // gets at once what would cost time if it came later; may be empty
 };
 
 // A scene that was read, with the doubts about its formulas among its warnings. InputError for formulas that

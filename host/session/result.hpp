@@ -36,7 +36,7 @@ struct Result {
   double share() const;
   // A pixel's, on the mean.
   double mean_samples() const { return pixels > 0 ? double(totals.samples_taken) / double(pixels) : 0; }
-  // Of this run.
+  // The rate of this run, without resumed rays.
   double rays_per_second() const;
 };
 

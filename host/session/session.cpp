@@ -142,7 +142,7 @@ class Rendering {
     quality.flags |= first_hit_flags_;
     quality.flagged = std::max(quality.flagged, result_.flagged_hits);
     if (legibility_) quality.illegible = legibility_->warning();
-    // Of a share only its flags are known: the rest is for the picture to say.
+    // A share warns of its flags only: the other doubts concern the whole picture.
     result_.warnings = warnings_of(
         request_.shard ? PictureQuality{.flags = quality.flags, .flagged = quality.flagged} : quality);
   }

@@ -38,7 +38,7 @@ inline std::vector<SourceFile> source_files(const std::string& folder) {
   return files;
 }
 
-// Of every layer.
+// The files of every layer.
 inline std::vector<SourceFile> layer_files() {
   std::vector<SourceFile> files = source_files("host");
   std::ranges::move(source_files("benchmarks"), std::back_inserter(files));

@@ -175,7 +175,7 @@ TEST_CASE("every command explains itself with an example, in lines that fit") {
 }
 
 TEST_CASE("help is as wide as the terminal, and 110 columns elsewhere") {
-  // Of options: what is behind them are examples.
+  // Options only: examples follow them.
   const auto widest = [](const std::string& help) {
     std::istringstream lines(help.substr(0, help.find("Examples:")));
     size_t columns = 0;

@@ -96,7 +96,7 @@ TEST_CASE("which of a mesh's two uv is its second does not show") {
 
     const Frame twin = render_frame(one, Backend::twin);
     CHECK(compare_exactly(render_frame(one, Backend::gpu), twin).passes(0));
-    // Of paths only the mean is the reference's.
+    // Paths agree with the reference in their mean only.
     if (integrator != IntegratorType::path) {
       const ReferenceComparison reference = test::compare_with_reference(one, twin);
       CHECK(reference.first_hits.passes());

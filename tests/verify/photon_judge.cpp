@@ -22,7 +22,7 @@ Scene scene_of(const std::string& file) {
                                                                 {"image.height=18"}});
 }
 
-// Of the twin's photons, some of them changed.
+// The twin's photons, some of them changed.
 verify::JudgedPhotons judge(const Scene& scene, const std::function<void(std::vector<PhotonWay>&)>& change) {
   const auto twin = executors::make_twin_executor(scene, {});
   const auto changed = [&](uint32_t index) {
