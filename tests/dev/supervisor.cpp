@@ -11,10 +11,10 @@ using namespace eyeray::engine::dev;
 
 namespace {
 
-// Renders nothing. The first probe takes it until a newer request has come. On a busy machine the supervisor
-// may start it anew meanwhile: a file counts the probes of both.
+// Renders nothing. Until a request has defines, a probe lasts until the next request. On a busy machine the
+// supervisor kills such a worker, perhaps before it has read the probe, and starts another.
 constexpr const char* worker_script = R"(
-import json, os, socket, struct, sys
+import json, socket, struct, sys
 end = socket.socket(fileno=int(sys.argv[1]))
 def read(count):
     data = b''
@@ -31,18 +31,17 @@ def receive():
 def send(**message):
     text = json.dumps(message).encode()
     end.sendall(struct.pack('<II', len(text), 0) + text)
-generation = 0
+render = {}
 while True:
     message = receive()
     if message['do'] == 'probe':
-        with open(os.environ['PROBES'], 'a') as file: file.write('.')
-        probes = os.path.getsize(os.environ['PROBES'])
-        newer = receive() if probes == 1 else None
-        send(event='probed', generation=generation, x=message['x'], y=message['y'], number=probes)
+        newer = None if render['defines'] else receive()
+        send(event='probed', generation=render['generation'], x=message['x'], y=message['y'],
+             defines=render['defines'])
         if newer is None: continue
         message = newer
-    generation = message['generation']
-    send(event='done', generation=generation, view='gpu', last=True)
+    render = message
+    send(event='done', generation=render['generation'], view='gpu', last=True)
 )";
 
 class Supervised {
@@ -77,8 +76,7 @@ class Supervised {
  private:
   SupervisorOptions options() const {
     SupervisorOptions options;
-    options.worker = {"/usr/bin/env", "PROBES=" + folder_ / "probes", "/usr/bin/python3", "-c",
-                      worker_script};
+    options.worker = {"/usr/bin/python3", "-c", worker_script};
     options.scene = folder_ / "scene.toml";
     options.port = 0;
     return options;
@@ -102,7 +100,7 @@ TEST_CASE("a probe that an edit overtakes is asked again, and its answer names t
   dev.command(R"({"probe": [3, 4]})");
   dev.command(R"({"defines": {"camera.fov": "30"}})");
   dev.step_until([&] { return !dev.probe().is_null(); });
-  CHECK(dev.probe().at("number") == 2);
+  CHECK(dev.probe().at("defines") == Json{"camera.fov=30"});
   CHECK(dev.probe().at("x") == 3);
   CHECK(dev.probe().at("edit") == first + 1);
 
