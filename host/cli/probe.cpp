@@ -1,4 +1,4 @@
-// eyeray probe: the rays of one pixel, by every executor (docs/verification.md, the probe).
+// eyeray probe: the rays of one pixel, by every executor (docs/report.md, the probe).
 #include "host/probe/probe.hpp"
 
 #include <unistd.h>

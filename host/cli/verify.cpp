@@ -1,4 +1,4 @@
-// eyeray verify: gpu, twin and reference on one scene after the other (docs/verification.md).
+// eyeray verify: gpu, twin and reference on one scene after the other (docs/verify.md).
 #include "host/verify/verify.hpp"
 
 #include <algorithm>

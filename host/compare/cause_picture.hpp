@@ -10,7 +10,7 @@
 namespace eyeray::engine::compare {
 
 // `background`, linear, dark and grey, and over it each pixel that does not match in the colour of its cause:
-// unexplained ones red, others as Okabe and Ito choose for all kinds of eyes (docs/verification.md). One
+// unexplained ones red, others as Okabe and Ito choose for all kinds of eyes (docs/report.md). One
 // outcome a pixel.
 image::Image cause_picture(const image::Image& background, const std::vector<PixelOutcome>& outcomes);
 

@@ -1,4 +1,4 @@
-// Gate R: what the device's rasteriser draws is what eye rays hit (docs/verification.md).
+// Gate R: what the device's rasteriser draws is what eye rays hit (docs/gates.md).
 #pragma once
 
 #include <array>

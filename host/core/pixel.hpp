@@ -18,8 +18,8 @@ struct PixelSample {
   uint32_t reflected = 0;
   uint32_t refracted = 0;
   uint32_t total_reflections = 0;  // where a refracted ray would have been followed, had there been one
-  uint32_t trail = 1;    // a fingerprint of what a random path decided (docs/verification.md); else 1
-  bool cut_off = false;  // whether `max_depth` ended its path; of those that walk at random
+  uint32_t trail = 1;              // a fingerprint of what a random path decided (docs/gates.md); else 1
+  bool cut_off = false;            // whether `max_depth` ended its path; of those that walk at random
 };
 
 // What a denoiser asks of one sample of one pixel: of the first vertex of its path that sends light in more

@@ -1,4 +1,4 @@
-// Looks into one sample of one pixel, by several executors (docs/verification.md, the probe).
+// Looks into one sample of one pixel, by several executors (docs/report.md, the probe).
 #pragma once
 
 #include <optional>

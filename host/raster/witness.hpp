@@ -1,5 +1,5 @@
 // Rasterised visibility as a witness of eye rays: forward mapping against inverse mapping. A scene's
-// triangles are drawn once, and what executors hit first is compared with that (docs/verification.md, gate
+// triangles are drawn once, and what executors hit first is compared with that (docs/gates.md, gate
 // R).
 #pragma once
 

@@ -1,4 +1,4 @@
-// Renders a scene by every executor and compares them, gate by gate (docs/verification.md).
+// Renders a scene by every executor and compares them, gate by gate (docs/gates.md).
 #pragma once
 
 #include <filesystem>

@@ -309,7 +309,7 @@ struct VerifyOptions {
   Cancellation cancellation = {};
 };
 
-// The findings of `eyeray verify` (docs/verification.md).
+// The findings of `eyeray verify` (docs/report.md).
 struct [[nodiscard]] Report {
   bool passed = false;
   std::vector<std::string> failures;  // a sentence each

@@ -1,4 +1,4 @@
-// A fingerprint of what a path decides on its way, so that verify can tell samples apart whose paths part (docs/verification.md): what is hit,
+// A fingerprint of what a path decides on its way, so that verify can tell samples apart whose paths part (docs/gates.md): what is hit,
 // which light is seen, and by which lobe it goes on. Each is an event; the reference has the same ones in the same order.
 #ifndef TRAIL_GLSL
 #define TRAIL_GLSL

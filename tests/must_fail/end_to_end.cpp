@@ -181,7 +181,7 @@ TEST_CASE("without a fault verify passes and keeps nothing") {
 
 TEST_CASE("every fault has its place in a shader, what is expected of it, and a row in the documents") {
   const TemporaryFolder folder;
-  const std::string document = read_text("docs/verification.md");
+  const std::string document = read_text("docs/gates.md");
   std::set<std::string> names, expected;
   for (const Fault& fault : faults) {
     const std::string name(fault.name);

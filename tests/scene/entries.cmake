@@ -169,9 +169,9 @@ eyeray_mode(paths.whitted small -s 48x36 --spp 2 --tune constants=off --integrat
 foreach(size 1x1 7x3 1x300 300x1 17x33)
   eyeray_verify(mode.size-${size} mode QUICK ${some} -s ${size})
 endforeach()
-# Rays that start beyond another face of the same glass box (docs/verification.md, rounding).
+# Rays that start beyond another face of the same glass box (docs/rounding.md).
 eyeray_verify(mode.contact mode scenes/shapes/box.toml -s 640x427 --crop 476,250,24,24)
-# Sizes that put a row or a column of pixels onto an edge, or one beside a caustic's rim (docs/verification.md, undecidable). What the
+# Sizes that put a row or a column of pixels onto an edge, or one beside a caustic's rim (docs/report.md, causes: undecidable). What the
 # kernels make is the twin's, bit by bit, at any size: those that take seconds to make are left out.
 foreach(size 126x63 160x79)
   eyeray_verify(mode.edge-row-${size} mode scenes/edges/grazing.toml -s ${size})
@@ -229,7 +229,7 @@ eyeray_verify(validation.core.no-constants.shapes validation NIGHTLY ${SHAPE_SCE
 eyeray_verify(validation.sync validation QUICK ${set} --validate sync)
 eyeray_verify(validation.sync.no-constants validation ${set} --validate sync --tune constants=off)
 
-# Mutants of the shaders, three that gates B and C tell (docs/verification.md, mutants).
+# Mutants of the shaders, three that gates B and C tell (docs/proving-the-proof.md, mutants).
 add_test(NAME mutate COMMAND python3 scripts/mutate --files math/rng.glsl --count 3 --jobs 1 --least 1 --eyeray $<TARGET_FILE:eyeray>
   WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
 set_tests_properties(mode.packets mode.slow-kernels.packets mode.jittered scene.shapes.mandelbulb scene.shapes.sculpture PROPERTIES COST 40)

@@ -8,7 +8,7 @@
 
 namespace eyeray::engine::test {
 
-// In a shader's file the text `from` becomes `to`. docs/verification.md says what each does, and what the
+// In a shader's file the text `from` becomes `to`. docs/gates.md says what each does, and what the
 // report says of it.
 struct Fault {
   std::string_view name;

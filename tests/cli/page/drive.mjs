@@ -1,5 +1,5 @@
 // Drives Debian's Chromium through the page of a report: node drive.mjs PAGE FOLDER. Screenshots go to FOLDER; exit code 1 with the reason
-// where the page does not do what docs/verification.md says of it.
+// where the page does not do what docs/report.md says of it.
 import assert from 'node:assert/strict';
 import { pathToFileURL } from 'node:url';
 import { chromium } from 'playwright-core';
