@@ -1,5 +1,5 @@
 // Closed rooms of every kind: paths that bounce about within them, at random and from edge to edge, stay in.
-// docs/numerics.md has the figures; EYERAY_FULL_TESTS=1 makes them.
+// docs/experiments/rooms.md has the figures; EYERAY_FULL_TESTS=1 makes them.
 #include <fmt/format.h>
 
 #include <atomic>
@@ -230,7 +230,7 @@ std::map<std::string, std::string> rooms_with_cuts() {
   return all;
 }
 
-// These still lose some paths (docs/numerics.md), at most 1 of 10 000.
+// These still lose some paths (docs/experiments/rooms.md), at most 1 of 10 000.
 const std::set<std::string> leaking = {
     "prism",    "prism less a ball",       "prism cut to a ball", "polygons with holes",
     "bilinear", "cone cut off less a ball"};
