@@ -20,7 +20,10 @@ struct LightType {
   std::unique_ptr<Light> (*parse)(TableReader& table);  // null after an error, which is reported to the table
 };
 
-// Every kind of light, in registry order.
+// The `type` of lights that are shapes. The loader makes these: they are no kind of Light.
+inline constexpr std::string_view area_type = "area";
+
+// Every kind of Light, in registry order.
 std::span<const LightType* const> types();
 
 }  // namespace eyeray::engine::lights

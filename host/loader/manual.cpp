@@ -2,6 +2,7 @@
 
 #include "host/cameras/registry.hpp"
 #include "host/lights/registry.hpp"
+#include "host/loader/area_lights.hpp"
 #include "host/loader/environments.hpp"
 #include "host/loader/scene_file.hpp"
 #include "host/loader/sections.hpp"
@@ -94,7 +95,11 @@ std::string scene_manual() {
                             [](uint32_t i) { return reference::integrator(IntegratorType(i)).manual; });
     if (section.kind == camera) text += kinds_manual(cameras::types());
     if (section.kind == environment) text += kinds_manual(environment_types());
-    if (section.kind == light) text += kinds_manual(lights::types());
+    if (section.kind == light) {
+      text += kinds_manual(lights::types());
+      text += fmt::format("### `type = \"{}\"`\n\n", lights::area_type) + trimmed(area_manual()) +
+              key_table({area_keys()});
+    }
     if (section.kind != material) continue;
     text += kinds_manual(materials::types());
     text += textures_manual();

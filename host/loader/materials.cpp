@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "host/loader/kinds.hpp"
+#include "host/materials/make.hpp"
 #include "host/materials/normal_map.hpp"
 #include "host/materials/registry.hpp"
 
@@ -81,6 +82,19 @@ int Materials::find(reading::TableReader& shape) {
   shape.error("material", fmt::format("no [[material]] is named \"{}\"{}", name,
                                       nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", nearest)));
   return 0;
+}
+
+int Materials::emitter(const Vec3& radiance, bool in_front) {
+  for (const int index : emitters_) {
+    const Material& known = *scene_.materials[size_t(index)];
+    if (known.constant_emission() == radiance && known.emits_in_front == in_front) return index;
+  }
+  auto material = materials::make_phong(
+      {.diffuse = textures::make_constant(Vec3(0)), .emission = textures::make_constant(radiance)});
+  material->emits_in_front = in_front;
+  emitters_.push_back(int(scene_.materials.size()));
+  scene_.materials.push_back(std::move(material));
+  return emitters_.back();
 }
 
 void Materials::check() const {

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "host/loader/sections.hpp"
 #include "host/reading/table.hpp"
@@ -20,6 +21,9 @@ class Materials {
   void add(const Section& section, const toml::table& table);
   // The index in Scene::materials of what the table's `material` names; after an error 0.
   int find(reading::TableReader& shape);
+  // The index in Scene::materials of one that emits this radiance, in front or on both sides, and reflects
+  // nothing.
+  int emitter(const Vec3& radiance, bool in_front);
   // Says where a scene that is otherwise whole has too many of them, or some that nothing is made of.
   void check() const;
 
@@ -34,6 +38,7 @@ class Materials {
   const reading::ValueSources& values_;
   DiagnosticLog& log_;
   std::map<std::string, Named, std::less<>> by_name_;
+  std::vector<int> emitters_;  // in Scene::materials
   size_t media_ = 0;
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "host/loader/area_lights.hpp"
 #include "host/loader/batch.hpp"
 #include "host/loader/cameras.hpp"
 #include "host/loader/csg_reader.hpp"
@@ -79,6 +80,10 @@ class Builder {
     scene_.verify = read_verify(verify);
 
     for_each(root_, "light", [&](const Section& section, const toml::table& table) {
+      if (is_area_light(table)) {
+        if (const AreaShape* shape = area_shape(table, log_)) area_lights_.push_back({shape, &table});
+        return;
+      }
       if (++lights_ == most_lights + 1) {
         log_.error(reading::position_of(table.source()),
                    fmt::format("a scene can have at most {} lights", most_lights));
@@ -146,6 +151,7 @@ class Builder {
   }
 
   void add_placed(const toml::table& holder, const Placing& group);
+  void add_area_lights(std::string_view shape);
   void add_table(const Section& section, const toml::table& table, const Placing& group);
   template <typename Add>
   size_t for_each_placed(const Section& section, const toml::table& table, const Placing& group,
@@ -175,6 +181,7 @@ class Builder {
   Group* building_ = nullptr;                           // where shapes and meshes go; null: into the scene
   size_t lights_ = 0;
   std::vector<SourcePosition> light_positions_ = {};  // of scene_.lights
+  std::vector<std::pair<const AreaShape*, const toml::table*>> area_lights_ = {};
   bool tried_shapes_ = false;
 };
 
@@ -186,6 +193,21 @@ void Builder::add_placed(const toml::table& holder, const Placing& group) {
       if (section.kind == Section::Kind::group && GroupPlan::is_pattern(table)) return;
       add_table(section, table, group);
     });
+    if (&holder == &root_) add_area_lights(name);
+  }
+}
+
+// The area lights that are such shapes: Scene::shapes stay in registry order.
+void Builder::add_area_lights(std::string_view shape) {
+  for (const auto& [light, table] : area_lights_) {
+    if (light->section.shape->name != shape) continue;
+    for_each_placed(light->section, *table, Placing{},
+                    [&](reading::TableReader& reader, const Placing& placed) {
+                      const bool in_front = reader.choice("emission_side") == 1;
+                      const int material = materials_.emitter(reader.color("intensity"), in_front);
+                      if (auto made = parse_shape(light->section, reader, placed, material))
+                        scene_.shapes.push_back(std::move(made));
+                    });
   }
 }
 
@@ -352,9 +374,14 @@ void Builder::add_mesh(reading::TableReader& reader, const Placing& placing) {
 void Builder::check_whole(reading::TableReader& render) {
   const bool empty = scene_.shapes.empty() && scene_.instances.empty() && scene_.group_instances.empty();
   if (empty && !tried_shapes_) log_.warning({}, "the scene has no shapes: only background will be seen");
-  if (scene_.lights.empty() && traits_of(scene_.render.integrator).shadow_rays == ShadowRays::each_light &&
-      !empty) {
-    log_.warning({}, "the scene has no [[light]]: shapes are lit by `ambient` of [render] only");
+  if (traits_of(scene_.render.integrator).shadow_rays == ShadowRays::each_light && !empty) {
+    if (scene_.lights.empty() && area_lights_.empty())
+      log_.warning({}, "the scene has no [[light]]: shapes are lit by `ambient` of [render] only");
+    if (!area_lights_.empty())
+      log_.warning(reading::position_of(area_lights_.front().second->source()),
+                   fmt::format("integrator = \"{}\" shows area lights and casts no light from them; \"path\" "
+                               "and \"sppm\" do",
+                               integrator_names[size_t(scene_.render.integrator)]));
   }
   if (walks_at_random(scene_.render.integrator) && !empty && !log_.has_errors()) warn_of_paths(scene_, log_);
   if (sends_photons(scene_.render.integrator) && !log_.has_errors())

@@ -7,6 +7,7 @@
 #include "host/cameras/registry.hpp"
 #include "host/core/escaped_text.hpp"
 #include "host/lights/registry.hpp"
+#include "host/loader/area_lights.hpp"
 #include "host/loader/environments.hpp"
 #include "host/loader/scene_file.hpp"
 #include "host/loader/sections.hpp"
@@ -219,9 +220,9 @@ Json shapes_of_csg() {
   return shapes;
 }
 
-// Required keys may stand in the batch instead.
-Json placed_schema(const Section& section) {
-  Json schema = table_schema(section.shape ? part_keys() : section.keys);
+// Required keys may stand in the batch instead. `keys`: beside those of the shape.
+Json placed_schema(const Section& section, std::span<const Key> keys) {
+  Json schema = table_schema(keys);
   if (section.shape) add_keys(schema, section.shape->keys);
   Json lists = Json::object();
   for (const auto& [name, value] : schema["properties"].items()) {
@@ -255,12 +256,23 @@ Json placed_schema(const Section& section) {
   return schema;
 }
 
+Json lights_schema(const Section& section) {
+  Json schema = kinds_schema(section, lights::types());
+  for (const AreaShape& shape : area_shapes()) {
+    Json one = placed_schema(shape.section, shape.section.keys);
+    one["properties"]["type"] = {{"const", lights::area_type}};
+    one["properties"]["shape"] = {{"const", shape.name}};
+    schema["oneOf"].push_back(std::move(one));
+  }
+  return schema;
+}
+
 Json section_schema(const Section& section) {
   if (section.is_placed()) return list_schema(world_ray(section));
   if (section.kind == Section::Kind::material) return list_schema(kinds_schema(section, materials::types()));
   if (section.kind == Section::Kind::camera) return kinds_schema(section, cameras::types());
   if (section.kind == Section::Kind::environment) return kinds_schema(section, environment_types());
-  if (section.kind == Section::Kind::light) return list_schema(kinds_schema(section, lights::types()));
+  if (section.kind == Section::Kind::light) return list_schema(lights_schema(section));
   return section.many() ? list_schema(table_schema(section.keys)) : table_schema(section.keys);
 }
 
@@ -276,7 +288,9 @@ std::string scene_schema() {
     Json described = section.doc.empty() ? Json::object() : Json{{"description", section.doc}};
     described.update(section_schema(section));
     properties[std::string(section.name)] = std::move(described);
-    if (section.is_placed()) definitions[std::string(section.name)] = placed_schema(section);
+    if (section.is_placed())
+      definitions[std::string(section.name)] =
+          placed_schema(section, section.shape ? part_keys() : section.keys);
   }
   const Json schema = {
       {"$schema", "https://json-schema.org/draft/2020-12/schema"},

@@ -49,16 +49,20 @@ std::span<const Key> camera_keys() {
 }
 
 std::span<const Key> light_keys() {
-  static const std::vector<std::string_view> names = names_of(lights::types());
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> all = names_of(lights::types());
+    all.push_back(lights::area_type);
+    return all;
+  }();
   static const Key keys[] = {
-      {.name = "type",
-       .type = KeyType::choice,
-       .doc = "Its kind; see below.",
-       .choices = names,
-       .hint = "; a shape whose material has `emission` is an area light"},
+      {.name = "type", .type = KeyType::choice, .doc = "Its kind; see below.", .choices = names},
+      {.name = "name",
+       .type = KeyType::string,
+       .doc = "What `-D` and [[track]] call it; several may share a name.",
+       .optional = true},
       {.name = "intensity",
        .type = KeyType::color,
-       .doc = "The light that arrives, at distance 1 from a point light.",
+       .doc = "The light that arrives, at distance 1 from a point light; the radiance of an area light.",
        .fallback = "1"},
   };
   return keys;

@@ -1,0 +1,33 @@
+// [[light]] tables of type "area": shapes that emit light, written as lights.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <string_view>
+
+#include "host/core/diagnostic_log.hpp"
+#include "host/loader/sections.hpp"
+
+namespace eyeray::engine::loader {
+
+// A shape that an area light may have.
+struct AreaShape {
+  std::string_view name;  // `shape` in the light's table
+  Section section;        // how the table is read: as a shape's, with the keys of lights for its own
+};
+
+// In the order of the manual.
+std::span<const AreaShape> area_shapes();
+
+// The keys that all area lights have, beside those of every light.
+std::span<const reading::Key> area_keys();
+
+// Markdown, without the keys.
+std::string_view area_manual();
+
+bool is_area_light(const toml::table& light);
+
+// The shape that an area light's table names. Null after an error, which is in the log.
+const AreaShape* area_shape(const toml::table& light, DiagnosticLog& log);
+
+}  // namespace eyeray::engine::loader

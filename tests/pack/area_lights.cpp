@@ -1,0 +1,78 @@
+// Area lights of [[light]], beside the shapes that they are.
+#include <cstring>
+
+#include "host/loader/scene_file.hpp"
+#include "host/pack/pack.hpp"
+//
+#include "tests/support/doctest.hpp"
+
+using namespace eyeray::engine;
+
+namespace {
+
+// A floor and `lights`, path traced.
+Scene scene_of(const std::string& lights) {
+  return loader::parse_scene(R"(
+[render]
+integrator = "path"
+[[material]]
+name = "floor"
+type = "diffuse"
+[[plane]]
+point = [0, 0, 0]
+normal = [0, 1, 0]
+material = "floor"
+)" + lights,
+                             "scene.toml");
+}
+
+template <typename T>
+bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+struct Written {
+  std::string shape, table, keys;
+};
+
+const Written shapes[] = {
+    {"triangle", "triangle", "vertices = [[0, 2, 0], [1, 2, 0], [0, 2, 1]]\n"},
+    {"rectangle", "parallelogram", "origin = [0, 3, 0]\nedge_u = [1, 0, 0]\nedge_v = [0, 0, 1]\n"},
+    {"disk", "disk", "center = [0, 1, 0]\nnormal = [0, -1, 0]\nradius = 2\n"},
+    {"sphere", "sphere", "batch = { center = [[3, 3, 0], [5, 3, 0]], radius = [1, 0.5] }\n"},
+};
+constexpr const char* transform = "transform = [{ translate = [0, 1, 0] }]\n";
+
+}  // namespace
+
+TEST_CASE("an area light is packed as the shape of a black material that emits as much") {
+  for (const std::string side : {"both", "front"}) {
+    CAPTURE(side);
+    std::string lights;
+    std::string emitters =
+        "[[material]]\nname = \"lit\"\ntype = \"phong\"\ndiffuse = 0\nemission = [1, 2, 3]\nemission_side = "
+        "\"" +
+        side + "\"\n";
+    for (const Written& it : shapes) {
+      lights += "[[light]]\ntype = \"area\"\nshape = \"" + it.shape +
+                "\"\nintensity = [1, 2, 3]\nemission_side = \"" + side + "\"\n" + transform + it.keys;
+      emitters += "[[" + it.table + "]]\nmaterial = \"lit\"\n" + transform + it.keys;
+    }
+    const records::PackedScene packed = pack::pack(scene_of(lights));
+    const records::PackedScene expected = pack::pack(scene_of(emitters));
+    CHECK(packed.emitters.size() == 5);
+    CHECK(packed.lights.empty());
+    CHECK(same_bytes(packed.primitives, expected.primitives));
+    CHECK(same_bytes(packed.materials, expected.materials));
+    CHECK(same_bytes(packed.emitters, expected.emitters));
+  }
+}
+
+TEST_CASE("an area light emits in front unless its table says otherwise, with radiance 1") {
+  const Scene scene =
+      scene_of("[[light]]\ntype = \"area\"\nshape = \"disk\"\nname = \"moon\"\n" + shapes[2].keys);
+  REQUIRE(scene.materials.size() == 2);
+  CHECK(scene.materials.back()->emits_in_front);
+  CHECK(scene.materials.back()->constant_emission() == Vec3(1));
+  CHECK(scene.warnings.empty());
+}
