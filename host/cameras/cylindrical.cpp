@@ -11,7 +11,8 @@ extern const CameraType cylindrical_type;
 namespace {
 
 constexpr std::string_view manual =
-    R"(The picture is wrapped round the eye: what is upright stays straight, and all the horizon may be in view.
+    R"(The picture lies on a cylinder around the eye. Upright lines stay straight, and the whole horizon may be in
+view.
 
 ```toml
 [image]
@@ -29,7 +30,7 @@ fov = 360
 constexpr Key keys[] = {
     {.name = "fov",
      .type = KeyType::number,
-     .doc = "Angle that the picture's width spans, in degrees.",
+     .doc = "Angle of view across the picture's width, in degrees.",
      .fallback = "180",
      .min = 0,
      .max = 360,

@@ -15,8 +15,9 @@ extern const CameraType fisheye_type;
 namespace {
 
 constexpr std::string_view manual =
-    R"(A circle that shows up to all directions there are: the distance from its middle is the angle from the
-way the camera looks (equidistant). The picture is black around it.
+    R"(A circle that shows all directions within half of `fov`, up to every direction there is. The distance of a
+point from the circle's centre is proportional to its angle from the viewing direction (equidistant). The
+picture is black outside the circle.
 
 ```toml
 [camera]
@@ -31,14 +32,14 @@ fov = 180
 constexpr Key keys[] = {
     {.name = "fov",
      .type = KeyType::number,
-     .doc = "Full angle that the circle spans, in degrees.",
+     .doc = "Full angle of view across the circle, in degrees.",
      .fallback = "180",
      .min = 0,
      .max = 360,
      .above_min = true},
     {.name = "fov_axis",
      .type = KeyType::choice,
-     .doc = "The side of the picture that is as long as the circle is wide.",
+     .doc = "The side of the picture that equals the circle's diameter.",
      .fallback = "\"shorter\"",
      .choices = fov_axis_names},
 };

@@ -14,8 +14,8 @@ extern const CameraType formula_type;
 namespace {
 
 constexpr std::string_view manual =
-    R"(A camera of your own: a function says in which direction the ray goes that passes a place in the picture.
-[formulas.md](formulas.md) says which GLSL it may be.
+    R"(A user-defined camera. A function returns the direction of the ray that passes through a point of the picture.
+[formulas.md](formulas.md) describes the GLSL that it may use.
 
 ```toml
 [camera]
@@ -28,17 +28,18 @@ vec3 direction(vec2 place, vec2 lens) { return vec3(place, distance); }
 """
 ```
 
-`place` is measured from the middle of the picture to the right and up: its left and right borders are at x = −1 and 1,
-its upper one at y = height / width. Directions are in the camera's own axes, x to the right, y up, z the way it
-looks, of any length but 0: where one has none or is no number nothing is seen, and the picture is black. `vec3 origin(vec2
-place, vec2 lens)`, if there is one, says in those axes where the ray starts, seen from the eye. `lens` is a point of the disk
-of radius 1, another for each sample, and its middle for first hits and the AOVs made of them.
+`place` is measured from the middle of the picture, to the right and up. The left and right borders are at x =
+−1 and 1, and the upper border is at y = height / width. Directions are given in the camera's own axes: x to
+the right, y up, z along the viewing direction. They may have any length but 0. A pixel is black if its
+direction has length 0 or is not a number. The function `vec3 origin(vec2 place, vec2 lens)` is optional. It
+returns the start of the ray in the same axes, relative to the eye. `lens` is a point of the disk of radius 1,
+a different one for each sample. For first hits and the AOVs made from them, `lens` is the centre of the disk.
 )";
 
 constexpr Key keys[] = {
     {.name = "code",
      .type = KeyType::formula,
-     .doc = "The function, `vec3 direction(vec2 place, vec2 lens)`, and what it calls.",
+     .doc = "The function `vec3 direction(vec2 place, vec2 lens)` and the functions that it calls.",
      .optional = true},
     reading::formula_file_key,
     reading::parameters_key,

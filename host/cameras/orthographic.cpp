@@ -11,7 +11,8 @@ extern const CameraType orthographic_type;
 namespace {
 
 constexpr std::string_view manual =
-    R"(All rays are parallel, through the plane of the eye: sizes are the same near and far.
+    R"(All rays are parallel and start in the plane that contains the eye. Near and far objects have the same size in
+the picture.
 
 ```toml
 [camera]
@@ -24,7 +25,7 @@ size = 2.5
 constexpr Key keys[] = {
     {.name = "size",
      .type = KeyType::number,
-     .doc = "Half the width of what is seen.",
+     .doc = "Half the width of the view, in world units.",
      .fallback = "1",
      .min = 0,
      .above_min = true},

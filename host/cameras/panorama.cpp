@@ -11,8 +11,8 @@ extern const CameraType panorama_type;
 namespace {
 
 constexpr std::string_view manual =
-    R"(The sphere around the eye, longitude across and latitude up (equirectangular), as environment maps
-have it. A picture twice as wide as high shows all of it; what is higher goes on over the poles.
+    R"(The sphere around the eye, with longitude across and latitude up (equirectangular), as in environment maps. A
+picture twice as wide as high shows the whole sphere. A higher picture continues beyond the poles.
 
 ```toml
 [image]
@@ -29,7 +29,7 @@ target = [0, 1, -1]
 constexpr Key keys[] = {
     {.name = "fov",
      .type = KeyType::number,
-     .doc = "Angle that the picture's width spans, in degrees; its height spans as much a pixel.",
+     .doc = "Angle of view across the picture's width, in degrees. The height has the same angle per pixel.",
      .fallback = "360",
      .min = 0,
      .max = 360,

@@ -15,7 +15,7 @@ extern const CameraType perspective_type;
 namespace {
 
 constexpr std::string_view manual =
-    R"(All rays come from the eye: what is twice as far looks half as big.
+    R"(All rays start at the eye: an object at twice the distance appears half as large.
 
 ```toml
 [camera]
@@ -24,9 +24,10 @@ target = [0, 0, 0]
 fov = 35
 ```
 
-With an `aperture` rays start on a lens around the eye. What stands at the distance `focus`, measured along
-the way the camera looks, is sharp; a point before or behind is seen as a disk, or as a polygon with as many
-corners as the aperture has `blades`. An aperture takes many samples a pixel, the more, the larger it is:
+With an `aperture`, rays start on a lens around the eye. Points at the distance `focus`, measured along the
+viewing direction, are sharp. A point in front of that distance or behind it appears as a disk, or as a
+polygon with one corner for each of the aperture's `blades`. An aperture needs many samples per pixel. A
+larger aperture needs more:
 
 ```toml
 [image]
@@ -40,8 +41,8 @@ focus = 5
 blades = 6
 ```
 
-A photographer's lens of focal length f at f/N has the aperture f / 2N, in units of the scene. First hits, and
-the AOVs made of them, are those of the middle of the lens.
+A photographic lens of focal length f at f/N has an `aperture` of f / 2N, in world units. First hits, and the
+AOVs made from them, are traced through the centre of the lens.
 )";
 
 constexpr Key keys[] = {
@@ -60,26 +61,26 @@ constexpr Key keys[] = {
      .choices = fov_axis_names},
     {.name = "aperture",
      .type = KeyType::number,
-     .doc = "Radius of the lens; 0: all rays come from the eye, and all is sharp.",
+     .doc = "Radius of the lens, in world units. At 0 all rays start at the eye and everything is sharp.",
      .fallback = "0",
      .min = 0},
     {.name = "focus",
      .type = KeyType::number,
-     .doc =
-         "How far away things are sharp, along the way the camera looks; that of `target` where nothing is "
-         "said.",
+     .doc = "Distance at which points are sharp, along the viewing direction. The default is the distance of "
+            "`target`.",
      .min = 0,
      .above_min = true,
      .optional = true},
     {.name = "blades",
      .type = KeyType::integer,
-     .doc = "Corners of the lens, on the circle of that radius; a disk where nothing is said.",
+     .doc = "Number of corners of the lens, which lie on the circle of radius `aperture`. The default lens "
+            "is a disk.",
      .min = 3,
      .max = 64,
      .optional = true},
     {.name = "blade_rotation",
      .type = KeyType::number,
-     .doc = "Turns the corners, in degrees: at 0 one is at the right, at 90 one is above.",
+     .doc = "Rotation of the corners, in degrees: at 0 one corner is at the right, at 90 one is at the top.",
      .fallback = "0"},
 };
 

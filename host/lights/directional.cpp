@@ -12,7 +12,7 @@ extern const LightType directional_type;
 namespace {
 
 constexpr std::string_view manual =
-    R"(The sun: light of one direction and strength everywhere.
+    R"(The sun: light of one direction and one strength everywhere.
 
 ```toml
 [[light]]
@@ -21,15 +21,18 @@ direction = [-1, -2, -1]
 intensity = 0.8
 ```
 
-With an `angle` it is a disk, which a path sees and which gives shadows soft borders: the sun's is 0.53. It
-brings as much light as without. `whitted` and `raycast` take it as if it had none.
+With an `angle` the light is a disk that paths see, and its shadows have soft borders. The sun's angle is
+0.53. The angle does not change the amount of light. `whitted` and `raycast` treat the light as if its angle
+were 0.
 )";
 
 constexpr Key keys[] = {
-    {.name = "direction", .type = KeyType::vec3, .doc = "The way the light travels, of any length but 0."},
+    {.name = "direction",
+     .type = KeyType::vec3,
+     .doc = "Direction in which the light travels, of any length but 0."},
     {.name = "angle",
      .type = KeyType::number,
-     .doc = "Under which a path sees it, from rim to rim, in degrees.",
+     .doc = "Angle under which a path sees the light, from rim to rim, in degrees.",
      .fallback = "0",
      .min = 0,
      .max = 90},

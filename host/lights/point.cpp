@@ -9,7 +9,7 @@ extern const LightType point_type;
 namespace {
 
 constexpr std::string_view manual =
-    R"(A point that shines evenly in all directions.
+    R"(A point that emits the same light in all directions.
 
 ```toml
 [[light]]
@@ -22,10 +22,11 @@ intensity = 30
 constexpr std::string_view falloffs[] = {"inverse_square", "none"};
 
 constexpr Key keys[] = {
-    {.name = "position", .type = KeyType::vec3, .doc = "Where it stands."},
+    {.name = "position", .type = KeyType::vec3, .doc = "Position of the light."},
     {.name = "falloff",
      .type = KeyType::choice,
-     .doc = "Weaker with the square of the distance, `intensity` at distance 1; or the same everywhere.",
+     .doc = "`\"inverse_square\"`: the light falls with the square of the distance, and is `intensity` at "
+            "distance 1. `\"none\"`: the light is the same at every distance.",
      .fallback = "\"inverse_square\"",
      .choices = falloffs},
 };

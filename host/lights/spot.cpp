@@ -13,9 +13,9 @@ extern const LightType spot_type;
 namespace {
 
 constexpr std::string_view manual =
-    R"(A point that shines in a cone, as glTF's spots do: in full within `inner_angle` of its axis, and then the less
-the nearer to `outer_angle`. With cosines, s = (cos θ − cos outer) / (cos inner − cos outer), cut to [0, 1],
-its light is s² of the point's.
+    R"(A point that emits light in a cone, as spot lights of glTF do. It has full strength within `inner_angle` of
+its axis, and falls off towards `outer_angle`. Let s = (cos θ − cos outer) / (cos inner − cos outer), clamped
+to [0, 1]. The light is s² times that of a point light.
 
 ```toml
 [[light]]
@@ -29,20 +29,21 @@ intensity = 30
 )";
 
 constexpr Key keys[] = {
-    {.name = "position", .type = KeyType::vec3, .doc = "Where it stands."},
+    {.name = "position", .type = KeyType::vec3, .doc = "Position of the light."},
     {.name = "direction",
      .type = KeyType::vec3,
-     .doc = "The way the light travels along the cone's axis, of any length but 0."},
+     .doc = "Direction in which the light travels along the cone's axis, of any length but 0."},
     {.name = "inner_angle",
      .type = KeyType::number,
-     .doc = "Up to which it shines in full, from the axis, in degrees.",
+     .doc = "Angle from the axis up to which the light has full strength, in degrees.",
      .fallback = "0",
      .min = 0,
      .max = 90,
      .below_max = true},
     {.name = "outer_angle",
      .type = KeyType::number,
-     .doc = "Beyond which it does not shine, from the axis, in degrees: more than `inner_angle`.",
+     .doc = "Angle from the axis beyond which there is no light, in degrees. It must be greater than "
+            "`inner_angle`.",
      .fallback = "45",
      .min = 0,
      .max = 90,

@@ -21,30 +21,30 @@ constexpr std::string_view curves[] = {"step", "linear", "smooth"};
 constexpr Key table_of_animation[] = {
     {.name = "frame",
      .type = KeyType::number,
-     .doc = "The moment that is shown, in frames from 0; any number. `render --frames` sets it, and so does "
-            "-D animation.frame=12.5 for every command.",
+     .doc = "The frame to show, counted from 0. Fractions are allowed. `render --frames` sets it, and -D "
+            "animation.frame=12.5 sets it for every command.",
      .fallback = "0",
      .min = -most_frames,
      .max = most_frames},
     {.name = "frames_per_second",
      .type = KeyType::number,
-     .doc =
-         "How long a frame lasts, for animations of mesh files and for a video that is made of the frames.",
+     .doc = "Frames per second, for animations of mesh files and for a video made of the frames.",
      .fallback = "24",
      .min = 0,
      .max = 1000,
      .above_min = true},
     {.name = "shutter",
      .type = KeyType::number,
-     .doc = "Motion blur: how long the shutter is open, in frames, half of it before `frame` and half after; "
-            "0.5 is a film camera's. `render` makes pictures with it; `verify`, `probe` and `dev` look at "
-            "the moment `frame`, and so do AOVs of what rays hit first.",
+     .doc = "Motion blur: time for which the shutter is open, in frames, half before `frame` and half after "
+            "it. A film camera has 0.5. Only `render` makes blurred pictures. `verify`, `probe`, `dev` and "
+            "first-hit AOVs use the moment `frame`.",
      .fallback = "0",
      .min = 0,
      .max = 1000},
     {.name = "shutter_steps",
      .type = KeyType::integer,
-     .doc = "How many moments of that time a picture shows, if it has as many samples a pixel.",
+     .doc = "Number of moments within the shutter time that a picture shows, if it has at least as many "
+            "samples per pixel.",
      .fallback = "16",
      .min = 1,
      .max = 4096},
@@ -53,17 +53,16 @@ constexpr Key table_of_animation[] = {
 constexpr Key table_of_track[] = {
     {.name = "target",
      .type = KeyType::string,
-     .doc = "The value that moves, named as for -D: `camera.eye`, `sphere.0.radius`, `light.lamp.intensity`, "
+     .doc = "The value to animate, named as for -D: `camera.eye`, `sphere.0.radius`, `light.lamp.intensity`, "
             "`mesh.wheel.transform`."},
     {.name = "keyframes",
      .type = KeyType::keyframes,
-     .doc = "What it is at which frame. Values are what the target takes, all of one form. Before the first "
-            "keyframe the first counts, after the last the last."},
+     .doc = "Pairs of a frame and a value. The values are those that the target accepts, all in the same "
+            "form. The first value holds before the first keyframe, and the last value after the last."},
     {.name = "curve",
      .type = KeyType::choice,
-     .doc =
-         "How it goes from one keyframe to the next: it jumps there, goes straight, or goes without a bend "
-         "(Catmull-Rom).",
+     .doc = "Interpolation between keyframes. `\"step\"`: the value jumps at the next keyframe. "
+            "`\"linear\"`: straight interpolation. `\"smooth\"`: a curve without kinks (Catmull-Rom).",
      .fallback = "\"linear\"",
      .choices = curves},
 };
@@ -103,7 +102,7 @@ double frame_of(const toml::node& keyframe) {
 }  // namespace
 
 constexpr std::string_view manual =
-    R"(One value of the scene that moves. Everything that -D can set may be a target.
+    R"(A track animates one value of the scene. Every value that -D can set may be its target.
 
 ```toml
 [[track]]
@@ -128,8 +127,9 @@ keyframes = [
 ]
 ```
 
-`eyeray render SCENE --frames 0:48` renders them all. Degrees about one axis go straight from one number to the other, however often that is
-around; of two rotations about different axes every moment is a rotation on the shortest way.
+`eyeray render SCENE --frames 0:48` renders all frames. Rotations about one axis are interpolated in degrees,
+through any number of full turns. Between two rotations about different axes, every intermediate value is a
+rotation on the shortest path.
 
 **Source.** Catmull, Rom: A Class of Local Interpolating Splines, 1974. Shoemake: Animating Rotation with Quaternion Curves, SIGGRAPH 1985.
 )";

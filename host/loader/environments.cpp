@@ -18,8 +18,9 @@ constexpr double brightest = 1e15;
 constexpr int64_t most_texels = int64_t{1} << 26;
 
 constexpr std::string_view image_manual =
-    R"(A picture of light from everywhere: `.hdr`, `.exr` or `.pfm`, equirectangular, as most HDRIs are. Its middle is in direction −z, its
-right beside it in +x, its top is up. It is looked up bilinearly, and a path chooses directions by how bright they are.
+    R"(A picture of the light from all directions: `.hdr`, `.exr` or `.pfm`, equirectangular, as most HDRIs are. Its
+centre is in direction −z, the part to the right of it in +x, and its top is up. It is interpolated
+bilinearly. A path samples directions in proportion to their brightness.
 
 ```
 [environment]
@@ -29,14 +30,14 @@ rotate = 90
 )";
 
 constexpr Key keys_of_image[] = {
-    {.name = "image", .type = KeyType::string, .doc = "The name of the file, relative to this one."},
+    {.name = "image", .type = KeyType::string, .doc = "Name of the file, relative to this scene file."},
     {.name = "scale",
      .type = KeyType::color,
-     .doc = "What the picture's light is multiplied by, in all or in each channel.",
+     .doc = "Factor for the picture's light, one for all channels or one for each.",
      .fallback = "1"},
     {.name = "rotate",
      .type = KeyType::number,
-     .doc = "By how much it is turned about y, in degrees, counter-clockwise seen from above.",
+     .doc = "Rotation about y, in degrees, counter-clockwise seen from above.",
      .fallback = "0"},
 };
 
@@ -86,9 +87,9 @@ constexpr EnvironmentType of_image{
     .name = "image", .manual = image_manual, .keys = keys_of_image, .parse = parse_image};
 
 constexpr std::string_view sky_manual =
-    R"(A clear sky over a round, matt ground, and the sun in it as a light of an angle of 0.533°: what Hillaire's atmosphere
-scatters, once and many times. Beyond the atmosphere a surface square to the sun gets what a directional light of
-`intensity = 1` brings.
+    R"(A clear sky over a round, matte ground, with the sun as a light of an angle of 0.533°. The sky is the light
+that Hillaire's atmosphere scatters, with single and multiple scattering. Above the atmosphere, a surface
+perpendicular to the sun receives as much light as from a directional light with `intensity = 1`.
 
 ```
 [environment]
@@ -98,17 +99,15 @@ sun = [0.3, 0.5, -1]
 )";
 
 constexpr Key keys_of_sky[] = {
-    {.name = "sun",
-     .type = KeyType::vec3,
-     .doc = "The direction in which the sun stands, of any length but 0."},
+    {.name = "sun", .type = KeyType::vec3, .doc = "Direction towards the sun, of any length but 0."},
     {.name = "ground",
      .type = KeyType::color,
-     .doc = "How much light the ground scatters, which is seen below the horizon.",
+     .doc = "Share of light that the ground scatters. The ground is seen below the horizon.",
      .fallback = "0.3",
      .max = 1},
     {.name = "scale",
      .type = KeyType::color,
-     .doc = "What the light of sky and sun is multiplied by, in all or in each channel.",
+     .doc = "Factor for the light of sky and sun, one for all channels or one for each.",
      .fallback = "1"},
 };
 
@@ -143,12 +142,13 @@ std::span<const Key> environment_keys() {
   static const Key keys[] = {
       {.name = "type",
        .type = KeyType::choice,
-       .doc = "Its kind; see below.",
+       .doc = "Kind; see below.",
        .fallback = "\"image\"",
        .choices = names},
       {.name = "share",
        .type = KeyType::number,
-       .doc = "How often `path` looks for light in the environment, where there are lights as well.",
+       .doc = "Probability with which `path` samples the environment rather than a light, in a scene that "
+              "has both.",
        .fallback = "0.5",
        .min = 0,
        .max = 1,

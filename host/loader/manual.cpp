@@ -73,8 +73,8 @@ std::string scene_manual() {
   using enum Section::Kind;
   std::string text =
       "# Scene file: every table and key\n\n"
-      "Made from the keys that eyeray checks scenes by (`host/loader/manual.cpp`); a test compares the two. "
-      "[scene-file.md](scene-file.md) is the introduction.\n\n";
+      "This page is generated from the keys by which eyeray checks scenes (`host/loader/manual.cpp`). A test "
+      "compares the page with them. [scene-file.md](scene-file.md) is the introduction.\n\n";
 
   // The tables, then what their types and values add.
   for (const Section& section : sections()) {
@@ -105,22 +105,19 @@ std::string scene_manual() {
     text += textures_manual();
   }
   text +=
-      "## `transform`\n\nEach step is a table with one of these keys; steps are applied in the order "
+      "## `transform`\n\nEach step is a table with one of these keys. Steps are applied in the order "
       "written.\n\n";
   text += key_table({reading::transform_step_keys()});
-  text += "A rotation is a table of two:\n\n" + key_table({reading::rotation_keys()});
+  text += "A rotation is a table with two keys:\n\n" + key_table({reading::rotation_keys()});
   text +=
-      "## `batch`\n\nMany shapes, or instances of a mesh or a group, from one table: each key of `batch` "
-      "holds a list "
-      "with one value "
-      "each, "
-      "all lists equally "
-      "long. The table's other keys are common to all.\n\n"
+      "## `batch`\n\nMany shapes, or instances of a mesh or a group, from one table. Each key of `batch` "
+      "holds a list with one value for each of them, and all lists have the same length. The table's other "
+      "keys apply to all.\n\n"
       "```toml\n[[sphere]]\nmaterial = \"glass\"\n"
       "batch = { center = [[0, 0, 0], [3, 0, 0]], radius = [1, 0.5] }\n```\n";
   text +=
-      "\n## `include`\n\nA file name or a list of them, above all tables; relative to the file it stands in. "
-      "See [scene-file.md](scene-file.md#several-files).\n";
+      "\n## `include`\n\nA file name or a list of file names, before all tables. Names are relative to the "
+      "file that contains them. See [scene-file.md](scene-file.md#several-files).\n";
   return text;
 }
 

@@ -16,18 +16,18 @@ using reading::Key, reading::KeyType;
 namespace {
 
 constexpr std::string_view manual =
-    R"(It fills the space outside of all other media. `absorption`, `scattering` and `anisotropy` mean what they mean for a
-[dielectric](#type--dielectric). By itself it has no end: light of an environment, of a `background` and of directional lights,
-which comes from infinitely far away, is lost in it. An extent lets that light in:
+    R"(The medium fills the space outside all other media. `absorption`, `scattering` and `anisotropy` have the same
+meaning as for a [dielectric](#type--dielectric). By default the medium is infinite. It then absorbs all light
+from infinitely far away: an environment, a `background` and directional lights. An extent lets that light in:
 
 | keys | the medium fills |
 | --- | --- |
 | `min`, `max` | a box |
 | `top` | everything below a height |
-| `scale_height`, `base` | all heights; its density falls by 1/e with each `scale_height`, and ends 40 of them above `base` |
+| `scale_height`, `base` | all heights; its density falls by a factor 1/e per `scale_height`, and it ends 40 of them above `base` |
 
-`scale_height` may stand beside a box or `top`. Below a `top`, and in height fog, light that comes horizontally or from below is
-lost.
+`scale_height` may be combined with a box or with `top`. Below a `top`, and in height fog, light that arrives
+horizontally or from below is lost.
 
 ```toml
 [medium]
@@ -42,15 +42,16 @@ constexpr Key medium_table[] = {
     materials::anisotropy_key,
     {.name = "min",
      .type = KeyType::vec3,
-     .doc = "With `max`: the medium fills only the box between these two corners.",
+     .doc =
+         "One corner of a box. Together with `max`: the medium fills only the box between these two corners.",
      .optional = true},
     {.name = "max",
      .type = KeyType::vec3,
-     .doc = "The corner opposite to `min`, above it in each coordinate.",
+     .doc = "The corner opposite to `min`, greater than it in each coordinate.",
      .optional = true},
     {.name = "top",
      .type = KeyType::number,
-     .doc = "The medium fills only what is below this height, y. Not beside `max`.",
+     .doc = "The medium fills only the space below this height, y. It cannot be combined with `max`.",
      .optional = true},
     {.name = "scale_height",
      .type = KeyType::number,
@@ -61,7 +62,7 @@ constexpr Key medium_table[] = {
      .optional = true},
     {.name = "base",
      .type = KeyType::number,
-     .doc = "The height at which that factor is 1; 0 when absent. Only beside `scale_height`.",
+     .doc = "Height at which that factor is 1; 0 when absent. Allowed only together with `scale_height`.",
      .optional = true},
 };
 

@@ -232,8 +232,8 @@ Json placed_schema(const Section& section, std::span<const Key> keys) {
     lists[name] = list_schema(std::move(one));
   }
   schema["properties"][std::string(batch_key)] = {
-      {"description", fmt::format("Lists of values, one {}; the table's other keys are common to all.",
-                                  section.shape ? "a shape" : "an instance")},
+      {"description", fmt::format("Lists of values, one for each {}. The table's other keys apply to all.",
+                                  section.shape ? "shape" : "instance")},
       {"type", "object"},
       {"properties", std::move(lists)},
       {"minProperties", 1},
@@ -248,7 +248,7 @@ Json placed_schema(const Section& section, std::span<const Key> keys) {
   }
   if (section.is_combined()) {
     schema["properties"].update(shapes_of_csg());
-    schema["properties"][std::string(minus_key)] = {{"description", "The shapes that are taken away."},
+    schema["properties"][std::string(minus_key)] = {{"description", "The shapes to subtract."},
                                                     {"type", "object"},
                                                     {"properties", shapes_of_csg()},
                                                     {"additionalProperties", false}};
@@ -282,7 +282,7 @@ std::string scene_schema() {
   const Json file_name = {{"type", "string"}};
   Json properties;
   Json definitions = {{texture_definition, texture_schema()}, {transform_definition, transform_schema()}};
-  properties[std::string(include_key)] = {{"description", "Scene files to take in, relative to this one."},
+  properties[std::string(include_key)] = {{"description", "Scene files to include, relative to this one."},
                                           {"anyOf", {file_name, list_schema(file_name)}}};
   for (const Section& section : sections()) {
     Json described = section.doc.empty() ? Json::object() : Json{{"description", section.doc}};
@@ -295,7 +295,7 @@ std::string scene_schema() {
   const Json schema = {
       {"$schema", "https://json-schema.org/draft/2020-12/schema"},
       {"title", "eyeray scene"},
-      {"description", "Made from the keys that eyeray checks scenes by; docs/scene-file.md."},
+      {"description", "Generated from the keys by which eyeray checks scenes; docs/scene-file.md."},
       {"type", "object"},
       {"properties", std::move(properties)},
       {"additionalProperties", false},

@@ -32,17 +32,17 @@ std::span<const Key> camera_keys() {
   static const Key keys[] = {
       {.name = "type",
        .type = KeyType::choice,
-       .doc = "Its kind; see below.",
+       .doc = "Kind; see below.",
        .fallback = "\"perspective\"",
        .choices = names},
-      {.name = "eye", .type = KeyType::vec3, .doc = "Where the camera stands.", .fallback = "[0, 0, 5]"},
+      {.name = "eye", .type = KeyType::vec3, .doc = "Position of the camera.", .fallback = "[0, 0, 5]"},
       {.name = "target",
        .type = KeyType::vec3,
-       .doc = "The point it looks at, not the eye.",
+       .doc = "The point that the camera looks at. It must differ from `eye`.",
        .fallback = "[0, 0, 0]"},
       {.name = "up",
        .type = KeyType::vec3,
-       .doc = "What is up in the picture; not parallel to the way it looks.",
+       .doc = "Direction that points up in the picture. It must not be parallel to the viewing direction.",
        .fallback = "[0, 1, 0]"},
   };
   return keys;
@@ -55,14 +55,15 @@ std::span<const Key> light_keys() {
     return all;
   }();
   static const Key keys[] = {
-      {.name = "type", .type = KeyType::choice, .doc = "Its kind; see below.", .choices = names},
+      {.name = "type", .type = KeyType::choice, .doc = "Kind; see below.", .choices = names},
       {.name = "name",
        .type = KeyType::string,
-       .doc = "What `-D` and [[track]] call it; several may share a name.",
+       .doc = "Name for `-D` and [[track]]; several lights may share it.",
        .optional = true},
       {.name = "intensity",
        .type = KeyType::color,
-       .doc = "The light that arrives, at distance 1 from a point light; the radiance of an area light.",
+       .doc = "Light that arrives at a surface; for a point light, at distance 1; for an area light, its "
+              "radiance.",
        .fallback = "1"},
   };
   return keys;
@@ -76,66 +77,61 @@ std::span<const Key> material_keys() {
   static const Key keys[] = {
       {.name = "name",
        .type = KeyType::string,
-       .doc = "The name by which shapes refer to it, unique in the scene."},
-      {.name = "type", .type = KeyType::choice, .doc = "Its kind; see below.", .choices = names},
+       .doc = "Name by which shapes refer to the material, unique in the scene."},
+      {.name = "type", .type = KeyType::choice, .doc = "Kind; see below.", .choices = names},
       {.name = "alpha",
        .type = KeyType::texture,
-       .doc =
-           "How much of the surface there is. Of a color the first component counts, of an image its alpha. "
-           "Only on shapes that a ray hits once.",
+       .doc = "Opacity of the surface. The first component of a color counts, and the alpha of an image. "
+              "Only for planes, triangles, polygons, parallelograms, disks and meshes, which a ray hits once "
+              "at each surface.",
        .max = 1,
        .optional = true},
       {.name = "alpha_mode",
        .type = KeyType::choice,
-       .doc =
-           "\"mask\": where `alpha` is below `alpha_cutoff`, there is no surface. \"blend\": a ray hits the "
-           "surface with a probability of `alpha`, so that on average it lets the rest through.",
+       .doc = "\"mask\": the surface does not exist where `alpha` is below `alpha_cutoff`. \"blend\": a ray "
+              "hits the surface with probability `alpha`, so that on average the surface transmits the rest.",
        .fallback = "\"mask\"",
        .choices = alpha_modes},
       {.name = "alpha_cutoff",
        .type = KeyType::number,
-       .doc = "The least `alpha` that is not cut out.",
+       .doc = "Smallest `alpha` at which the surface exists in the mode \"mask\".",
        .fallback = "0.5",
        .min = 0,
        .max = 1,
        .above_min = true},
       {.name = "emission_side",
        .type = KeyType::choice,
-       .doc = "Where light of its own goes: to both sides of its surfaces, or only to where their normals "
-              "point.",
+       .doc = "Sides of the surface that emit light: both, or only the side to which the normals point.",
        .fallback = "\"both\"",
        .choices = emission_sides},
       {.name = "normal",
        .type = KeyType::texture,
        .doc =
-           "A normal map, as glTF has them: which way the surface seems to face, in tangent space, red along "
-           "u, green along v, [0.5, 0.5, 1] straight out. Codes of an image count as they are.",
+           "A normal map, as in glTF: the apparent direction of the surface in tangent space, red along u, "
+           "green along v, with [0.5, 0.5, 1] straight out. Codes of an image are used without conversion.",
        .max = 1,
        .optional = true},
       {.name = "normal_scale",
        .type = KeyType::number,
-       .doc = "How strongly the normal map bends; below 0 the other way.",
+       .doc = "Strength of the normal map. A negative value bends the normals in the opposite direction.",
        .fallback = "1",
        .min = -1000,
        .max = 1000},
       {.name = "bump",
        .type = KeyType::texture,
-       .doc = "Heights by which the surface seems to rise, 0 where it is black. Of a color the luminance "
-              "counts, "
-              "codes of an image as they are.",
+       .doc = "Bump map: apparent heights of the surface, 0 where the map is black. The luminance of a color "
+              "counts. Codes of an image are used without conversion.",
        .max = 1,
        .optional = true},
       {.name = "bump_height",
        .type = KeyType::number,
-       .doc = "That of white, in the world; below 0 the surface sinks.",
+       .doc = "Height of white in the bump map, in world units. With a negative value the surface sinks.",
        .fallback = "0.1"},
       {.name = "bump_width",
        .type = KeyType::number,
-       .doc = "How far to each side heights are compared, and so half the width of a step's slope: in uv, or "
-              "for "
-              "patterns in space in the world. When absent a texel of an image, 0.03 units of a pattern, or "
-              "0.01 "
-              "of uv.",
+       .doc = "Distance to each side at which heights are compared, and so half the width of the slope at a "
+              "step. It is in uv, or in world units for patterns in space. When absent: one texel of an "
+              "image, 0.03 units of a pattern, or 0.01 of uv.",
        .min = 0,
        .above_min = true,
        .optional = true},
@@ -145,7 +141,7 @@ std::span<const Key> material_keys() {
 
 constexpr Key name_key = {.name = "name",
                           .type = KeyType::string,
-                          .doc = "What messages and legends call it; several may share a name.",
+                          .doc = "Name in messages and legends. Several objects may share a name.",
                           .optional = true};
 
 constexpr Key shape_keys[] = {
@@ -161,16 +157,17 @@ constexpr Key keys_of_parts[] = {
     name_key,
     {.name = "material",
      .type = KeyType::string,
-     .doc = "The `name` of a [[material]]; in a CSG object, that of the CSG object when absent.",
+     .doc = "The `name` of a [[material]]. A part of a CSG object without one has the material of the CSG "
+            "object.",
      .optional = true},
     shape_keys[2],
 };
 
 constexpr std::string_view mesh_manual =
-    R"(The ending says what the file is: `.obj` (Wavefront), `.ply`, `.gltf` or `.glb` (glTF 2.0). The name is relative to the
-scene file, and the file, as all that it names, lies in the scene's folder tree, links followed, or where `--allow-path`
-says. A file is read once, and each table or element of a `batch` shows it once more: thousands of
-instances take little more memory than one.
+    R"(The ending of the file name selects the format: `.obj` (Wavefront), `.ply`, `.gltf` or `.glb` (glTF 2.0). The
+name is relative to the scene file. The file, and all files that it names, must lie in the scene's folder tree
+after following links, or in a folder that `--allow-path` allows. A file is read once. Each table, and each
+element of a `batch`, is one more instance of it, so thousands of instances need little more memory than one.
 
 ```
 [[mesh]]
@@ -179,15 +176,17 @@ material = "glass"
 transform = [{ scale = 10 }, { translate = [0, -0.33, 0] }]
 ```
 
-What a file has and eyeray leaves out is a warning. Cameras and lights of a glTF file count only where it is rendered
-itself, `eyeray render model.glb`. [scene-file.md](scene-file.md#meshes) tells more.)";
+eyeray warns about each feature of the file that it ignores. Cameras and lights of a glTF file are used only
+where that file itself is rendered, `eyeray render model.glb`. See [scene-file.md](scene-file.md#meshes) for
+details.)";
 
 constexpr Key mesh_keys[] = {
     name_key,
-    {.name = "file", .type = KeyType::string, .doc = "The name of the file, relative to this one."},
+    {.name = "file", .type = KeyType::string, .doc = "Name of the file, relative to this scene file."},
     {.name = "material",
      .type = KeyType::string,
-     .doc = "The `name` of a [[material]]; the file's own when absent, and where it has none, a light grey.",
+     .doc = "The `name` of a [[material]]. When absent, the file's own material is used, or a light grey if "
+            "the file has none.",
      .optional = true},
     {.name = "transform",
      .type = KeyType::transform,
@@ -195,27 +194,27 @@ constexpr Key mesh_keys[] = {
      .fallback = "[]"},
     {.name = "smooth",
      .type = KeyType::number,
-     .doc = "Faces that meet under less than this angle, in degrees, are shaded as one smooth surface, where "
-            "the "
-            "file has no normals; 0: flat. 40 when absent, and 0 for glTF.",
+     .doc = "Faces that meet at less than this angle, in degrees, are shaded as one smooth surface, unless "
+            "the file has normals. 0 means flat shading. When absent: 40, and 0 for glTF.",
      .min = 0,
      .max = 180,
      .optional = true},
     {.name = "animation",
      .type = KeyType::string,
-     .doc =
-         "Which of a glTF file's animations is shown at the moment of [animation]: its name, or its number "
-         "from 0, as `\"1\"`. The first when absent; `\"none\"`: the file at rest.",
+     .doc = "The animation of a glTF file that is shown at the moment of [animation]: its name, or its "
+            "number from 0, such as `\"1\"`. When absent, the first. `\"none\"` shows the file at rest.",
      .optional = true},
     {.name = "loop",
      .type = KeyType::boolean,
-     .doc = "Whether that animation begins again after its last key, and not stays there.",
+     .doc = "If true, that animation restarts after its last key; if false, it stays there.",
      .fallback = "false"},
 };
 
 constexpr std::string_view group_manual =
-    R"(Holds shapes, meshes and other groups, written `[[group.sphere]]`, `[[group.mesh]]`, `[[group.group]]` below it, and moves them as one. Each transform
-of a `batch` shows the whole group once more. Materials are the scene's. A `name` of a group goes before those in it: `cart 2/wheel`.
+    R"(A group holds shapes, meshes and other groups, written `[[group.sphere]]`, `[[group.mesh]]` and
+`[[group.group]]` below it. It moves them together. Each transform of a `batch` is one more instance of the
+whole group. Materials belong to the scene, not to the group. The `name` of a group precedes the names inside
+it: `cart 2/wheel`.
 
 ```toml
 [[group]]
@@ -233,15 +232,18 @@ radius = 0.4
 material = "glass"
 ```
 
-An [[instance]](#instance) shows a group once more, by its `name`. With `pattern = true` it is shown by instances alone, and not where it is written.
+An [[instance]](#instance) places a group once more, by its `name`. With `pattern = true` only instances show
+the group, and it does not appear where it is written.
 
-A group that is placed many times is instanced; see `groups` of [render](#render). That costs no more memory than one, and changes no
-id and no surface. One that holds a plane, which has no end, is copied.
+A group that is placed many times is instanced; see `groups` of [render](#render). The instances need no more
+memory than one group, and ids and surfaces stay the same. A group that holds a plane, which is infinite, is
+copied instead.
 
-A group may stretch and shear all that it holds: a sphere is an ellipsoid then.)";
+A group may stretch and shear its contents: a sphere in it becomes an ellipsoid.)";
 
 constexpr std::string_view instance_manual =
-    R"(Shows a [[group]] of the scene by its `name`, as if it were written here: also in another group, also many times by a `batch`.
+    R"(Places a [[group]] of the scene by its `name`, as if the group were written here. An instance may be in
+another group, and a `batch` places many.
 
 ```toml
 [[group]]
@@ -259,14 +261,16 @@ group = "tree"
 batch = { transform = [[{ translate = [-3, 0, 0] }], [{ scale = 1.5 }, { translate = [3, 0, 0] }]] }
 ```
 
-A group that holds itself, by whatever way round, is an error.)";
+A group that contains itself, directly or through other groups, is an error.)";
 
 constexpr Key instance_keys[] = {
     name_key,
-    {.name = "group", .type = KeyType::string, .doc = "The `name` of a [[group]] that is in no other."},
+    {.name = "group",
+     .type = KeyType::string,
+     .doc = "The `name` of a [[group]] that is not inside another group."},
     {.name = "transform",
      .type = KeyType::transform,
-     .doc = "Steps that move it, applied in the order written, after those of the group.",
+     .doc = "Steps that move the instance, applied in the order written, after those of the group.",
      .fallback = "[]"},
 };
 
@@ -274,11 +278,12 @@ constexpr Key group_keys[] = {
     name_key,
     {.name = "pattern",
      .type = KeyType::boolean,
-     .doc = "Whether it stands only where an [[instance]] names it; only of groups that are in no other.",
+     .doc = "If true, the group appears only where an [[instance]] names it. Only for groups that are not "
+            "inside another group.",
      .fallback = "false"},
     {.name = "transform",
      .type = KeyType::transform,
-     .doc = "Steps that move all of it, applied in the order written, after those of what it holds.",
+     .doc = "Steps that move the whole group, applied in the order written, after those of its contents.",
      .fallback = "[]"},
 };
 
@@ -286,28 +291,29 @@ std::vector<Section> make_sections() {
   using enum Section::Kind;
   std::vector<Section> all = {
       {image, "image", "[image]", "The picture.", image_keys()},
-      {camera, "camera", "[camera]", "Where from and how the scene is seen.", camera_keys()},
+      {camera, "camera", "[camera]", "Position and projection of the view.", camera_keys()},
       {render, "render", "[render]", "How the picture is computed.", render_keys()},
       {environment, "environment", "[environment]",
-       "Light from all around, in place of the `background` of [render].", environment_keys()},
+       "Light from all directions. It replaces the `background` of [render].", environment_keys()},
       {medium, "medium", "[medium]",
-       "What is around all, for the integrator `path`: fog, haze, water. The others see none of it.",
+       "The medium around the whole scene: fog, haze, water. Only the integrator `path` uses it; the others "
+       "ignore it.",
        medium_keys(), nullptr, medium_manual()},
-      {verify, "verify", "[verify]", "What `eyeray verify` is told of the scene.", verify_keys()},
-      {animation, "animation", "[animation]", "Which moment of an animation is shown.", animation_keys()},
-      {track, "track", "[[track]]", "A value that moves, by its keyframes.", track_keys(), nullptr,
+      {verify, "verify", "[verify]", "Settings of the scene for `eyeray verify`.", verify_keys()},
+      {animation, "animation", "[animation]", "The moment of an animation to show.", animation_keys()},
+      {track, "track", "[[track]]", "A value that is animated by keyframes.", track_keys(), nullptr,
        track_manual},
       {light, "light", "[[light]]", "A light.", light_keys()},
-      {material, "material", "[[material]]", "What surfaces are made of.", material_keys()},
-      {mesh, "mesh", "[[mesh]]", "The triangles of a file.", mesh_keys, nullptr, mesh_manual},
+      {material, "material", "[[material]]", "Materials of surfaces.", material_keys()},
+      {mesh, "mesh", "[[mesh]]", "The triangles of a mesh file.", mesh_keys, nullptr, mesh_manual},
   };
   for (const shapes::ShapeType* type : shapes::types()) {
     const std::span<const Key> keys = type->combine ? part_keys() : shape_keys;
     all.push_back({shape, type->name, fmt::format("[[{}]]", type->name), "", keys, type});
   }
-  all.push_back({group, "group", "[[group]]", "Shapes, meshes and groups that are moved as one.", group_keys,
+  all.push_back({group, "group", "[[group]]", "Shapes, meshes and groups that move together.", group_keys,
                  nullptr, group_manual});
-  all.push_back({instance, "instance", "[[instance]]", "A group that is shown by its name.", instance_keys,
+  all.push_back({instance, "instance", "[[instance]]", "A group that is placed by its name.", instance_keys,
                  nullptr, instance_manual});
   return all;
 }

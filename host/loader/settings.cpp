@@ -23,58 +23,54 @@ constexpr double usual_filter_width = 3;
 constexpr Key image_table[] = {
     {.name = "width",
      .type = KeyType::integer,
-     .doc = "Pixels across.",
+     .doc = "Width of the picture, in pixels.",
      .fallback = "640",
      .min = 1,
      .max = 65536},
     {.name = "height",
      .type = KeyType::integer,
-     .doc = "Pixels down. The picture has at most 2^28 pixels.",
+     .doc = "Height of the picture, in pixels. The picture has at most 2^28 pixels.",
      .fallback = "480",
      .min = 1,
      .max = 65536},
     {.name = "samples",
      .type = KeyType::integer,
-     .doc = "Samples a pixel: 64 for the integrators `path` and `sppm`, else 1, where nothing is said. "
-            "`regular` and "
-            "`jittered` lay them on an n × n grid: then a square number.",
+     .doc = "Samples per pixel. The default is 64 for the integrators `path` and `sppm`, and 1 for the "
+            "others. `regular` and `jittered` use an n × n grid, so the number must be a square number.",
      .min = 1,
      .max = 65536,
      .optional = true},
     {.name = "pattern",
      .type = KeyType::choice,
-     .doc = "Where in a pixel samples lie; see below. `sobol` for the integrators `path` and `sppm`, else "
-            "`regular`, where "
-            "nothing is said.",
+     .doc = "Distribution of the samples in a pixel; see below. The default is `sobol` for the integrators "
+            "`path` and `sppm`, and `regular` for the others.",
      .choices = sample_patterns,
      .optional = true},
     {.name = "filter",
      .type = KeyType::choice,
-     .doc =
-         "What of the picture a pixel shows: its square, or what is around its middle, the nearer the more. "
-         "Samples are drawn from it.",
+     .doc = "Reconstruction filter. `box`: the pixel's square. `gaussian` and `blackman-harris`: weighted "
+            "towards the pixel's centre. Samples are drawn from the filter.",
      .fallback = "\"box\"",
      .choices = pixel_filters},
     {.name = "filter_width",
      .type = KeyType::number,
-     .doc =
-         "Of `gaussian`, which is cut off at three standard deviations, and `blackman-harris`, from end to "
-         "end, in pixels; 3 where nothing is said.",
+     .doc = "Full width of the filters `gaussian` and `blackman-harris`, in pixels; 3 when absent. "
+            "`gaussian` is cut off at three standard deviations.",
      .min = 0,
      .max = 64,
      .above_min = true,
      .optional = true},
     {.name = "exposure",
      .type = KeyType::number,
-     .doc = "Of a .png, in stops: light is multiplied by 2^exposure. Other formats have the light itself.",
+     .doc = "Exposure of a .png file, in stops: light is multiplied by 2^exposure. Other formats store the "
+            "light unchanged.",
      .fallback = "0",
      .min = -32,
      .max = 32},
     {.name = "tone",
      .type = KeyType::choice,
-     .doc =
-         "Of a .png, what becomes of light beyond 1: it is cut off, or squeezed towards white (Khronos PBR "
-         "Neutral).",
+     .doc = "Tone mapping of a .png file, for light beyond 1. `\"none\"` cuts it off. `\"neutral\"` "
+            "compresses it towards white (Khronos PBR Neutral).",
      .fallback = "\"none\"",
      .choices = image::tone_curves},
 };
@@ -82,77 +78,77 @@ constexpr Key image_table[] = {
 constexpr Key render_table[] = {
     {.name = "integrator",
      .type = KeyType::choice,
-     .doc = "What light is followed; see below.",
+     .doc = "Algorithm that computes the light; see below.",
      .fallback = "\"whitted\"",
      .choices = integrator_names},
     {.name = "max_depth",
      .type = KeyType::integer,
-     .doc = "Reflections and refractions in a row; 0: eye and shadow rays only. 16 for the integrators "
-            "`path` and `sppm`, "
-            "else 8, where nothing is said; above 64 for these alone.",
+     .doc = "Largest number of reflections and refractions in a row; 0 traces only camera rays and shadow "
+            "rays. The default is 16 for the integrators `path` and `sppm`, and 8 for the others. Values "
+            "above 64 are only for `path` and `sppm`.",
      .min = 0,
      .max = 1024,
      .optional = true},
     {.name = "min_throughput",
      .type = KeyType::number,
-     .doc = "A reflected or refracted ray that would count for less is not traced.",
+     .doc = "A reflected or refracted ray is not traced if its weight is below this value.",
      .fallback = "0.001",
      .min = 0,
      .max = 1},
     {.name = "seed",
      .type = KeyType::integer,
-     .doc = "Starts all random numbers.",
+     .doc = "Seed of all random numbers.",
      .fallback = "0",
      .min = 0,
      .max = 4294967295},
     {.name = "light_sampler",
      .type = KeyType::choice,
-     .doc = "How `path` chooses the light that a vertex asks: evenly, by power, or by a BVH of the lights, "
-            "which "
-            "knows what is near and shines this way; by itself, that from 64 lights on.",
+     .doc = "How `path` chooses a light at a vertex. `\"uniform\"`: all lights are equally likely. "
+            "`\"power\"`: by power. `\"bvh\"`: by a BVH of the lights, which accounts for distance and "
+            "direction. `\"automatic\"`: `bvh` from 64 lights on, else `power`.",
      .fallback = "\"automatic\"",
      .choices = light_samplers},
     {.name = "photons",
      .type = KeyType::integer,
-     .doc = "How many photons `sppm` sends out for each sample.",
+     .doc = "Number of photons that `sppm` emits for each sample.",
      .fallback = "131072",
      .min = 1,
      .max = 16777216},
     {.name = "photon_radius",
      .type = KeyType::number,
-     .doc = "Within which the first sample of `sppm` gathers photons, as a length; where nothing is said, as "
-            "wide as two pixels seen at the middle of all shapes that have an end.",
+     .doc = "Radius in which the first sample of `sppm` gathers photons, in world units. When absent: the "
+            "width of two pixels at the distance of the middle of all finite shapes.",
      .min = 0,
      .max = 1e9,
      .above_min = true,
      .optional = true},
     {.name = "triangle",
      .type = KeyType::choice,
-     .doc = "How triangles are intersected; see [[triangle]].",
+     .doc = "Algorithm of triangle intersection; see [[triangle]].",
      .fallback = "\"woop\"",
      .choices = triangle_methods},
     {.name = "groups",
      .type = KeyType::choice,
-     .doc = "Whether groups that are placed more than once are instanced or copied; by itself, where that "
-            "saves much "
-            "memory.",
+     .doc = "Whether groups that are placed more than once are instanced or copied. `\"automatic\"` "
+            "instances them where that saves much memory.",
      .fallback = "\"automatic\"",
      .choices = group_storages},
     {.name = "background",
      .type = KeyType::color,
-     .doc = "What a ray that hits nothing sees.",
+     .doc = "Light that a ray sees if it hits nothing.",
      .fallback = "0"},
     {.name = "ambient",
      .type = KeyType::color,
-     .doc = "Light that reaches every point from everywhere.",
+     .doc = "Light that reaches every point from all directions.",
      .fallback = "0"},
 };
 
 constexpr Key verify_table[] = {
     {.name = "max_explained",
      .type = KeyType::number,
-     .doc = "The share of pixels that may differ from the reference where the picture itself jumps, each "
-            "gate's; 4 pixels in any case. `eyeray verify --record` writes what the scene needs.",
+     .doc = "Largest share of pixels, for each gate, that may differ from the reference at discontinuities "
+            "of the picture. 4 pixels may differ in any case. `eyeray verify --record` writes the value that "
+            "the scene needs.",
      .fallback = "0.005",
      .min = 0,
      .max = 0.05},

@@ -11,7 +11,7 @@ extern const MaterialType conductor_type;
 namespace {
 
 constexpr std::string_view manual =
-    R"(A metal, polished or rough: a named one, one of given refractive indices, or one of a colour.
+    R"(A metal, polished or rough. It is given by a name, by refractive indices, or by a colour.
 
 ```toml
 [[material]]
@@ -21,9 +21,11 @@ metal = "gold"
 roughness = 0.25
 ```
 
-BSDF = F · D · G / (4 cosθᵢ cosθₒ), with GGX microfacets and height-correlated masking, and what microfacets throw at each other,
-so that a rough metal is no darker than it should be. F is Fresnel's share of the index n + ik; of a `color` it is
-Schlick's, from that at right angles to white edge-on. `whitted` and `raycast` show a stand-in: the smoother, the more of a mirror.
+BSDF = F · D · G / (4 cosθᵢ cosθₒ), with GGX microfacets and height-correlated masking. Light that microfacets
+scatter onto each other is included, so a rough metal is as bright as it should be. F is the Fresnel
+reflectance of the index n + ik. For a `color`, F is Schlick's: from that color at perpendicular incidence to
+white at grazing incidence. `whitted` and `raycast` show an approximation: a smoother metal is more like a
+mirror.
 
 **Source.** Walter, Marschner, Li, Torrance: Microfacet Models for Refraction through Rough Surfaces, EGSR 2007. Heitz: Understanding
 the Masking-Shadowing Function in Microfacet-Based BRDFs, JCGT 3(2), 2014. Kulla, Conty: Revisiting Physically Based Shading at
@@ -39,12 +41,12 @@ constexpr auto metal_names = [] {
 constexpr Key keys[] = {
     {.name = "metal",
      .type = KeyType::choice,
-     .doc = "Which metal; instead of `n` and `k`, or of `color`.",
+     .doc = "Name of the metal. It replaces `n` and `k`, or `color`.",
      .choices = metal_names,
      .optional = true},
     {.name = "n",
      .type = KeyType::color,
-     .doc = "Refractive index at red, green and blue; above 0.",
+     .doc = "Refractive index at red, green and blue; each above 0.",
      .max = 100,
      .optional = true},
     {.name = "k",
@@ -54,7 +56,7 @@ constexpr Key keys[] = {
      .optional = true},
     {.name = "color",
      .type = KeyType::texture,
-     .doc = "Share that is mirrored at right angles.",
+     .doc = "Reflectance at perpendicular incidence.",
      .max = 1,
      .optional = true},
     roughness_key,

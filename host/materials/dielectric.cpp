@@ -10,8 +10,8 @@ namespace eyeray::engine::materials {
 namespace {
 
 constexpr std::string_view manual =
-    R"(Glass, water, air: a clear medium that fills its shape. At its surface light is mirrored and refracted by the
-shares of Fresnel's equations for unpolarised light; inside, `absorption` dims it with the distance (Beer–Lambert).
+    R"(Glass, water, air: a clear medium that fills its shape. The surface reflects and refracts light by Fresnel's
+equations for unpolarised light. Inside, `absorption` weakens light with the distance (Beer–Lambert).
 
 ```toml
 [[material]]
@@ -21,24 +21,27 @@ ior = 1.5
 absorption = [0.2, 0.02, 0.1]
 ```
 
-With `scattering` it is clouded: under `path` light that comes a distance d through it is weakened by exp(-(absorption +
-scattering) d), and what is scattered goes on in directions after Henyey and Greenstein, p(cos θ) = (1 - g²) / (4π (1 + g² -
-2g cos θ)^(3/2)), g the `anisotropy`. Each time counts as one of `max_depth`. `whitted` and `raycast` know `absorption` alone.
-A medium without a surface has `ior = 1`: where the index is the same on both sides, paths and shadow rays go straight
-through, weakened by the medium.
+With `scattering` the medium is cloudy. Under `path`, a distance d through it weakens light by
+exp(-(absorption + scattering) d). Scattered light continues in directions after Henyey and Greenstein, p(cos
+θ) = (1 - g²) / (4π (1 + g² - 2g cos θ)^(3/2)), where g is the `anisotropy`. Each scattering counts as one of
+`max_depth`. `whitted` and `raycast` use only `absorption`. A medium without a visible surface has `ior = 1`.
+Where the index is the same on both sides, paths and shadow rays continue straight, weakened by the medium.
 
-Media nest, up to four deep: a ray that leaves one is back in the one around it. A hollow ball is a sphere of glass with a
-sphere of `ior = 1` inside it. From ior n₁ to n₂, sin²θ₂ = (n₁/n₂)² (1 − cos²θ₁); where that reaches 1 all light is mirrored, and
-no root is taken. The reflected share is ½ (rₛ² + rₚ²), rₛ = (n₁cosθ₁ − n₂cosθ₂) / (n₁cosθ₁ + n₂cosθ₂),
-rₚ = (n₁cosθ₂ − n₂cosθ₁) / (n₁cosθ₂ + n₂cosθ₁); equal media do not mirror at all.
+Media nest, up to four deep: a ray that leaves a medium is back in the surrounding one. A hollow ball is a
+sphere of glass with a sphere of `ior = 1` inside it. From ior n₁ to n₂, sin²θ₂ = (n₁/n₂)² (1 − cos²θ₁). Where
+that reaches 1, all light is reflected and no root is taken. The reflected share is ½ (rₛ² + rₚ²), with rₛ =
+(n₁cosθ₁ − n₂cosθ₂) / (n₁cosθ₁ + n₂cosθ₂) and rₚ = (n₁cosθ₂ − n₂cosθ₁) / (n₁cosθ₂ + n₂cosθ₁). Two equal media
+do not reflect at all.
 
-With `thin` it is a pane, which has no inside: light that is mirrored to and fro between its faces adds up, R' = 2R / (1 + R), and the
-rest goes straight on. Under `path` lights shine through panes: suns, points and spots through any number of them, those with a size through eight.
-Paths find what lies behind more.
+With `thin` the surface is a pane, which has no inside. The reflections between its two faces add up to R' =
+2R / (1 + R). The rest of the light continues straight. Under `path`, lights shine through panes. The light of
+directional, point and spot lights without a size passes any number of them. The light of those with a size
+passes eight. Paths find lights behind more panes.
 
-Shadow rays go straight through and keep the share `shadow` for each shape that they hit, however often they cross it
-(a triangle is a shape). By default it is what a surface with air lets through at right angles,
-1 − ((ior − 1) / (ior + 1))². Bent light (caustics) and its absorption are not modelled.
+Shadow rays pass straight through. Each shape that they hit multiplies the light by `shadow` once, however
+often they cross the shape (a triangle is a shape). The default is the transmittance of a surface in air at
+perpendicular incidence, 1 − ((ior − 1) / (ior + 1))². Refracted light (caustics) and its absorption are not
+modelled.
 
 **Source.** Born, Wolf: Principles of Optics, 1.5. Whitted: An Improved Illumination Model for Shaded Display, CACM 23(6), 1980.
 )";
@@ -52,12 +55,12 @@ constexpr Key keys[] = {
      .max = 4},
     {.name = "thin",
      .type = KeyType::boolean,
-     .doc = "Whether it is a pane: a surface without inside, such as a window or a bubble.",
+     .doc = "If true, the surface is a pane without an inside, such as a window or a bubble.",
      .fallback = "false"},
     {.name = "roughness",
      .type = KeyType::texture,
-     .doc = "Under `path`, of frosted glass: from 0, polished, to 1. The green channel counts. What is not 0 "
-            "is at least 0.032.",
+     .doc = "Roughness of frosted glass under `path`, from 0 (polished) to 1. The green channel counts. "
+            "Values above 0 and below 0.032 are raised to 0.032.",
      .fallback = "0",
      .max = 1},
     absorption_key,
@@ -65,7 +68,8 @@ constexpr Key keys[] = {
     anisotropy_key,
     {.name = "shadow",
      .type = KeyType::number,
-     .doc = "Share of light that a shadow ray keeps for each shape it hits; from ior when absent.",
+     .doc = "Factor for the light of a shadow ray, once for each shape that it hits. When absent, it follows "
+            "from `ior`.",
      .min = 0,
      .max = 1,
      .optional = true},

@@ -9,7 +9,8 @@ extern const MaterialType diffuse_type;
 namespace {
 
 constexpr std::string_view manual =
-    R"(A matte surface: chalk, plaster, paper. With `roughness` it is flatter to the eye, as the moon is; no light is lost by that.
+    R"(A matte surface: chalk, plaster, paper. With `roughness` it looks flatter, as the moon does. No light is lost
+by that.
 
 ```toml
 [[material]]
@@ -19,8 +20,8 @@ color = [0.8, 0.75, 0.7]
 roughness = 0.6
 ```
 
-BSDF = color / π at roughness 0, Lambert's. Beyond: Fujii's form of Oren and Nayar's model, with what facets throw at
-each other. `whitted` and `raycast` take it as Lambert's.
+At roughness 0 the BSDF is color / π, Lambert's. At higher roughness it is Fujii's form of Oren and Nayar's
+model, including the light that facets scatter onto each other. `whitted` and `raycast` use Lambert's.
 
 **Source.** Portsmouth, Kutz, Hill: EON: A Practical Energy-Preserving Rough Diffuse BRDF, JCGT 14(1), 2025.
 )";
@@ -28,12 +29,12 @@ each other. `whitted` and `raycast` take it as Lambert's.
 constexpr Key keys[] = {
     {.name = "color",
      .type = KeyType::texture,
-     .doc = "Share of light that is sent on.",
+     .doc = "Share of light that is scattered.",
      .fallback = "0.8",
      .max = 1},
     {.name = "roughness",
      .type = KeyType::texture,
-     .doc = "From 0, Lambert's, to 1. The green channel counts.",
+     .doc = "Roughness from 0 (Lambert's) to 1. The green channel counts.",
      .fallback = "0",
      .max = 1},
     emission_key,

@@ -20,17 +20,18 @@ struct Highlight {
 // The keys that a material with a highlight declares, and their reading.
 inline constexpr Key specular_key{
     .name = "specular", .type = KeyType::texture, .doc = "Share of light in the highlight.", .fallback = "0"};
-inline constexpr Key shininess_key{.name = "shininess",
-                                   .type = KeyType::number,
-                                   .doc = "Exponent of the highlight: the greater, the smaller and sharper.",
-                                   .fallback = "32",
-                                   .min = 1,
-                                   .max = 10000};
+inline constexpr Key shininess_key{
+    .name = "shininess",
+    .type = KeyType::number,
+    .doc = "Exponent of the highlight. A greater value makes the highlight smaller and sharper.",
+    .fallback = "32",
+    .min = 1,
+    .max = 10000};
 inline constexpr std::string_view highlight_models[] = {"phong", "blinn"};
 inline constexpr Key highlight_key{
     .name = "highlight",
     .type = KeyType::choice,
-    .doc = "Lobe (r·v)^shininess of Phong 1975 or (n·h)^shininess of Blinn 1977.",
+    .doc = "Lobe of the highlight: (r·v)^shininess of Phong 1975 or (n·h)^shininess of Blinn 1977.",
     .fallback = "\"phong\"",
     .choices = highlight_models};
 Highlight read_highlight(const TableReader& table);

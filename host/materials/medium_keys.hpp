@@ -9,19 +9,18 @@ namespace eyeray::engine::materials {
 inline constexpr Key absorption_key = {
     .name = "absorption",
     .type = KeyType::color,
-    .doc = "Light is weakened by exp(-absorption * distance) inside; per unit of length.",
+    .doc = "Absorption coefficient per world unit: inside, light is weakened by exp(-absorption * distance).",
     .fallback = "0"};
-inline constexpr Key scattering_key = {
-    .name = "scattering",
-    .type = KeyType::color,
-    .doc = "Under `path`, of milk, wax or fog: how much light is sent elsewhere inside; per unit of length.",
-    .fallback = "0"};
+inline constexpr Key scattering_key = {.name = "scattering",
+                                       .type = KeyType::color,
+                                       .doc =
+                                           "Scattering coefficient per world unit, under `path`, for milk, "
+                                           "wax or fog: how much light is scattered inside.",
+                                       .fallback = "0"};
 inline constexpr Key anisotropy_key = {
     .name = "anisotropy",
     .type = KeyType::number,
-    .doc =
-        "Where to: the mean cosine of the angle by which scattered light is turned. Above 0 it goes on "
-        "more or less as it came.",
+    .doc = "Mean cosine of the scattering angle. Above 0, light continues more or less in its direction.",
     .fallback = "0",
     .min = -most_anisotropy,
     .max = most_anisotropy};

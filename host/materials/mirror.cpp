@@ -7,8 +7,8 @@ namespace eyeray::engine::materials {
 namespace {
 
 constexpr std::string_view manual =
-    R"(A polished metal: `reflectance` times what the mirror direction sees, and, since a point light is too small to be hit by
-a mirrored ray, a highlight in its stead.
+    R"(A polished metal. It shows `reflectance` times the light from the mirror direction. A point light is too small
+to be hit by a mirrored ray, so a highlight represents it.
 
 ```toml
 [[material]]
@@ -19,8 +19,8 @@ specular = 0.5
 shininess = 200
 ```
 
-colour = reflectance · (what the mirror direction sees) + Σ light · specular · lobe. `raycast`, which does not reflect, shades
-the reflectance.
+colour = reflectance · (light from the mirror direction) + Σ light · specular · lobe. `raycast` does not
+reflect, and shades the reflectance instead.
 
 **Source.** Whitted: An Improved Illumination Model for Shaded Display, CACM 23(6), 1980.
 )";
@@ -28,7 +28,7 @@ the reflectance.
 constexpr Key keys[] = {
     {.name = "reflectance",
      .type = KeyType::texture,
-     .doc = "Share of what the mirror direction sees.",
+     .doc = "Share of the light from the mirror direction that is reflected.",
      .fallback = "0.95",
      .max = 1},
     specular_key,

@@ -7,8 +7,8 @@ namespace eyeray::engine::materials {
 namespace {
 
 constexpr std::string_view manual =
-    R"(An opaque surface that scatters light evenly (`diffuse`), shows a highlight of each light (`specular`), and mirrors
-its surroundings by the share `reflectance`.
+    R"(An opaque surface that scatters light evenly (`diffuse`), shows a highlight of each light (`specular`), and
+reflects its surroundings by the share `reflectance`.
 
 ```toml
 [[material]]
@@ -19,11 +19,11 @@ specular = 0.3
 shininess = 50
 ```
 
-colour = emission + ambient · (the scene's ambient light) + Σ light · (diffuse · n·l + specular · lobe) + reflectance · (what the mirror
-direction sees), summed over the lights that the point sees and that stand before it. These are the classic units,
-without a factor π: a white surface square to a light of intensity 1 shows 1. `lobe` is max(0, r·v)^shininess with
-r the mirrored direction of the light (`highlight = "phong"`) or max(0, n·h)^shininess with h halfway between light and
-viewer (`"blinn"`).
+colour = emission + ambient · (the scene's ambient light) + Σ light · (diffuse · n·l + specular · lobe) +
+reflectance · (light from the mirror direction). The sum is over the lights that are visible from the point
+and in front of its surface. These are the classic units, without a factor π: a white surface perpendicular to
+a light of intensity 1 shows 1. `lobe` is max(0, r·v)^shininess, with r the mirrored direction of the light
+(`highlight = "phong"`). Or it is max(0, n·h)^shininess, with h halfway between light and viewer (`"blinn"`).
 
 **Source.** Phong: Illumination for Computer Generated Pictures, CACM 18(6), 1975. Blinn: Models of Light Reflection, SIGGRAPH
 1977. Whitted: An Improved Illumination Model for Shaded Display, CACM 23(6), 1980.
@@ -36,17 +36,17 @@ constexpr Key keys[] = {
      .fallback = "0.8"},
     {.name = "ambient",
      .type = KeyType::texture,
-     .doc = "Share of the scene's ambient light; the same as diffuse when absent.",
+     .doc = "Share of the scene's ambient light that is reflected. When absent, the same as `diffuse`.",
      .optional = true},
     {.name = "reflectance",
      .type = KeyType::texture,
-     .doc = "Share of what the mirror direction sees.",
+     .doc = "Share of the light from the mirror direction that is reflected.",
      .fallback = "0",
      .max = 1},
     {.name = "emission",
      .type = KeyType::texture,
-     .doc = "Light of the surface's own, whatever shines on it. Under `path` it lights others; else it does "
-            "not.",
+     .doc = "Light that the surface emits, whatever shines on it. It illuminates other surfaces only under "
+            "`path`.",
      .fallback = "0"},
     specular_key,
     shininess_key,

@@ -46,15 +46,14 @@ inline constexpr Key roughness_key{
     .name = "roughness",
     .type = KeyType::texture,
     .doc =
-        "From 0, polished, to 1; the slopes of the microfacets go by its square. The green channel "
-        "counts. Below 0.032 it counts as that.",
+        "Roughness from 0 (polished) to 1. The slopes of the microfacets follow its square. The green "
+        "channel counts. Values below 0.032 are raised to 0.032.",
     .fallback = "0.5",
     .max = 1};
-inline constexpr Key emission_key{.name = "emission",
-                                  .type = KeyType::texture,
-                                  .doc =
-                                      "Light of the surface's own, whatever shines on it. Under `path` it "
-                                      "lights others.",
-                                  .fallback = "0"};
+inline constexpr Key emission_key{
+    .name = "emission",
+    .type = KeyType::texture,
+    .doc = "Light that the surface emits, whatever shines on it. Under `path` it illuminates other surfaces.",
+    .fallback = "0"};
 
 }  // namespace eyeray::engine::materials

@@ -16,8 +16,9 @@ extern const MaterialType plastic_type;
 namespace {
 
 constexpr std::string_view principled_manual =
-    R"(glTF 2.0's metallic-roughness, which models come with: a coloured body under a clear, glossy surface, or a metal of that
-colour, or a blend of both; light may go through it, and cloth and lacquer may lie over it.
+    R"(The metallic-roughness model of glTF 2.0, which models come with. It is a coloured body under a clear, glossy
+surface, a metal of that colour, or a blend of both. It may transmit light, and cloth and lacquer may lie on
+top.
 
 ```toml
 [[material]]
@@ -29,11 +30,16 @@ roughness = 0.4
 coat = 1
 ```
 
-Where it is no metal it mirrors F0 = ((ior − 1) / (ior + 1))² · specular_color · specular at right angles and `specular` edge-on; a
-metal mirrors `color`, and white edge-on (Schlick). Microfacets are as in `conductor`. What the surface lets through meets a
-Lambert body of `color`, and leaves through the surface again; by the share `transmission` it goes on instead, tinted by `color`. It is
-bent there as in `dielectric` (then that share mirrors by `ior` alone), and fills the shape; or with `thin` goes straight on, blurred by `roughness`. A coat
-has index 1.5. Sheen is fibres of that colour above the body, as cloth has them. `whitted` and `raycast` show a stand-in: glass where `transmission` is 0.5 and more.
+The non-metal part reflects F0 = ((ior − 1) / (ior + 1))² · specular_color · specular at perpendicular
+incidence, and `specular` at grazing incidence. A metal reflects `color` at perpendicular incidence, and white
+at grazing incidence (Schlick). Microfacets are as in `conductor`.
+
+Light that enters the non-metal part hits a Lambert body of `color`, and leaves through the surface again. The
+share `transmission` of it passes through instead, tinted by `color`. It is refracted as in `dielectric` and
+fills the shape. The surface of that share reflects by `ior` alone. With `thin` the light passes straight
+through, blurred by `roughness`. A coat has index 1.5. Sheen is a layer of fibres of `sheen_color` above the
+body, as cloth has them. `whitted` and `raycast` show an approximation: glass where `transmission` is 0.5 or
+more.
 
 **Source.** Khronos: glTF 2.0 Specification, appendix B; KHR_materials_ior, _specular, _clearcoat, _sheen, _transmission, _volume. Kelemen,
 Szirmay-Kalos: A Microfacet Based Coupled Specular-Matte BRDF Model, Eurographics 2001. Estevez, Kulla: Production Friendly Microfacet
@@ -41,8 +47,8 @@ Sheen BRDF, SIGGRAPH 2017.
 )";
 
 constexpr std::string_view plastic_manual =
-    R"(A coloured body under a clear surface, rough or polished: plastic, lacquer, glazed clay. It is `principled` of which no
-part is metal.
+    R"(A coloured body under a clear surface, rough or polished: plastic, lacquer, glazed clay. It is `principled`
+without a metal part.
 
 ```toml
 [[material]]
@@ -53,11 +59,12 @@ roughness = 0.1
 ```
 )";
 
-constexpr Key color_key{.name = "color",
-                        .type = KeyType::texture,
-                        .doc = "Of the body; of a metal, the share that is mirrored at right angles.",
-                        .fallback = "0.8",
-                        .max = 1};
+constexpr Key color_key{
+    .name = "color",
+    .type = KeyType::texture,
+    .doc = "Colour of the body. For a metal it is the reflectance at perpendicular incidence.",
+    .fallback = "0.8",
+    .max = 1};
 constexpr Key ior_key{.name = "ior",
                       .type = KeyType::number,
                       .doc = "Index of refraction of the surface.",
@@ -69,65 +76,64 @@ constexpr Key principled_keys[] = {
     color_key,
     {.name = "metallic",
      .type = KeyType::texture,
-     .doc = "How much of it is metal. The blue channel counts.",
+     .doc = "Share of the surface that is metal. The blue channel counts.",
      .fallback = "0",
      .max = 1},
     roughness_key,
     ior_key,
     {.name = "specular",
      .type = KeyType::texture,
-     .doc = "Weakens what is mirrored where it is no metal. The red channel counts.",
+     .doc = "Factor for the reflectance of the non-metal part. The red channel counts.",
      .fallback = "1",
      .max = 1},
     {.name = "specular_color",
      .type = KeyType::texture,
-     .doc = "Tints what is mirrored at right angles where it is no metal.",
+     .doc = "Tint of the reflectance of the non-metal part at perpendicular incidence.",
      .fallback = "1"},
     {.name = "transmission",
      .type = KeyType::texture,
-     .doc = "The share of light that goes through, of what the surface does not mirror and where it is no "
-            "metal. "
-            "The red channel counts.",
+     .doc = "Share of light that is transmitted, of the light that the non-metal part does not reflect. The "
+            "red channel counts.",
      .fallback = "0",
      .max = 1},
     {.name = "thin",
      .type = KeyType::boolean,
-     .doc = "Whether what light goes through is a pane, without inside: a window, a leaf, a bubble.",
+     .doc = "If true, the part that transmits light is a pane without an inside: a window, a leaf, a bubble.",
      .fallback = "false"},
     {.name = "absorption",
      .type = KeyType::color,
-     .doc = "Light is weakened by exp(-absorption * distance) inside; per unit of length.",
+     .doc =
+         "Absorption coefficient per world unit: inside, light is weakened by exp(-absorption * distance).",
      .fallback = "0"},
     {.name = "sheen_color",
      .type = KeyType::texture,
-     .doc = "Of fibres above the body; black without.",
+     .doc = "Colour of the fibres above the body; black means no fibres.",
      .fallback = "0",
      .max = 1},
     {.name = "sheen_roughness",
      .type = KeyType::texture,
-     .doc = "How much the fibres stand in all directions: from 0, edge-on alone, to 1. The green channel "
-            "counts. Below "
-            "0.07 it counts as that.",
+     .doc = "Spread of the directions of the fibres: from 0 (sheen only at grazing angles) to 1 (all "
+            "directions). The green channel counts. Values below 0.07 are raised to 0.07.",
      .fallback = "0.5",
      .max = 1},
     {.name = "coat",
      .type = KeyType::texture,
-     .doc = "The share of the surface that a clear coat covers. The red channel counts.",
+     .doc = "Share of the surface that a clear coat covers. The red channel counts.",
      .fallback = "0",
      .max = 1},
     {.name = "coat_roughness",
      .type = KeyType::texture,
-     .doc = "Of the coat. The green channel counts.",
+     .doc = "Roughness of the coat. The green channel counts.",
      .fallback = "0",
      .max = 1},
     {.name = "coat_normal",
      .type = KeyType::texture,
-     .doc = "The coat's own normal map, in the way of `normal`. Neither that nor `bump` bends the coat.",
+     .doc = "Normal map of the coat, in the form of `normal`. Neither `normal` nor `bump` bends the coat.",
      .max = 1,
      .optional = true},
     {.name = "coat_normal_scale",
      .type = KeyType::number,
-     .doc = "How strongly that bends; below 0 the other way.",
+     .doc = "Strength of `coat_normal`. A negative value bends the normals in the opposite direction.",
      .fallback = "1",
      .min = -1000,
      .max = 1000},

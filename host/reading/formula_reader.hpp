@@ -15,10 +15,12 @@ namespace eyeray::engine::reading {
 inline constexpr Key formula_file_key{
     .name = "file",
     .type = KeyType::formula_file,
-    .doc = "The name of a file with it, relative to the scene file that it stands in.",
+    .doc = "Name of a file with the function, relative to the scene file that contains this key.",
     .optional = true};
-inline constexpr Key parameters_key{
-    .name = "parameters", .type = KeyType::parameters, .doc = "Constants that it sees.", .optional = true};
+inline constexpr Key parameters_key{.name = "parameters",
+                                    .type = KeyType::parameters,
+                                    .doc = "Constants that the function may use.",
+                                    .optional = true};
 
 // Whether one of the keys `sources` stands in the table, and no other of them; an error where not. `owner`,
 // for messages: "[[implicit]]".

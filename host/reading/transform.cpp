@@ -14,15 +14,15 @@ constexpr Key step_keys[] = {
     {.name = "translate", .type = KeyType::vec3, .doc = "Moves by [x, y, z].", .optional = true},
     {.name = "rotate",
      .type = KeyType::rotation,
-     .doc = "Turns about an axis through the origin.",
+     .doc = "Rotates about an axis through the origin.",
      .optional = true},
     {.name = "scale",
      .type = KeyType::scale3,
-     .doc = "Stretches from the origin; negative numbers mirror.",
+     .doc = "Scales from the origin. Negative numbers mirror.",
      .optional = true},
     {.name = "matrix",
      .type = KeyType::matrix,
-     .doc = "Any affine map, three rows of four numbers.",
+     .doc = "Any affine map, as three rows of four numbers.",
      .optional = true},
 };
 

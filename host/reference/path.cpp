@@ -15,10 +15,11 @@ extern const Integrator path_integrator;
 namespace {
 
 constexpr std::string_view manual =
-    "Path tracing: all light that surfaces scatter, reflect and refract among each other, by one random path "
-    "a sample. Surfaces that emit are lights, and `background` is light from everywhere. What stands for "
-    "such light in Whitted's pictures counts for nothing here: `ambient`, highlights (`specular`), `shadow` "
-    "and `min_throughput`. `diffuse` beyond 1 counts as 1. `max_depth` surfaces are lit after the first.";
+    "Path tracing computes all light that surfaces scatter, reflect and refract onto each other, with one "
+    "random path per sample. Surfaces that emit are lights, and `background` is light from all directions. "
+    "Keys that approximate such light for `whitted` have no effect here: `ambient`, highlights (`specular`), "
+    "`shadow` and `min_throughput`. Values of `diffuse` above 1 are cut to 1. `max_depth` is the number of "
+    "surfaces lit after the first.";
 
 constexpr int first_roulette = 3;
 constexpr double least_survival = 0.05;

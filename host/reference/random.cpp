@@ -5,8 +5,8 @@ namespace eyeray::engine::reference {
 
 extern const Sampler random_sampler{
     .manual =
-        "Every number is random for itself, by `seed` of [render](#render): any number of samples, for "
-        "statistics.",
+        "All random numbers are independent of each other, selected by `seed` of [render](#render). Any "
+        "number of samples is possible. This is for statistics.",
     .place = [](int, uint32_t pixel, uint32_t index,
                 uint32_t seed) { return random_pair(pixel, index, 0, seed); },
     .pair = random_pair};

@@ -10,8 +10,8 @@ extern const Integrator raycast_integrator;
 namespace {
 
 constexpr std::string_view manual =
-    "Eye rays only: the first surface in its own colour, lit without shadows, or, in a scene without lights, "
-    "by a lamp at the eye.";
+    "Only camera rays are traced. The first surface is shown in its own colour, lit without shadows. In a "
+    "scene without lights, a light at the eye illuminates it.";
 
 PixelSample raycast(const Tracer& tracer, const SampleId& id, const Ray& eye_ray, const MediaStack&,
                     const rounding::Displacement& displacement, const Observer& observer) {

@@ -5,7 +5,7 @@
 namespace eyeray::engine::reference {
 
 extern const Sampler regular_sampler{
-    .manual = "The samples of a pixel lie at the centres of the n × n cells that it is cut into.",
+    .manual = "Each pixel is divided into n × n cells. The samples lie at the centres of the cells.",
     .place = [](int samples, uint32_t, uint32_t index,
                 uint32_t) { return in_grid(samples, index, Vec2(0.5)); },
     .pair = random_pair};

@@ -11,8 +11,8 @@ extern const Sampler sobol_sampler;
 namespace {
 
 constexpr std::string_view manual =
-    "Sobol's sequence, scrambled as Owen does, by `seed` of [render](#render): the samples of a pixel, and "
-    "their paths, are spread evenly, however many they are; best by powers of two.";
+    "Sobol's sequence with Owen's scrambling, selected by `seed` of [render](#render). The samples of a "
+    "pixel, and their paths, are evenly distributed for any number of samples. Powers of two are best.";
 
 uint32_t reversed(uint32_t x) {
   uint32_t result = 0;

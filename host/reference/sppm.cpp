@@ -13,12 +13,12 @@ extern const Integrator sppm_integrator;
 namespace {
 
 constexpr std::string_view manual =
-    "Photon mapping: as `path`, but what is lit by more than one surface is found from the lights. For each "
-    "sample they send out `photons` anew, which surfaces scatter and keep; a path from the eye gathers those "
-    "around the first point that scatters light widely, within a radius that shrinks from sample to sample. "
-    "So caustics of points of light and small lamps are soon without noise. What is lit by one surface is "
-    "the "
-    "same as in `path`; of media, volume caustics are not seen.";
+    "Photon mapping. It works as `path` does, but light that reaches a point through more than one surface "
+    "is found from the lights. For each sample the lights emit `photons` new photons, which surfaces scatter "
+    "and store. A path from the eye gathers the photons around the first point that scatters light widely. "
+    "The radius shrinks from sample to sample. Caustics of point lights and small area lights are therefore "
+    "soon free of noise. Light that is scattered by one surface is the same as in `path`. Volume caustics in "
+    "media are not computed.";
 
 }  // namespace
 

@@ -14,8 +14,8 @@ extern const Integrator whitted_integrator;
 namespace {
 
 constexpr std::string_view manual =
-    "Whitted's ray tracing: every light's shadow at every surface, and reflections and refractions of it, "
-    "each followed by itself.";
+    "Whitted's ray tracing: shadow rays to every light from every surface, plus reflections and refractions, "
+    "each traced by its own ray.";
 
 // A ray on its way, and what it is worth.
 struct Path {

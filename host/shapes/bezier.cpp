@@ -14,9 +14,10 @@ namespace eyeray::engine::shapes {
 namespace {
 
 constexpr std::string_view manual =
-    R"(A bicubic Bézier patch, Σ Bᵢ(v)·Bⱼ(u)·pᵢⱼ with Bernstein's polynomials B of degree 3: the smooth surface that 16 control points draw towards them. The corners are on
-it, and the edges are the Bézier curves of the outer points. `points` are four rows of four; u runs along a row, v from row to row. Nothing is cut into
-triangles. Open; the normal is that of ∂u × ∂v.
+    R"(A bicubic Bézier patch, Σ Bᵢ(v)·Bⱼ(u)·pᵢⱼ with Bernstein's polynomials B of degree 3. It is a smooth surface
+that 16 control points attract. The corner points lie on it, and its edges are the Bézier curves of the outer
+points. `points` are four rows of four: u runs along a row, v from row to row. The patch is not tessellated
+into triangles. Open; the normal is that of ∂u × ∂v.
 
 ```toml
 [[bezier]]
@@ -29,19 +30,24 @@ points = [
 material = "wall"
 ```
 
-Several patches of one table stand in a `batch = { points = [[…], […]] }`, as Newell's 32 in `scenes/shapes/include/gallery.toml`. Edges may be points, as on top of
-the teapot's lid. A patch all of whose points lie on one line is refused. `transform` may be any affine map that can be undone. Each crossing takes √`shadow` from a
-shadow ray, as of a mesh, since closed surfaces are made of many patches.
+One table holds several patches in a `batch = { points = [[…], […]] }`, such as Newell's 32 in
+`scenes/shapes/include/gallery.toml`. An edge may collapse to a point, as on top of the teapot's lid. A patch
+whose points all lie on one line is refused. `transform` may be any invertible affine map. Each crossing
+multiplies the light of a shadow ray by √`shadow`, as for a mesh, because closed surfaces consist of many
+patches.
 
-**uv.** Those of the equation, from 0 to 1: (0, 0) at the first point, (1, 0) at the fourth, (0, 1) at the thirteenth; what
-begins at 1, as the next check of a texture may, is not to be seen.
+**uv.** The u and v of the equation, from 0 to 1: (0, 0) at the first point, (1, 0) at the fourth, (0, 1) at
+the thirteenth. A part of a texture that begins at 1, such as the next check, is not visible.
 
-**Numeric trap.** Newton's method for u and v fails where a ray grazes: there the two equations are singular, and there may be several roots or none. So a patch is laid out in
-pieces over which its derivatives vary little, each tested as one shape in the BVH. A plane through the ray and across a piece cuts it in a curve with u and v that
-are never singular, whose distance from the ray is followed in arcs so short that a cubic is sure to tell how often it is zero.
+**Numeric trap.** Newton's method for u and v fails where a ray grazes the patch. There the two equations are
+singular, and they may have several roots or none. So a patch is divided into pieces over which its
+derivatives vary little, and each piece is one shape in the BVH. A plane through the ray and across a piece
+cuts it in a curve along which u and v are never singular. The distance of the curve from the ray is followed
+in short arcs. Each arc is so short that a cubic reliably shows how often the distance is zero.
 
-**Source.** Martin, Cohen, Fish and Shirley: Practical Ray Tracing of Trimmed NURBS Surfaces, Journal of Graphics Tools 5(1), 2000, for the pieces. The float64 half is
-Nishita, Sederberg and Kakimoto's Bézier clipping.
+**Source.** Martin, Cohen, Fish and Shirley: Practical Ray Tracing of Trimmed NURBS Surfaces, Journal of
+Graphics Tools 5(1), 2000, for the pieces. The float64 implementation is Nishita, Sederberg and Kakimoto's
+Bézier clipping.
 )";
 
 constexpr Key keys[] = {

@@ -16,8 +16,9 @@ namespace {
 using Corners = std::array<Vec3, 4>;
 
 constexpr std::string_view manual =
-    R"(The surface that four corners span when each pair of opposite edges is joined by straight lines, a saddle: (1 − u)(1 − v)·p₀ + u(1 − v)·p₁ + uv·p₂ +
-(1 − u)v·p₃. `corners` run around it. Open; the normal points to where they run counter-clockwise.
+    R"(The saddle-shaped surface between four corners. Straight lines join each pair of opposite edges: (1 − u)(1 −
+v)·p₀ + u(1 − v)·p₁ + uv·p₂ + (1 − u)v·p₃. `corners` run around it. Open; the normal points to the side from
+which they run counter-clockwise.
 
 ```toml
 [[bilinear]]
@@ -25,13 +26,14 @@ corners = [[-1, 0, 1], [1, 1, 1], [1, 0, -1], [-1, 1, -1]]
 material = "wall"
 ```
 
-Corners in one plane, or so near to it that the patch is flatter than 1e-4, are refused: two triangles are right for those. `transform` may be any affine map that can be
-undone.
+Corners in one plane are refused, and so are corners so near to one that the patch is flatter than 1e-4. Use
+two triangles for those. `transform` may be any invertible affine map.
 
 **uv.** (0, 0) at the first corner, (1, 0) at the second, (1, 1) at the third, (0, 1) at the fourth.
 
-**Numeric trap.** Where the patch is nearly a parallelogram, the quadratic equation for u is nearly linear, and its other root beyond all bounds. The roots are taken as q/c and a/q. A ray
-is followed to near the middle first.
+**Numeric trap.** Where the patch is nearly a parallelogram, the quadratic equation for u is nearly linear,
+and its other root exceeds all bounds. The roots are computed as q/c and a/q. A ray is first followed to a
+point near the middle.
 
 **Source.** Reshetov: Cool Patches, Ray Tracing Gems, 2019, chapter 8.
 )";

@@ -10,7 +10,7 @@ namespace eyeray::engine::shapes {
 namespace {
 
 constexpr std::string_view manual =
-    R"(All points between `min` and `max`, in each coordinate. Closed; the normals point outward.
+    R"(All points between `min` and `max` in each coordinate. Closed; the normals point outward.
 
 ```toml
 [[box]]
@@ -19,13 +19,14 @@ max = [1, 2, 1]
 material = "wall"
 ```
 
-`transform` may be any affine map that can be undone: turned, sheared and mirrored boxes are boxes too.
+`transform` may be any invertible affine map: rotated, sheared and mirrored boxes are boxes too.
 
-**uv.** Each face has the whole texture upright: seen from outside u runs from 0 on its left to 1 on its right and v from 0 at its foot to 1.
-On top of the top face is −z, and of the bottom face +z.
+**uv.** Each face shows the whole texture upright. Seen from outside, u runs from 0 on its left to 1 on its
+right, and v from 0 at its foot to 1 at its top. The upper edge of the top face is at −z, and that of the
+bottom face at +z.
 
-**Numeric trap.** (x − o) / d is 0 / 0 for a ray that runs within a face's plane, and min and max of that are whatever the compiler likes. Directions
-that are as good as 0 are taken as a little larger, so that no NaN arises.
+**Numeric trap.** (x − o) / d is 0 / 0 for a ray that runs within a face's plane. The min and max of that
+depend on the compiler. Directions that are nearly 0 are made slightly larger, so that no NaN arises.
 
 **Source.** Kay and Kajiya: Ray Tracing Complex Scenes, SIGGRAPH 1986.
 )";

@@ -13,7 +13,8 @@ namespace eyeray::engine::shapes {
 namespace {
 
 constexpr std::string_view manual =
-    R"(All points within `radius` of the line between `from` and `to`: a cylinder that ends in two half balls. Closed; the normals point outward.
+    R"(All points within `radius` of the line segment between `from` and `to`: a cylinder that ends in two half
+balls. Closed; the normals point outward.
 
 ```toml
 [[capsule]]
@@ -23,14 +24,16 @@ radius = 0.5
 material = "wall"
 ```
 
-`transform` may be any affine map that can be undone: it may make the capsule elliptic and oblique.
+`transform` may be any invertible affine map. It may make the capsule elliptic and oblique.
 
-**uv.** u runs from 0 to 1 about the axis, counter-clockwise seen from `to`, with ½ towards the world's +x (where the axis is parallel to that, towards
-+z). v runs from 0 at the pole below `from` to 1 at the pole beyond `to`, as the way along the surface is long, so that a texture is stretched alike on the side and at
-the poles' feet.
+**uv.** u runs from 0 to 1 about the axis, counter-clockwise seen from `to`. u = ½ is towards the world's +x,
+or towards +z where the axis is parallel to +x. v runs from 0 at the pole below `from` to 1 at the pole beyond
+`to`, in proportion to the length along the surface. A texture is therefore stretched equally on the side and
+where the half balls begin.
 
-**Numeric trap.** A cylinder and two balls, each tested apart, show cracks and inner walls where they hit. Here the ray enters once and leaves once: where it passes the
-endless cylinder beyond an end, it is the ball there that counts.
+**Numeric trap.** A cylinder and two balls that are tested separately show cracks and inner walls where they
+meet. Here the ray enters once and leaves once. Where it hits the infinite cylinder beyond an end, the ball at
+that end counts instead.
 
 **Source.** Haines, Günther, Akenine-Möller: Precision Improvements for Ray/Sphere Intersection, Ray Tracing Gems, chapter 7, 2019, for its
 quadratic equations.
@@ -39,7 +42,7 @@ quadratic equations.
 constexpr Key keys[] = {
     {.name = "from",
      .type = KeyType::vec3,
-     .doc = "Where the axis begins: the centre of a half ball.",
+     .doc = "Start of the axis: the centre of one half ball.",
      .min = -max_coordinate,
      .max = max_coordinate},
     axis_to_key,

@@ -11,8 +11,9 @@ namespace eyeray::engine::shapes {
 namespace {
 
 constexpr std::string_view manual =
-    R"(The surface between a circle of `radius` about `from` and one of `to_radius` about `to`, with a flat cap at either end that has a radius. With
-`to_radius = 0`, the default, it ends in a point. Closed, the normals outward; with `open = true` only the side.
+    R"(The surface between a circle of `radius` about `from` and a circle of `to_radius` about `to`. Each end with a
+radius has a flat cap. With `to_radius = 0`, the default, the cone ends in a point. Closed, with normals
+outward; with `open = true` only the side.
 
 ```toml
 [[cone]]
@@ -23,15 +24,17 @@ to_radius = 0.25
 material = "wall"
 ```
 
-`transform` may be any affine map that can be undone: it may make the cone elliptic and oblique. The radii must differ: with equal ones it is a
-[cylinder](#cylinder).
+`transform` may be any invertible affine map. It may make the cone elliptic and oblique. The radii must
+differ: with equal radii the shape is a [cylinder](#cylinder).
 
-**uv.** On the side u runs from 0 to 1 about the axis, counter-clockwise seen from the smaller end, with ½ towards the world's +x (where the axis is
-parallel to that, towards +z), and v from 0 at the larger end to 1 at the smaller. On a cap (½, ½) is the middle, and the rim is ½ away from it: seen from outside
-the texture is upright, with u to the right along that same direction.
+**uv.** On the side u runs from 0 to 1 about the axis, counter-clockwise seen from the smaller end. u = ½ is
+towards the world's +x, or towards +z where the axis is parallel to +x. v runs from 0 at the larger end to 1
+at the smaller. On a cap (½, ½) is the middle, and the rim is ½ away from it. Seen from outside the texture is
+upright, with u to the right along that same direction.
 
-**Numeric trap.** The equation of the side is also that of its mirror image beyond the apex: a ray may be inside of both. Where it runs along the side, the quadratic equation is a
-linear one. Sides and caps are cut as a cylinder's are.
+**Numeric trap.** The equation of the side also describes its mirror image beyond the apex, and a ray may be
+inside both. Where the ray runs along the side, the quadratic equation is linear. Sides and caps are cut as
+those of a cylinder.
 
 **Source.** Eberly: Intersection of a Line and a Cone, Geometric Tools, 2000.
 )";
@@ -46,11 +49,11 @@ constexpr Key keys[] = {
      .max = max_coordinate},
     {.name = "to_radius",
      .type = KeyType::number,
-     .doc = "The same at `to`.",
+     .doc = "Distance of the side from the axis at `to`.",
      .fallback = "0",
      .min = 0,
      .max = max_coordinate},
-    {.name = "open", .type = KeyType::boolean, .doc = "Whether the caps are left out.", .fallback = "false"},
+    {.name = "open", .type = KeyType::boolean, .doc = "If true, the caps are left out.", .fallback = "false"},
 };
 
 // From the radius 1 at y = 0 to 1 − taper at y = 1.

@@ -237,12 +237,13 @@ void Csg::pack(records::Packer& packer) const {
 namespace {
 
 constexpr std::string_view manual =
-    R"(What closed shapes make together: their union, their intersection, or either without other shapes that are taken away. The shapes stand in the CSG object's
-table, `[[csg.sphere]]`, `[[csg.box]]` and so on; what is taken away, below `minus`: `[[csg.minus.cylinder]]`. Closed; the normals point out of the CSG object, also into what
-was taken away.
+    R"(A combination of closed shapes (CSG object): their union, their intersection, or either minus other shapes.
+The shapes are in the CSG object's table, `[[csg.sphere]]`, `[[csg.box]]` and so on. The shapes to subtract
+are below `minus`: `[[csg.minus.cylinder]]`. Closed; the normals point out of the CSG object, also into the
+subtracted shapes.
 
 ```toml
-[[csg]]                        # a lens: what is within both balls
+[[csg]]                        # a lens: the intersection of two balls
 operation = "intersection"
 material = "glass"
 
@@ -254,7 +255,7 @@ radius = 1
 center = [0, 1, 0.8]
 radius = 1
 
-[[csg]]                        # a ring: a cylinder without a thinner one
+[[csg]]                        # a ring: a cylinder minus a thinner one
 material = "wall"
 
 [[csg.cylinder]]
@@ -263,26 +264,38 @@ to = [2, 0.5, 0]
 radius = 0.6
 
 [[csg.minus.cylinder]]
-from = [2, -0.1, 0]              # a little longer than what it is taken from
+from = [2, -0.1, 0]              # a little longer than the outer cylinder
 to = [2, 0.6, 0]
 radius = 0.4
-material = "floor"               # of the ring's inner side
+material = "floor"               # material of the ring's inner side
 ```
 
-A CSG object may be part of another: `[[csg.csg]]`, `[[csg.minus.csg]]`. All may have a `batch` and a `transform`; a CSG object's moves all that stands in it, by whatever map its parts may have. In no table
-does the order of shapes matter. A part without a `material` has that of the CSG object around it.
+A CSG object may be part of another: `[[csg.csg]]`, `[[csg.minus.csg]]`. Parts and CSG objects may have a
+`batch` and a `transform`. That of a CSG object moves all its parts, by any map that its parts may have. The
+order of shapes does not matter in any table. A part without a `material` has that of the CSG object around
+it.
 
-Parts are closed shapes: sphere, box, ellipsoid, capsule, prism, torus, superellipsoid, and cylinder, cone, paraboloid, hyperboloid, quadric and implicit unless they are `open`; 32 in one
-CSG object, those of CSG objects in it included. An implicit one is searched by each ray from end to end as often as that crosses the CSG object's parts on the way, so it
-takes long where rays cross it often; at its 65th crossing the ray has reached the iteration limit. What encloses nothing is refused, and so are meshes, of which nothing says that they do. A CSG object is filled with one medium at most: where light passes through
-several of its surfaces, they are of one material.
+Parts are closed shapes: sphere, box, ellipsoid, capsule, prism, torus, superellipsoid. Cylinder, cone,
+paraboloid, hyperboloid, quadric and implicit are closed unless they are `open`. A CSG object has at most 32
+parts, including those of CSG objects in it. eyeray refuses shapes that enclose nothing. It also refuses
+meshes, because nothing states that they are closed.
 
-**uv.** Those of the part whose surface it is.
+An implicit part is slow where rays cross the CSG object often: a ray searches it from end to end once for
+each crossing of the object's parts. At its 65th crossing the ray has reached the iteration limit. A CSG
+object is filled with at most one medium. If light passes through several of its surfaces, they must have the
+same material.
 
-**Numeric trap.** To start again a little behind each crossing, as is often done, misses thin walls or hits the same surface twice. Here a ray is followed from t = −∞, where it is
-outside of everything, from crossing to crossing, each the same number whoever asks, and what is within what is known by counting alone. Faces of two parts at the same place are told apart by
-rounding: let what is taken away stick out, as above, and what is joined overlap. Where they do come out at exactly the same t, they are crossed at once, nothing thin is
-left, and of two surfaces the part that is first by kind in the order of this page, then by its place in the file, is seen.
+**uv.** The uv of the part whose surface is hit.
+
+**Numeric trap.** Many renderers restart the ray a little behind each crossing. That misses thin walls or hits
+the same surface twice. Here a ray is followed from t = −∞, where it is outside everything, from crossing to
+crossing. Each crossing has the same t in every computation, and counting alone decides which parts the ray is
+inside.
+
+Rounding decides between faces of two parts at the same position. So let subtracted shapes stick out, as
+above, and let joined shapes overlap. Faces at exactly the same t are crossed together, and nothing thin is
+left. If two surfaces coincide, the visible one belongs to the first part: first by kind in the order of this
+page, then by its position in the file.
 
 **Source.** Roth: Ray Casting for Modeling CsgObjects, Computer Graphics and Image Processing 18, 1982.
 )";
@@ -291,7 +304,8 @@ constexpr std::string_view operations[] = {"union", "intersection"};
 constexpr Key keys[] = {
     {.name = "operation",
      .type = KeyType::choice,
-     .doc = "What is within any of its parts, or within all of them; those below `minus` are taken from it.",
+     .doc = "`\"union\"`: the points inside any of the parts. `\"intersection\"`: the points inside all of "
+            "them. Parts below `minus` are subtracted.",
      .fallback = "\"union\"",
      .choices = operations,
      .hint = "; what is taken away stands below `minus`, as [[csg.minus.sphere]]"},

@@ -9,8 +9,8 @@ namespace eyeray::engine::shapes {
 namespace {
 
 constexpr std::string_view manual =
-    R"(All points at the distance `radius` from the line between `from` and `to`, with a flat cap at either end. Closed, the normals outward;
-with `open = true` only the side.
+    R"(All points at the distance `radius` from the line between `from` and `to`, with a flat cap at either end.
+Closed, with normals outward; with `open = true` only the side.
 
 ```toml
 [[cylinder]]
@@ -20,14 +20,16 @@ radius = 0.5
 material = "wall"
 ```
 
-`transform` may be any affine map that can be undone: it may make the cylinder elliptic and oblique.
+`transform` may be any invertible affine map. It may make the cylinder elliptic and oblique.
 
-**uv.** On the side u runs from 0 to 1 about the axis, counter-clockwise seen from `to`, with ½ towards the world's +x
-(where the axis is parallel to that, towards +z), and v from 0 at `from` to 1 at `to`. On a cap (½, ½) is the middle,
-and the rim is ½ away from it: seen from outside the texture is upright, with u to the right along that same direction.
+**uv.** On the side u runs from 0 to 1 about the axis, counter-clockwise seen from `to`. u = ½ is towards the
+world's +x, or towards +z where the axis is parallel to +x. v runs from 0 at `from` to 1 at `to`. On a cap (½,
+½) is the middle, and the rim is ½ away from it. Seen from outside the texture is upright, with u to the right
+along that same direction.
 
-**Numeric trap.** Along the axis the quadratic equation of the side is none; at a rim, a side and a cap that are tested apart let rays through
-between them. Here the ray's stretch between the planes of the caps is cut with that inside the side: both end in the same numbers.
+**Numeric trap.** Along the axis the quadratic equation of the side degenerates. At a rim, a side and a cap
+that are tested separately let rays through between them. Here the ray's interval between the planes of the
+caps is intersected with its interval inside the side. Both intervals end in the same numbers.
 
 **Source.** Cychosz and Waggenspack: Intersecting a Ray with a Cylinder, Graphics Gems IV, 1994.
 )";
@@ -40,7 +42,7 @@ constexpr Key keys[] = {
      .doc = "Distance of the side from the axis.",
      .min = min_radius,
      .max = max_coordinate},
-    {.name = "open", .type = KeyType::boolean, .doc = "Whether the caps are left out.", .fallback = "false"},
+    {.name = "open", .type = KeyType::boolean, .doc = "If true, the caps are left out.", .fallback = "false"},
 };
 
 class Cylinder final : public Revolution {

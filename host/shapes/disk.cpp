@@ -11,8 +11,9 @@ namespace eyeray::engine::shapes {
 namespace {
 
 constexpr std::string_view manual =
-    R"(All points of the plane through `center`, across `normal`, that are from `inner_radius` to `radius` away from the centre: a disk, or with an inner
-radius a ring (an annulus). A sheet without inside; the normal points to where `normal` does.
+    R"(All points of the plane through `center`, perpendicular to `normal`, at a distance from `inner_radius` to
+`radius` from the centre. The shape is a disk, or a ring (an annulus) if it has an inner radius. It is a sheet
+without an inside. Its normal points in the direction of `normal`.
 
 ```toml
 [[disk]]
@@ -23,20 +24,24 @@ inner_radius = 0.5
 material = "wall"
 ```
 
-`transform` may be any affine map that can be undone: it may make the disk an ellipse.
+`transform` may be any invertible affine map. It may make the disk an ellipse.
 
-**uv.** (½, ½) is the centre, and the rim is ½ away from it: the texture lies flat, and is cut round. Seen from where the normal points, u runs to the right, along
-the world's +x as nearly as can be (where the normal is parallel to that, along +z), and v up.
+**uv.** (½, ½) is the centre, and the rim is ½ away from it. The texture lies flat and is cut to the disk.
+Seen from the side to which the normal points, u runs to the right and v up. u is as nearly along the world's
++x as possible, or along +z where the normal is parallel to +x.
 
-**Numeric trap.** Far away o + t·d misses the plane by the rounding of t: the ray is first followed to its point nearest to the centre, and the
-hit is put back onto the plane. A parallel ray is one that never reaches it; no epsilon decides.
+**Numeric trap.** Far away, o + t·d misses the plane by the rounding of t. So the ray is first followed to its
+point nearest to the centre, and the hit is moved back onto the plane. A ray is parallel if it never reaches
+the plane. No epsilon decides.
 
 **Source.** Any textbook.
 )";
 
 constexpr Key keys[] = {
     center_key,
-    {.name = "normal", .type = KeyType::vec3, .doc = "Direction across it, of any length but 0."},
+    {.name = "normal",
+     .type = KeyType::vec3,
+     .doc = "Direction perpendicular to the disk, of any length but 0."},
     {.name = "radius",
      .type = KeyType::number,
      .doc = "Distance of the rim from the centre.",

@@ -21,12 +21,12 @@ radii = [2, 1, 0.5]
 material = "glass"
 ```
 
-`transform` may be any affine map that can be undone; what it makes is an ellipsoid again.
+`transform` may be any invertible affine map. The result is an ellipsoid again.
 
 **uv.** As on a [sphere](#sphere) that is stretched to this ellipsoid.
 
-**Numeric trap.** As for a sphere, in a space in which it is one. From far away the ray is first followed to its point nearest to the centre: what is computed from
-there is of the ellipsoid's own size.
+**Numeric trap.** As for a sphere, in a space in which the ellipsoid is one. From far away, the ray is first
+followed to its point nearest to the centre. Values computed from there are of the ellipsoid's own size.
 
 **Source.** Haines, Günther, Akenine-Möller: Precision Improvements for Ray/Sphere Intersection, Ray Tracing Gems,
 chapter 7, 2019.

@@ -12,9 +12,10 @@ namespace eyeray::engine::shapes {
 namespace {
 
 constexpr std::string_view manual =
-    R"(A hyperboloid of one sheet, the shape of a cooling tower: its distance r from the line between `from` and `to` is r² = waist² + k² h², at the distance h from the
-waist along that line. `radius` is r at `from`, `to_radius` at `to`; k and the place of the waist, which is between the two, follow from them. A flat cap at either end closes it, the
-normals outward; with `open = true` it is the side alone.
+    R"(A hyperboloid of one sheet, the shape of a cooling tower. Its distance r from the line between `from` and `to`
+follows r² = waist² + k² h², where h is the distance from the waist along that line. `radius` is r at `from`,
+and `to_radius` is r at `to`. They determine k and the position of the waist, which is between the two ends. A
+flat cap closes either end, with normals outward; with `open = true` only the side.
 
 ```toml
 [[hyperboloid]]
@@ -26,14 +27,16 @@ waist = 0.4
 material = "wall"
 ```
 
-`transform` may be any affine map that can be undone: it may make the hyperboloid elliptic and oblique.
+`transform` may be any invertible affine map. It may make the hyperboloid elliptic and oblique.
 
-**uv.** On the side u runs from 0 to 1 about the axis, counter-clockwise seen from `to`, with ½ towards the world's +x
-(where the axis is parallel to that, towards +z), and v from 0 at `from` to 1 at `to`. On a cap (½, ½) is the middle,
-and the rim is ½ away from it: seen from outside the texture is upright, with u to the right along that same direction.
+**uv.** On the side u runs from 0 to 1 about the axis, counter-clockwise seen from `to`. u = ½ is towards the
+world's +x, or towards +z where the axis is parallel to +x. v runs from 0 at `from` to 1 at `to`. On a cap (½,
+½) is the middle, and the rim is ½ away from it. Seen from outside the texture is upright, with u to the right
+along that same direction.
 
-**Numeric trap.** It is not convex: a ray may enter and leave it twice, through a cap, out of the waist's hollow, in again and out of the other cap. Where a ray
-runs within the cone that the side tends to, it is inside beyond the roots of the equation, not between them.
+**Numeric trap.** The shape is not convex: a ray may enter and leave it twice. It enters through a cap, leaves
+into the waist's hollow, enters again and leaves through the other cap. Where a ray runs within the asymptotic
+cone of the side, it is inside beyond the roots of the equation, not between them.
 
 **Source.** Any textbook; the cuts after Kay and Kajiya: Ray Tracing Complex Scenes, SIGGRAPH 1986.
 )";
@@ -48,16 +51,16 @@ constexpr Key keys[] = {
      .max = max_coordinate},
     {.name = "to_radius",
      .type = KeyType::number,
-     .doc = "The same at `to`; without it, `radius`.",
+     .doc = "Distance of the side from the axis at `to`. When absent, `radius`.",
      .min = min_radius,
      .max = max_coordinate,
      .optional = true},
     {.name = "waist",
      .type = KeyType::number,
-     .doc = "The same where it is least.",
+     .doc = "Distance of the side from the axis at the waist, where it is least.",
      .min = min_radius,
      .max = max_coordinate},
-    {.name = "open", .type = KeyType::boolean, .doc = "Whether the caps are left out.", .fallback = "false"},
+    {.name = "open", .type = KeyType::boolean, .doc = "If true, the caps are left out.", .fallback = "false"},
 };
 
 // In units of the larger radius across the axis and of half the length along it, from the waist: x² + z² =

@@ -18,7 +18,9 @@ namespace eyeray::engine::shapes {
 namespace {
 
 constexpr std::string_view manual =
-    R"(All points p between `min` and `max` where a function f(p) is negative, f being GLSL of yours. [formulas.md](formulas.md) says which GLSL, [implicit-surfaces.md](implicit-surfaces.md) how rays find it.
+    R"(All points p between `min` and `max` where a function f(p) is negative. f is user-defined GLSL.
+[formulas.md](formulas.md) describes the GLSL, and [implicit-surfaces.md](implicit-surfaces.md) describes how
+rays find the surface.
 
 ```toml
 [[implicit]]
@@ -35,15 +37,19 @@ lipschitz = 1.42
 material = "wall"
 ```
 
-The text stands in `code`, in a file of its own, `file = "bumps.glsl"`, or it is a `ready` one. What `parameters` has are constants of the function, by name: a number is a
-`float`, a list of two to four numbers a `vec2` … `vec4`.
+The text of the function is in `code`, or in a separate file, `file = "bumps.glsl"`, or it is a `ready` one.
+The entries of `parameters` are constants of the function, by name. A number becomes a `float`, a list of two
+to four numbers a `vec2` … `vec4`.
 
-`lipschitz` is a bound on how steep f is, anywhere in the box: |f(p) − f(q)| ≤ `lipschitz` · |p − q|. Rays step by |f| / `lipschitz`, so that none ever steps over the surface: too small,
-and there are holes; too large, and it takes long. A function that is a distance has 1. Samples are taken when the scene is read, and a bound
-that they disprove is a warning with the point.
+`lipschitz` is a bound on the slope of f anywhere in the box: |f(p) − f(q)| ≤ `lipschitz` · |p − q|. Rays step
+by |f| / `lipschitz`, so that no ray steps over the surface. If the bound is too small, there are holes; if it
+is too large, rendering is slow. A function that is a distance has the bound 1. eyeray samples f when it reads
+the scene, and warns with the point if a sample disproves the bound.
 
-**Without `lipschitz`** eyeray works out itself what f may be along each piece of a ray, by interval arithmetic that it derives from your text, and steps over a piece only if f is not
-zero there for certain; normals are f's exact derivatives. For polynomials, and whatever else is smooth, that takes fewer steps (Barth's sextic: 7) and no knowledge:
+**Without `lipschitz`** eyeray itself bounds the values of f along each piece of a ray. It uses interval
+arithmetic that it derives from your text. It steps over a piece only if f is certainly not zero there.
+Normals are the exact derivatives of f. For polynomials and other smooth functions that takes fewer steps
+(Barth's sextic: 7), and no bound is needed:
 
 ```toml
 [[implicit]]
@@ -58,29 +64,39 @@ max = [2.4, 2.4, 2.4]
 material = "wall"
 ```
 
-It cannot be derived, and is an error at the line, where a loop goes round as often as p says (or more than 1000 times), and where an index or a whole number is computed from p; loops with a fixed number of turns, also such as
-break off early, are fine. Declare `lipschitz` where f is a distance, or where f is not defined or jumps: nothing bounds 1/x around 0 or an angle where it jumps, so pieces get small there.
+Such a derivation is impossible, and an error at the line, in two cases. The first is a loop whose number of
+iterations depends on p, or is above 1000. The second is an index or a whole number that is computed from p.
+Loops with a fixed number of iterations are fine, also if they break off early.
 
-It is closed: where the inside reaches the box, the box's faces are its caps. With `open = true` they are left out. `transform` may be any affine map that can be undone; it moves
-the surface, its box and the coordinates that f sees.
+Declare `lipschitz` where f is a distance, is undefined, or jumps. Nothing bounds 1/x around 0 or an angle
+where it jumps, so the pieces become small there.
 
-| `ready` | its parameters, and what they are if they are not given |
+Closed: where the inside reaches the box, the box's faces are its caps. With `open = true` they are left out.
+`transform` may be any invertible affine map. It moves the surface, its box and the coordinates that f
+receives.
+
+| `ready` | its parameters and their defaults |
 | --- | --- |
-| `metaballs` | `ball1` … `ball4` = [x, y, z, reach]: four balls that flow into each other: where their weights, each (1 − r²/reach²)³ at the distance r from [x, y, z] and 0 beyond `reach`, add up to `level` = 0.3 |
-| `gyroid` | all where sin x cos y + sin y cos z + sin z cos x, at 2π/`period` times the point, is within `thickness` = 0.25 of `level` = 0; `period` = 1. About the gyroid itself that is a wall as wide as 0.18 to 0.23 · `thickness` · `period` |
+| `metaballs` | `ball1` … `ball4` = [x, y, z, reach]: four balls that blend into each other. The weight of a ball is (1 − r²/reach²)³ at the distance r from [x, y, z], and 0 beyond `reach`. The surface is where the weights add up to `level` = 0.3 |
+| `gyroid` | the points where the sum sin x cos y + sin y cos z + sin z cos x, at 2π/`period` times the point, is within `thickness` = 0.25 of `level` = 0; `period` = 1. Around the gyroid itself that is a wall with a width of 0.18 to 0.23 · `thickness` · `period` |
 | `rounded-box` | `center` = [0, 0, 0], `half_size` = [0.8, 0.6, 0.7] with edges of `radius` = 0.2 |
 | `smooth-union` | `sphere` = [0, 0.35, 0, 0.5] (centre and radius) and a box about `box_center` = [0, -0.4, 0] of `box_half_size` = [0.8, 0.25, 0.6], blended over `blend` = 0.4 |
-| `mandelbulb` | of power 8 about the y axis, after `rounds` = 2 (at most 8) as far as 1 from the origin; it lies within 1.25. It has no `lipschitz` and is found by intervals: 3 rounds take five times as long as 2, a few rays in a thousand run out, and what they add is finer than float32 tells, as `verify` finds |
-| `height-field` | hills below y = `base` = 0 ± `height` = 0.5, the largest of them `period` = 1 apart; `seed` = 1 |
+| `mandelbulb` | of power 8 about the y axis: the points that are at most 1 from the origin after `rounds` = 2 iterations (at most 8). It lies within 1.25. It has no `lipschitz` and is found by intervals. 3 rounds take five times as long as 2, and a few rays in a thousand reach the iteration limit. The detail that they add is finer than float32 resolves, as `verify` finds |
+| `height-field` | hills below y = `base` = 0 ± `height` = 0.5; the largest are `period` = 1 apart; `seed` = 1 |
 
-**uv.** Those of a [box](#box)'s face: of the face itself on a cap, and elsewhere of the face to which the normal would point
-if the box were stretched to a cube, onto which the texture is projected straight.
+**uv.** On a cap, the uv of that [box](#box) face. Elsewhere, the uv of the box face to which the normal would
+point if the box were stretched to a cube. The texture is projected straight onto that face.
 
-**Numeric trap.** All is computed in the coordinates of the box: rounding is 10⁻⁷ of its size, so choose it no larger than need be, and near f's own origin. With `lipschitz` the least step of a ray is 10⁻⁵ of half the
-box: walls thinner than that are passed through. Normals are those of `vec3 gradient(vec3 p)`, if the text has that too; else differences over 1/256 of half the box, to the
-fourth order: waves that are much shorter, and edges, look smoother than they are.
-A ray that takes 4096 steps and has not come to an end has reached the iteration limit: its pixel is told (without `lipschitz`, 4096 pieces). Without `lipschitz` none of this is so but the last: no change of sign is overlooked but where f is zero up to
-rounding ([numerics](numerics.md#implicit-surfaces-by-affine-bounds)), and a touch without a change of sign is no surface.
+**Numeric trap.** All values are computed in the coordinates of the box. Rounding is 10⁻⁷ of its size, so
+choose the box no larger than necessary, and near the origin of f. With `lipschitz` the smallest step of a ray
+is 10⁻⁵ of half the box, so a ray passes through walls thinner than that. Normals come from `vec3
+gradient(vec3 p)`, if the text has that function. Otherwise they are fourth-order differences over 1/256 of
+half the box. Much shorter waves, and edges, look smoother than they are.
+
+A ray that has not ended after 4096 steps (without `lipschitz`, 4096 pieces) has reached the iteration limit,
+and its pixel is reported. Without `lipschitz`, only this last limit applies. A change of sign is then
+overlooked only where f is zero up to rounding ([numerics](numerics.md#implicit-surfaces-by-affine-bounds)).
+Where f touches zero without a change of sign, there is no surface.
 
 **Source.** Hart: Sphere Tracing: A Geometric Method for the Antialiased Ray Tracing of Implicit Surfaces, The Visual Computer 12, 1996. Comba, Stolfi: Affine Arithmetic and its Applications to Computer Graphics, SIBGRAPI 1993. Bálint, Valasek: Accelerating Sphere Tracing, Eurographics Short Papers 2018.
 )";
@@ -88,12 +104,12 @@ rounding ([numerics](numerics.md#implicit-surfaces-by-affine-bounds)), and a tou
 constexpr Key keys[] = {
     {.name = "code",
      .type = KeyType::formula,
-     .doc = "The function, `float f(vec3 p)`, and what it calls.",
+     .doc = "The function `float f(vec3 p)` and the functions that it calls.",
      .optional = true},
     reading::formula_file_key,
     {.name = "ready",
      .type = KeyType::choice,
-     .doc = "One that comes with eyeray.",
+     .doc = "Name of a function that comes with eyeray.",
      .choices = ready_names,
      .optional = true},
     reading::parameters_key,
@@ -101,7 +117,7 @@ constexpr Key keys[] = {
     box_max_key,
     {.name = "lipschitz",
      .type = KeyType::number,
-     .doc = "How steep f is at most; most `ready` ones know, and without it f is bounded by intervals.",
+     .doc = "Bound on the slope of f. Most `ready` functions have one. Without it f is bounded by intervals.",
      .min = 0,
      .above_min = true,
      .optional = true},

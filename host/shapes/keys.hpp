@@ -18,15 +18,15 @@ inline constexpr Key radii_key = {.name = "radii",
                                   .max = max_coordinate};
 
 // Of shapes with an axis.
-inline constexpr Key axis_from_key = point_key("from", "Where the axis begins.");
-inline constexpr Key axis_to_key = point_key("to", "Where it ends.");
+inline constexpr Key axis_from_key = point_key("from", "Start of the axis.");
+inline constexpr Key axis_to_key = point_key("to", "End of the axis.");
 
 // Of shapes in a box.
 inline constexpr Key box_min_key = point_key("min", "The corner of the box with the least coordinates.");
-inline constexpr Key box_max_key = point_key("max", "The corner with the greatest.");
+inline constexpr Key box_max_key = point_key("max", "The corner of the box with the greatest coordinates.");
 inline constexpr Key box_open_key = {.name = "open",
                                      .type = KeyType::boolean,
-                                     .doc = "Whether the box's faces are left out.",
+                                     .doc = "If true, the box's faces are left out.",
                                      .fallback = "false"};
 
 }  // namespace eyeray::engine::shapes

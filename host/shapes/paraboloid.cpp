@@ -8,8 +8,9 @@ namespace eyeray::engine::shapes {
 namespace {
 
 constexpr std::string_view manual =
-    R"(A bowl: its distance from the line between `tip` and `to` is `radius` · √(h / H), at the height h above the tip, of H in all. A flat cap closes it at `to`, the normals
-outward; with `open = true` it is the bowl alone.
+    R"(A bowl. At the height h above the tip, its distance from the line between `tip` and `to` is `radius` · √(h /
+H), where H is the total height. A flat cap closes it at `to`, with normals outward; with `open = true` only
+the bowl.
 
 ```toml
 [[paraboloid]]
@@ -20,16 +21,18 @@ open = true
 material = "wall"
 ```
 
-As a mirror it gathers what comes along its axis in one point, radius² / 4H above the tip.
+As a mirror it focuses light that arrives along its axis in one point, radius² / 4H above the tip.
 
-`transform` may be any affine map that can be undone: it may make the paraboloid elliptic and oblique.
+`transform` may be any invertible affine map. It may make the paraboloid elliptic and oblique.
 
-**uv.** On the bowl u runs from 0 to 1 about the axis, counter-clockwise seen from `to`, with ½ towards the world's +x (where the axis is parallel to
-that, towards +z), and v = h / H. On the cap (½, ½) is the middle, and the rim is ½ away from it: seen from outside the texture is upright, with
-u to the right along that same direction.
+**uv.** On the bowl u runs from 0 to 1 about the axis, counter-clockwise seen from `to`. u = ½ is towards the
+world's +x, or towards +z where the axis is parallel to +x. v = h / H. On the cap (½, ½) is the middle, and
+the rim is ½ away from it. Seen from outside the texture is upright, with u to the right along that same
+direction.
 
-**Numeric trap.** Along the axis the quadratic equation is a linear one. Near the tip √h is off by far more than h is: a hit is put back onto the bowl along
-its normal, not at its height. Bowl and cap are cut as a cylinder's are.
+**Numeric trap.** Along the axis the quadratic equation is linear. Near the tip the error of √h is much larger
+than that of h. So a hit is moved back onto the bowl along its normal, not at its height. Bowl and cap are cut
+as those of a cylinder.
 
 **Source.** Any textbook; the cuts after Kay and Kajiya: Ray Tracing Complex Scenes, SIGGRAPH 1986.
 )";
@@ -42,7 +45,7 @@ constexpr Key keys[] = {
      .max = max_coordinate},
     {.name = "to",
      .type = KeyType::vec3,
-     .doc = "Where the axis ends: the middle of the rim.",
+     .doc = "End of the axis: the middle of the rim.",
      .min = -max_coordinate,
      .max = max_coordinate},
     {.name = "radius",
@@ -50,7 +53,7 @@ constexpr Key keys[] = {
      .doc = "Distance of the rim from the axis.",
      .min = min_radius,
      .max = max_coordinate},
-    {.name = "open", .type = KeyType::boolean, .doc = "Whether the cap is left out.", .fallback = "false"},
+    {.name = "open", .type = KeyType::boolean, .doc = "If true, the cap is left out.", .fallback = "false"},
 };
 
 // x² + z² = y, up to y = 1.

@@ -11,8 +11,8 @@ namespace eyeray::engine::shapes {
 namespace {
 
 constexpr std::string_view manual =
-    R"(All points origin + u·edge_u + v·edge_v with u and v from 0 to 1. Where the edges are square to each other it is a rectangle. The normal points to
-where edge_u × edge_v does.
+    R"(All points origin + u·edge_u + v·edge_v with u and v from 0 to 1. If the edges are perpendicular, it is a
+rectangle. The normal points in the direction of edge_u × edge_v.
 
 ```toml
 [[parallelogram]]
@@ -22,13 +22,13 @@ edge_v = [0.5, 1, 0]
 material = "wall"
 ```
 
-`transform` may be any affine map that can be undone. Under one that mirrors, the outside stays outside. Closed bodies of parallelograms, and those beside
-triangles and polygons, are tight where they share vertices.
+`transform` may be any invertible affine map. Under a mirroring map the outside stays outside. Closed bodies
+of parallelograms are watertight where they share vertices, also with triangles and polygons.
 
 **uv.** u grows from 0 at the origin to 1 along `edge_u`, v along `edge_v`.
 
-**Numeric trap.** To solve for u and v and compare them with 0 and 1 lets rays through between two neighbours. Here the signs of four edge functions decide,
-as for polygons.
+**Numeric trap.** Solving for u and v and comparing them with 0 and 1 lets rays through between two
+neighbours. Here the signs of four edge functions decide, as for polygons.
 
 **Source.** As for polygons.
 )";
@@ -41,12 +41,12 @@ constexpr Key keys[] = {
      .max = max_coordinate},
     {.name = "edge_u",
      .type = KeyType::vec3,
-     .doc = "From the origin to the corner where u is 1.",
+     .doc = "Vector from the origin to the corner where u is 1.",
      .min = -max_coordinate,
      .max = max_coordinate},
     {.name = "edge_v",
      .type = KeyType::vec3,
-     .doc = "From the origin to the corner where v is 1.",
+     .doc = "Vector from the origin to the corner where v is 1.",
      .min = -max_coordinate,
      .max = max_coordinate},
 };

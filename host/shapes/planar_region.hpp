@@ -47,7 +47,7 @@ inline constexpr size_t most_outline_vertices = 16384;
 // `vertices` and `holes`: the keys of shapes that are made of a region.
 inline constexpr Key vertices_key{.name = "vertices",
                                   .type = KeyType::vec3_list,
-                                  .doc = "The outline's corners, in order; the last is joined to the first.",
+                                  .doc = "Corners of the outline, in order. The last is joined to the first.",
                                   .min = -max_coordinate,
                                   .max = max_coordinate};
 inline constexpr Key holes_key{.name = "holes",

@@ -11,8 +11,8 @@ namespace eyeray::engine::shapes {
 namespace {
 
 constexpr std::string_view manual =
-    R"(All points x with normal · (x − point) = 0, without an end. The side to which the normal points is outside:
-a medium fills the half of space behind it.
+    R"(All points x with normal · (x − point) = 0, infinite in all directions. The side to which the normal points is
+outside: a medium fills the half-space behind the plane.
 
 ```toml
 [[plane]]
@@ -21,15 +21,17 @@ normal = [0, 1, 0]
 material = "floor"
 ```
 
-`transform` may be any affine map that can be undone.
+`transform` may be any invertible affine map.
 
-**uv.** Distances from `point` along two axes U and V in the plane, with (U, V, normal) right-handed. U is `u_axis`
-projected onto the plane. Without it, U is horizontal, +y × normal, so that on a wall seen from outside u runs to the
-right and v up; where the normal is vertical (its x and z below 1e-6 of its length) U is +x, hence V is −z on a floor.
-A `transform` stretches and turns the pattern with the plane: uv count in the plane's own units, as before it.
+**uv.** Distances from `point` along two axes U and V in the plane, with (U, V, normal) right-handed. U is
+`u_axis` projected onto the plane. Without `u_axis`, U is horizontal, +y × normal. On a wall seen from
+outside, u then runs to the right and v up. Where the normal is vertical (its x and z below 1e-6 of its
+length), U is +x. V is then −z on a floor. A `transform` stretches and rotates the pattern with the plane: uv
+are in the plane's own units, before `transform`.
 
-**Numeric trap.** Far away, o + t·d misses the plane by the rounding of t: the hit is put back onto it. A parallel ray is one
-with normal · d = 0 exactly; no epsilon decides, since a ray that is nearly parallel does hit the plane far off.
+**Numeric trap.** Far away, o + t·d misses the plane by the rounding of t, so the hit is moved back onto the
+plane. A ray is parallel only if normal · d = 0 exactly. No epsilon decides, because a nearly parallel ray
+does hit the plane far away.
 
 **Source.** Any textbook; the projection after Wächter, Binder: A Fast and Robust Method for Avoiding Self-Intersection,
 Ray Tracing Gems, chapter 6, 2019.
@@ -38,7 +40,7 @@ Ray Tracing Gems, chapter 6, 2019.
 constexpr Key keys[] = {
     {.name = "point",
      .type = KeyType::vec3,
-     .doc = "A point of the plane, the origin of uv.",
+     .doc = "A point of the plane. It is the origin of uv.",
      .min = -max_coordinate,
      .max = max_coordinate},
     {.name = "normal", .type = KeyType::vec3, .doc = "Direction to the outside, of any length but 0."},

@@ -11,8 +11,9 @@ namespace eyeray::engine::shapes {
 namespace {
 
 constexpr std::string_view manual =
-    R"(The flat piece within an outline, convex or not, less its holes: all points of the plane from which a half line in the plane crosses the edges
-an odd number of times. The normal points to where the vertices run counter-clockwise.
+    R"(The flat area within an outline, convex or not, minus its holes. A point of the plane belongs to it if a half
+line from there, in the plane, crosses the edges an odd number of times. The normal points to the side from
+which the vertices run counter-clockwise.
 
 ```toml
 [[polygon]]
@@ -21,17 +22,21 @@ holes = [[[0.5, 0.5, 0], [1, 0.5, 0], [1, 1, 0]], [[3, 0.5, 0], [3.5, 0.5, 0], [
 material = "wall"
 ```
 
-`transform` may be any affine map that can be undone. Under one that mirrors, the outside stays outside. Holes may run in either direction.
-Outlines must be flat (to 1e-5 of their size) and must neither cross nor touch themselves or each other; all of them together have at most 16384
-vertices. Closed bodies of polygons, and polygons beside triangles and parallelograms, are tight where they share vertices.
+`transform` may be any invertible affine map. Under a mirroring map the outside stays outside. Holes may run
+in either direction. Outlines must be flat (to 1e-5 of their size), and must neither cross nor touch
+themselves or each other. All of them together have at most 16384 vertices. Closed bodies of polygons are
+watertight where they share vertices, also with triangles and parallelograms.
 
-**uv.** Distances from the first vertex along two axes U and V in the plane, with (U, V, normal) right-handed. U is `u_axis` projected onto the plane;
-without it, it is that of a plane. uv count in the polygon's own units, as before `transform`.
+**uv.** Distances from the first vertex along two axes U and V in the plane, with (U, V, normal) right-handed.
+U is `u_axis` projected onto the plane. Without `u_axis`, U is that of a plane. uv are in the polygon's own
+units, before `transform`.
 
-**Numeric trap.** Which edges a half line crosses is undecided where it hits a vertex, and two neighbours that compute the same edge each in its own way
-may both decide against a point on it. Here the vertices are sheared into the plane across the ray, alike for all shapes; of each vertex it is asked once
-whether it is above the ray, where 0 is below; and an edge's side is the sign of a·d − b·c, which for its other direction is the exact negative. So
-neighbours answer alike to the last bit, and a point within both together is within exactly one of them.
+**Numeric trap.** The edges that a half line crosses are undecided where it hits a vertex. Two neighbours that
+compute the same edge differently may both decide against a point on it. Here the vertices are sheared into
+the plane perpendicular to the ray, in the same way for all shapes. One test for each vertex decides whether
+it is above the ray, where 0 counts as below. The side of an edge is the sign of a·d − b·c, which is exactly
+negated for the other direction of the edge. So neighbours agree to the last bit, and a point within both
+together is within exactly one of them.
 
 **Source.** Shimrat: Algorithm 112, Position of Point Relative to Polygon, CACM 5(8), 1962; Haines: Point in Polygon Strategies, Graphics Gems IV,
 1994; the shear after Woop, Benthin, Wald: Watertight Ray/Triangle Intersection, JCGT 2(1), 2013.

@@ -12,8 +12,8 @@ namespace eyeray::engine::shapes {
 namespace {
 
 constexpr std::string_view manual =
-    R"(The body that an outline, less its holes, sweeps along `extrusion`: all points p + s·extrusion with p in the polygon and s from 0 to 1. Closed; the
-normals point outward, into holes too.
+    R"(The body that an outline, minus its holes, sweeps along `extrusion`: all points p + s·extrusion with p in the
+polygon and s from 0 to 1. Closed; the normals point outward, also into holes.
 
 ```toml
 [[prism]]
@@ -23,15 +23,17 @@ extrusion = [0, 0.5, 0]
 material = "wall"
 ```
 
-`transform` may be any affine map that can be undone. The extrusion may be oblique, outline and holes may run in either direction. What outlines may be
-is said at the polygon.
+`transform` may be any invertible affine map. The extrusion may be oblique, and outline and holes may run in
+either direction. The rules for outlines are those of the [polygon](#polygon).
 
-**uv.** In the prism's own units, as before `transform`. On a wall u is the length along the outline, or the hole, from its first vertex, to the right seen from
-outside, and v the share of the extrusion times its length. On the cap at the tip of the extrusion uv are distances from the first vertex along two axes, as on a
-polygon that faces that way; on the other cap u is the negative of that, so that seen from outside nothing is mirrored.
+**uv.** In the prism's own units, before `transform`. On a wall u is the length along the outline, or the
+hole, from its first vertex, to the right seen from outside. v is the share of the extrusion times its length.
+On the cap at the tip of the extrusion, uv are distances from the first vertex along two axes, as on a polygon
+with the same normal. On the other cap u is negated, so that the texture is not mirrored seen from outside.
 
-**Numeric trap.** Walls and caps that are tested apart let rays through where they hit. Here, seen along the extrusion, the ray is a line that passes the
-outline's edges at certain distances, an even number of them; a cap is hit where an odd number of these are less than its own.
+**Numeric trap.** Walls and caps that are tested separately let rays through where they meet. Here the ray,
+seen along the extrusion, is a line that passes the outline's edges at an even number of distances. A cap is
+hit where an odd number of these distances are less than its own.
 
 **Source.** Kajiya: New Techniques for Ray Tracing Procedurally Defined Objects, SIGGRAPH 1983, section 4 (prisms).
 )";
@@ -41,7 +43,7 @@ constexpr Key keys[] = {
     holes_key,
     {.name = "extrusion",
      .type = KeyType::vec3,
-     .doc = "How far and whither the outline is swept.",
+     .doc = "Direction and distance of the sweep.",
      .min = -max_coordinate,
      .max = max_coordinate},
 };

@@ -13,31 +13,35 @@ namespace eyeray::engine::shapes {
 namespace {
 
 constexpr std::string_view manual =
-    R"(Any surface of the second degree: A x² + B y² + C z² + D xy + E xz + F yz + G x + H y + J z + K = 0, cut off by the box from `min` to `max`. The inside is where that
-is below 0, within the box; the normals point to where it grows. It is closed: where the inside reaches the box, the box's faces are its caps. With `open = true` they are left out, and the surface
-is a sheet.
+    R"(Any surface of the second degree: A x² + B y² + C z² + D xy + E xz + F yz + G x + H y + J z + K = 0. It is
+clipped by the box from `min` to `max`. The inside is where that value is below 0, within the box. The normals
+point to where it grows. Closed: where the inside reaches the box, the box's faces are its caps. With `open =
+true` they are left out, and the surface is a sheet.
 
 ```toml
 [[quadric]]                # a saddle: y = x² − z²
-square = [1, 0, -1]        # A, B, C: of x², y², z²
-linear = [0, -1, 0]        # G, H, J: of x, y, z
+square = [1, 0, -1]        # A, B, C: factors of x², y², z²
+linear = [0, -1, 0]        # G, H, J: factors of x, y, z
 min = [-1, -1, -1]
 max = [1, 1, 1]
 open = true
 material = "wall"
 ```
 
-A hyperboloid of two sheets is `square = [1, -1, 1]`, `constant = 0.1`; a hyperbolic cylinder is `square = [1, 0, -1]`, `constant = 0.1`; two planes that cross are
-`product = [1, 0, 0]`. What has a shape of its own, such as an [ellipsoid](#ellipsoid) or a [cone](#cone), is faster and more exact as that.
+A hyperboloid of two sheets is `square = [1, -1, 1]`, `constant = 0.1`. A hyperbolic cylinder is `square = [1,
+0, -1]`, `constant = 0.1`. Two planes that cross are `product = [1, 0, 0]`. If a surface has a shape of its
+own here, such as an [ellipsoid](#ellipsoid) or a [cone](#cone), that shape is faster and more exact.
 
-`transform` may be any affine map that can be undone; it moves the surface and the box.
+`transform` may be any invertible affine map. It moves the surface and the box.
 
-**uv.** Those of a [box](#box)'s face: of the face itself on a cap, and elsewhere of the face to which the normal would point
-if the box were stretched to a cube, onto which the texture is projected straight.
+**uv.** On a cap, the uv of that [box](#box) face. Elsewhere, the uv of the box face to which the normal would
+point if the box were stretched to a cube. The texture is projected straight onto that face.
 
-**Numeric trap.** All is computed in a space where the box is the cube from −1 to 1: rounding is 10⁻⁷ of the largest term there, so choose the box no larger than need be.
-At a point where the gradient is 0, as at a cone's apex, f is a square, and its root is far off: rays start farther away there. The box's faces and the
-quadric are cut as intervals of one ray, so that there is no crack between them.
+**Numeric trap.** All values are computed in a space where the box is the cube from −1 to 1. Rounding is 10⁻⁷
+of the largest term there, so choose the box no larger than necessary. At a point where the gradient is 0,
+such as a cone's apex, f is quadratic, so its rounding corresponds to a large distance. Rays start farther
+away there. The box's faces and the quadric are cut as intervals of one ray, so there is no crack between
+them.
 
 **Source.** Any textbook; the cuts after Kay and Kajiya: Ray Tracing Complex Scenes, SIGGRAPH 1986.
 )";
@@ -45,23 +49,23 @@ quadric are cut as intervals of one ray, so that there is no crack between them.
 constexpr Key keys[] = {
     {.name = "square",
      .type = KeyType::vec3,
-     .doc = "The factors of x², y² and z².",
+     .doc = "Factors of x², y² and z².",
      .fallback = "[0, 0, 0]",
      .min = -max_coordinate,
      .max = max_coordinate},
     {.name = "product",
      .type = KeyType::vec3,
-     .doc = "The factors of xy, xz and yz.",
+     .doc = "Factors of xy, xz and yz.",
      .fallback = "[0, 0, 0]",
      .min = -max_coordinate,
      .max = max_coordinate},
     {.name = "linear",
      .type = KeyType::vec3,
-     .doc = "The factors of x, y and z.",
+     .doc = "Factors of x, y and z.",
      .fallback = "[0, 0, 0]",
      .min = -max_coordinate,
      .max = max_coordinate},
-    {.name = "constant", .type = KeyType::number, .doc = "What is added to them.", .fallback = "0"},
+    {.name = "constant", .type = KeyType::number, .doc = "Constant term of the equation.", .fallback = "0"},
     box_min_key,
     box_max_key,
     box_open_key,

@@ -23,16 +23,17 @@ radius = 1
 material = "glass"
 ```
 
-`transform` may be any affine map that can be undone. One that stretches or shears makes an [ellipsoid](#ellipsoid) of it, with the same uv.
+`transform` may be any invertible affine map. A map that stretches or shears turns the sphere into an
+[ellipsoid](#ellipsoid) with the same uv.
 
-**uv.** In the sphere's own axes (turned by `transform`), with n the unit vector from the centre: the pole is +y,
-`v = atan2(√(n.x² + n.z²), −n.y) / π` runs from 0 at the south pole to 1 at the north pole, and
-`u = 0.5 + atan2(−n.z, n.x) / 2π`, 1 taken as 0, runs eastward (counter-clockwise seen from the north pole) from the
-seam at −x over +z (¼) and +x (½) to −z (¾).
+**uv.** In the sphere's own axes (rotated by `transform`), with n the unit vector from the centre: the pole is
++y. `v = atan2(√(n.x² + n.z²), −n.y) / π` runs from 0 at the south pole to 1 at the north pole. `u = 0.5 +
+atan2(−n.z, n.x) / 2π`, with 1 replaced by 0, runs eastward (counter-clockwise seen from the north pole). It
+starts at the seam at −x and runs over +z (¼) and +x (½) to −z (¾).
 
-**Numeric trap.** The textbook discriminant b² − 4ac subtracts two large, nearly equal numbers for a small or distant
-sphere. The discriminant is taken instead from the distance between the centre and the ray, r² − |f + (b/a)·d|², and the
-roots as q/a and c/q, which never cancel. The hit is then put back onto the sphere.
+**Numeric trap.** The textbook discriminant b² − 4ac subtracts two large, nearly equal numbers for a small or
+distant sphere. Here the discriminant is computed from the distance between the centre and the ray, r² − |f +
+(b/a)·d|². The roots are q/a and c/q, which never cancel. The hit is then moved back onto the sphere.
 
 **Source.** Haines, Günther, Akenine-Möller: Precision Improvements for Ray/Sphere Intersection, Ray Tracing Gems,
 chapter 7, 2019.

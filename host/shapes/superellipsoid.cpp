@@ -16,9 +16,10 @@ namespace {
 constexpr size_t steps = 64;
 
 constexpr std::string_view manual =
-    R"(A box whose edges are rounded, a ball, a cylinder, a pillow, two cones or an octahedron, and all between: (|x|^(2/e) + |z|^(2/e))^(e/n) + |y|^(2/n) = 1,
-measured from `center` in units of `radii`. `e` is how it is round about the y axis, `n` from pole to pole: 0.1 is nearly square, 1 is round, and 2 is a straight bevel.
-Closed; the normals point outward.
+    R"(A box with rounded edges, a ball, a cylinder, a pillow, two cones, an octahedron, and all shapes between them:
+(|x|^(2/e) + |z|^(2/e))^(e/n) + |y|^(2/n) = 1, measured from `center` in units of `radii`. `e` is the
+roundness about the y axis, `n` that from pole to pole: 0.1 is nearly square, 1 is round, and 2 is a straight
+bevel. Closed; the normals point outward.
 
 ```toml
 [[superellipsoid]]
@@ -29,12 +30,15 @@ n = 0.3
 material = "wall"
 ```
 
-`transform` may be any affine map that can be undone. Exponents beyond 2, which would make it hollow and with spikes, are refused: the shape is always convex.
+`transform` may be any invertible affine map. The shape is always convex. Exponents above 2 are refused,
+because they would make it hollow and spiked.
 
-**uv.** As on an [ellipsoid](#ellipsoid): u runs from 0 to 1 about the y axis with ½ towards +x, v from 0 at the bottom to 1 at the top, by the angle seen from the centre.
+**uv.** As on an [ellipsoid](#ellipsoid). u runs from 0 to 1 about the y axis, with ½ towards +x. v runs from
+0 at the bottom to 1 at the top, by the angle seen from the centre.
 
-**Numeric trap.** |x|^20 is 0 or infinite for most x. The shape is the unit ball of a norm, ‖‖x, z‖, y‖, and that is taken instead, the largest coordinate in front of it. It is
-convex along a ray, so that Newton's method finds the way in from outside and the way out from beyond, each without a bracket.
+**Numeric trap.** |x|^20 is 0 or infinite for most x. The shape is the unit ball of a norm, ‖‖x, z‖, y‖. That
+norm is computed instead, with the largest coordinate factored out. It is convex along a ray. So Newton's
+method finds the entry from outside and the exit from beyond, each without a bracket.
 
 **Source.** Barr: Superquadrics and Angle-Preserving Transformations, IEEE CG&A 1(1), 1981.
 )";

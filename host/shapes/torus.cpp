@@ -17,8 +17,8 @@ constexpr double least_ratio = 1e-4;
 constexpr size_t steps = 24 + 48;
 
 constexpr std::string_view manual =
-    R"(All points at the distance `minor_radius` from the circle of `major_radius` about `center`, across `axis`: (√(x² + z²) − R)² + y² = r². Closed;
-the normals point out of the tube.
+    R"(All points at the distance `minor_radius` from the circle of `major_radius` about `center`, perpendicular to
+`axis`: (√(x² + z²) − R)² + y² = r². Closed; the normals point out of the tube.
 
 ```toml
 [[torus]]
@@ -29,15 +29,18 @@ minor_radius = 0.4
 material = "wall"
 ```
 
-`minor_radius` must be below `major_radius`: from there on the surface crosses itself, and has no outside. And it must be at least 1e-4 of it. `transform` may be
-any affine map that can be undone.
+`minor_radius` must be below `major_radius`; otherwise the surface crosses itself, and has no outside. It must
+be at least 1e-4 of `major_radius`. `transform` may be any invertible affine map.
 
-**uv.** u runs from 0 to 1 about the axis, counter-clockwise seen from its tip, with ½ towards the world's +x (where the axis is parallel to that,
-towards +z). v runs around the tube: ½ on the outer rim, ¾ on top, 0 at the hole.
+**uv.** u runs from 0 to 1 about the axis, counter-clockwise seen from its tip. u = ½ is towards the world's
++x, or towards +z where the axis is parallel to +x. v runs around the tube: ½ on the outer rim, ¾ on top, 0 at
+the hole.
 
-**Numeric trap.** A ray may hit it four times, and the quartic equation's closed form loses or invents roots in float32, many of them from a distance. Here a ray is
-followed to its point nearest to the centre first. Between the points where the quartic turns, which its derivative gives, and the derivative's in turn, it has one root
-at most: a change of sign tells, and Newton's method with bisection finds it, on the distance from the circle, which does not cancel.
+**Numeric trap.** A ray may hit the torus four times. The closed form of the quartic equation loses or invents
+roots in float32, and many of them from a distance. So a ray is first followed to its point nearest to the
+centre. The roots of the derivative, which come from its own derivative in turn, are the turning points of the
+quartic. Between two turning points it has at most one root, which a change of sign shows. Newton's method
+with bisection finds it on the distance from the circle, which does not cancel.
 
 **Source.** Yuksel: High-Performance Polynomial Root Finding for Graphics, HPG 2022.
 )";
@@ -45,21 +48,21 @@ at most: a change of sign tells, and Newton's method with bisection finds it, on
 constexpr Key keys[] = {
     {.name = "center",
      .type = KeyType::vec3,
-     .doc = "The middle of the hole.",
+     .doc = "Centre of the hole.",
      .min = -max_coordinate,
      .max = max_coordinate},
     {.name = "axis",
      .type = KeyType::vec3,
-     .doc = "Across the ring; any length but 0.",
+     .doc = "Direction perpendicular to the ring, of any length but 0.",
      .fallback = "[0, 1, 0]"},
     {.name = "major_radius",
      .type = KeyType::number,
-     .doc = "Of the circle in the middle of the tube.",
+     .doc = "Radius of the circle in the middle of the tube.",
      .min = min_radius,
      .max = max_coordinate},
     {.name = "minor_radius",
      .type = KeyType::number,
-     .doc = "Of the tube; below `major_radius`.",
+     .doc = "Radius of the tube; below `major_radius`.",
      .min = min_radius,
      .max = max_coordinate},
 };

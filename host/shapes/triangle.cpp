@@ -14,8 +14,8 @@ namespace eyeray::engine::shapes {
 namespace {
 
 constexpr std::string_view manual =
-    R"(The flat piece between three vertices: x = w₀·v₀ + w₁·v₁ + w₂·v₂ with weights ≥ 0 that sum to 1, edges included.
-The normal points to where the vertices run counter-clockwise.
+    R"(The flat area between three vertices: x = w₀·v₀ + w₁·v₁ + w₂·v₂ with weights ≥ 0 that sum to 1, edges
+included. The normal points to the side from which the vertices run counter-clockwise.
 
 ```toml
 [[triangle]]
@@ -24,16 +24,18 @@ uv = [[0, 0], [1, 0], [0, 1]]
 material = "wall"
 ```
 
-`transform` may be any affine map that can be undone. Under one that mirrors, the outside stays outside. A closed mesh of a
-dielectric needs all its normals outward: in and out of the glass is decided by them.
+`transform` may be any invertible affine map. Under a mirroring map the outside stays outside. All normals of
+a closed dielectric mesh must point outward: they decide whether a ray enters or leaves the glass.
 
-**normals** (three, of any length but 0, each on the side of the geometric normal) are interpolated for shading, before any transform.
-**uv** (three) are interpolated for textures; without them u and v are the weights of the second and third vertex.
+**normals** (three, of any length but 0, each on the side of the geometric normal) are interpolated for
+shading, before any transform. **uv** (three) are interpolated for textures. Without them, u and v are the
+weights of the second and third vertex.
 
-**Numeric trap.** Methods that compare barycentrics with 0 after a division (Möller–Trumbore) let rays through between two
-neighbours: one in ten of those aimed at an edge. Here the vertices are sheared into the plane across the ray, alike for
-all triangles, and the signs of the three edge functions a·d − b·c decide: they are exact or zero, for both neighbours, and zero counts as
-inside. So a ray never passes between them.
+**Numeric trap.** Methods that compare barycentrics with 0 after a division (Möller–Trumbore) let rays through
+between two neighbours: one in ten of those aimed at an edge. Here the vertices are sheared into the plane
+perpendicular to the ray, in the same way for all triangles. The signs of the three edge functions a·d − b·c
+decide. They are exact or zero, for both neighbours, and zero counts as inside. So no ray passes between the
+neighbours.
 
 **Source.** Woop, Benthin, Wald: Watertight Ray/Triangle Intersection, JCGT 2(1), 2013.
 )";

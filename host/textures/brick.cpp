@@ -11,18 +11,23 @@ extern const TextureType brick_type;
 namespace {
 
 constexpr std::string_view manual =
-    R"(Bricks lying along x, each layer upwards set off by half a brick: the mortar is the first color, bricks are the last. Faces that lie where mortar begins are in it: move the pattern a little.
+    R"(Bricks along x. Each layer is shifted by half a brick against the layer below. The mortar has the first color,
+and the bricks have the last. Faces exactly where mortar begins are inside it: move the pattern a little.
 )";
 
 constexpr Key keys[] = {
     colors_key("[[0, 0.6], [1, [0.45, 0.13, 0.09]]]"),
     {.name = "size",
      .type = KeyType::scale3,
-     .doc = "Of a brick, with its mortar.",
+     .doc = "Size of a brick, including its mortar.",
      .fallback = "[0.8, 0.3, 0.45]",
      .min = 0,
      .above_min = true},
-    {.name = "mortar", .type = KeyType::number, .doc = "How thick it is.", .fallback = "0.05", .min = 0},
+    {.name = "mortar",
+     .type = KeyType::number,
+     .doc = "Thickness of the mortar.",
+     .fallback = "0.05",
+     .min = 0},
     pattern_transform_key,
 };
 

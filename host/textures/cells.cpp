@@ -11,7 +11,7 @@ extern const TextureType cells_type;
 namespace {
 
 constexpr std::string_view manual =
-    R"(How far the nearest of points is, one of which lies anywhere in each cube of side 1 (Worley 1996).
+    R"(Distance to the nearest point of a random set that has one point in each cube of side 1 (Worley 1996).
 )";
 
 constexpr Key keys[] = {

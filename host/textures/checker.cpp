@@ -10,15 +10,15 @@ extern const TextureType checker_type;
 
 namespace {
 
-constexpr std::string_view manual = R"(A checkerboard in uv, wherever a color may vary over a surface.
+constexpr std::string_view manual = R"(A checkerboard in uv, for any color that may vary over a surface.
 )";
 
 constexpr Key keys[] = {
     {.name = "even",
      .type = KeyType::color,
-     .doc = "Color of the check whose corner is the uv origin.",
+     .doc = "Color of the check with a corner at the uv origin.",
      .min = 0},
-    {.name = "odd", .type = KeyType::color, .doc = "Color of its neighbours.", .min = 0},
+    {.name = "odd", .type = KeyType::color, .doc = "Color of the neighbouring checks.", .min = 0},
     {.name = "size",
      .type = KeyType::scale2,
      .doc = "Size of a check in uv.",

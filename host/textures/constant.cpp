@@ -8,7 +8,8 @@ extern const TextureType constant_type;
 
 namespace {
 
-constexpr std::string_view manual = R"(One color, in linear RGB; a number is all three of its components.
+constexpr std::string_view manual =
+    R"(One color, in linear RGB. A single number stands for all three components.
 )";
 
 class Constant final : public Texture {

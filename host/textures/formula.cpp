@@ -12,7 +12,8 @@ extern const TextureType formula_type;
 namespace {
 
 constexpr std::string_view manual =
-    R"(A color that a function of yours computes from uv, wherever a color may vary over a surface. [formulas.md](formulas.md) says which GLSL it may be.
+    R"(A color that a user-defined function computes from uv, for any color that may vary over a surface.
+[formulas.md](formulas.md) describes the GLSL that it may use.
 
 ```toml
 [[material]]
@@ -29,18 +30,20 @@ vec3 color(vec2 uv) {
 parameters = { rings = 8 }
 ```
 
-The text stands in `code`, or in a file of its own, `file = "rings.glsl"`. What `parameters` has are constants of the function, by name: a number is a `float`, a list of two to four
-numbers a `vec2` … `vec4`. Linear RGB comes back; below 0 and above 1 it is cut off, and what is no number is 0. As an alpha it is the first component.
+The text of the function is in `code`, or in a separate file, `file = "rings.glsl"`. The entries of
+`parameters` are constants of the function, by name. A number becomes a `float`, a list of two to four numbers
+a `vec2` … `vec4`. The function returns linear RGB. Values below 0 and above 1 are cut off, and a value that
+is not a number becomes 0. For an alpha, the first component counts.
 )";
 
 constexpr Key keys[] = {
     {.name = "code",
      .type = KeyType::formula,
-     .doc = "The function, `vec3 color(vec2 uv)`, and what it calls.",
+     .doc = "The function `vec3 color(vec2 uv)` and the functions that it calls.",
      .optional = true},
     reading::formula_file_key,
     reading::parameters_key,
-    {.name = "tint", .type = KeyType::color, .doc = "What it is multiplied by.", .fallback = "1"},
+    {.name = "tint", .type = KeyType::color, .doc = "Factor for the function's color.", .fallback = "1"},
 };
 
 class FormulaTexture final : public Texture {

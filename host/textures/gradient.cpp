@@ -11,7 +11,7 @@ extern const TextureType gradient_type;
 namespace {
 
 constexpr std::string_view manual =
-    R"(A ramp along x from 0 to 1 in each unit, in space: it goes through the object.
+    R"(A ramp along x from 0 to 1 in each unit. It is defined in space and passes through the object.
 )";
 
 constexpr Key keys[] = {

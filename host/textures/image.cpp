@@ -14,7 +14,8 @@ extern const TextureType image_type;
 namespace {
 
 constexpr std::string_view manual =
-    R"(A picture, wherever a color may vary over a surface: (0, 0) in uv is its lower left corner, (`scale`, `scale`) its upper right. See [scene-file.md](scene-file.md#images).
+    R"(A picture, for any color that may vary over a surface. (0, 0) in uv is its lower left corner, and (`scale`,
+`scale`) its upper right. See [scene-file.md](scene-file.md#images).
 )";
 
 constexpr std::string_view filters[] = {"bilinear", "nearest"};
@@ -24,20 +25,20 @@ constexpr std::string_view color_spaces[] = {"srgb", "linear"};
 constexpr Key keys[] = {
     {.name = "image",
      .type = KeyType::string,
-     .doc = "Name of a PNG, JPEG, BMP or TGA file, relative to the scene file that it stands in."},
+     .doc = "Name of a PNG, JPEG, BMP or TGA file, relative to the scene file that contains this key."},
     {.name = "filter",
      .type = KeyType::choice,
-     .doc = "Between four texels, or the one that holds the point.",
+     .doc = "Interpolation between four texels, or the texel that contains the point.",
      .fallback = "'bilinear'",
      .choices = filters},
     {.name = "wrap",
      .type = KeyType::choice2,
-     .doc = "How the picture goes on beyond its edges.",
+     .doc = "Continuation of the picture beyond its edges.",
      .fallback = "'repeat'",
      .choices = wraps},
     {.name = "color_space",
      .type = KeyType::choice,
-     .doc = "What the file's codes mean: sRGB, or shares of 255 as they are.",
+     .doc = "Meaning of the file's codes: sRGB, or unconverted shares of 255.",
      .fallback = "'srgb'",
      .choices = color_spaces},
     {.name = "scale",
@@ -46,7 +47,7 @@ constexpr Key keys[] = {
      .fallback = "1",
      .min = 0,
      .above_min = true},
-    {.name = "tint", .type = KeyType::color, .doc = "What the picture is multiplied by.", .fallback = "1"},
+    {.name = "tint", .type = KeyType::color, .doc = "Factor for the picture's color.", .fallback = "1"},
 };
 
 // i of the endless row of texels that an image of `size` is continued to, as one of its own.

@@ -11,7 +11,7 @@ extern const TextureType marble_type;
 namespace {
 
 constexpr std::string_view manual =
-    R"(Layers along x, one to a unit, bent by noise: 0 at whole numbers, 1 half way between.
+    R"(Layers along x, one per unit, displaced by noise: 0 at whole numbers, 1 halfway between.
 )";
 
 constexpr Key keys[] = {
@@ -19,7 +19,7 @@ constexpr Key keys[] = {
     octaves_key,
     {.name = "turbulence",
      .type = KeyType::number,
-     .doc = "How far the layers are bent.",
+     .doc = "Displacement of the layers by the noise.",
      .fallback = "0.6",
      .min = 0,
      .max = 100},

@@ -11,7 +11,7 @@ extern const TextureType noise_type;
 namespace {
 
 constexpr std::string_view manual =
-    R"(Clouds: gradient noise (Perlin 2002), its coarsest bumps as large as a unit.
+    R"(Clouds: gradient noise (Perlin 2002). Its coarsest bumps have the size of one unit.
 )";
 
 constexpr Key keys[] = {

@@ -14,12 +14,12 @@ namespace eyeray::engine::textures {
 inline constexpr Key pattern_transform_key{
     .name = "transform",
     .type = KeyType::transform,
-    .doc = "Steps that move the pattern, which else lies as described, in units of the world.",
+    .doc = "Steps that move the pattern, in world units. Without steps the pattern lies as described.",
     .fallback = "[]"};
 inline constexpr Key octaves_key{
     .name = "octaves",
     .type = KeyType::integer,
-    .doc = "Of the noise, each twice as fine as the one before and half as strong.",
+    .doc = "Number of octaves of the noise. Each is twice as fine as the one before and half as strong.",
     .fallback = "4",
     .min = 1,
     .max = 10};
@@ -27,7 +27,7 @@ constexpr Key colors_key(std::string_view fallback) {
   return {
       .name = "colors",
       .type = KeyType::color_map,
-      .doc = "Which color is where; between two it goes from one to the other, and two at one t are a step.",
+      .doc = "Color at each t, interpolated between two neighbours. Two colors at the same t make a step.",
       .fallback = fallback};
 }
 

@@ -11,7 +11,8 @@ extern const TextureType solid_checker_type;
 namespace {
 
 constexpr std::string_view manual =
-    R"(Cubes of side 1, in turn of the first and of the last color. Faces that lie in whole numbers of the pattern are on the border of two cubes: move it a little.
+    R"(Cubes of side 1, alternately of the first and of the last color. Faces at whole numbers of the pattern are on
+the border of two cubes: move the pattern a little.
 )";
 
 constexpr Key keys[] = {

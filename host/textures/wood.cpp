@@ -10,7 +10,7 @@ extern const TextureType wood_type;
 
 namespace {
 
-constexpr std::string_view manual = R"(Rings around the z axis, one to a unit, bent by noise.
+constexpr std::string_view manual = R"(Rings around the z axis, one per unit, displaced by noise.
 )";
 
 constexpr Key keys[] = {
@@ -18,7 +18,7 @@ constexpr Key keys[] = {
     octaves_key,
     {.name = "turbulence",
      .type = KeyType::number,
-     .doc = "How far the layers are bent.",
+     .doc = "Displacement of the layers by the noise.",
      .fallback = "0.1",
      .min = 0,
      .max = 100},
