@@ -17,8 +17,9 @@ namespace {
 
 constexpr std::string_view manual =
     R"(The medium fills the space outside all other media. `absorption`, `scattering` and `anisotropy` have the same
-meaning as for a [dielectric](#type--dielectric). By default the medium is infinite. It then absorbs all light
-from infinitely far away: an environment, a `background` and directional lights. An extent lets that light in:
+meaning as for a [dielectric](#type--dielectric). By default the medium is infinite. All light from infinitely
+far away is then lost in it: that of an environment, of a `background` and of directional lights. An extent
+lets that light in:
 
 | keys | the medium fills |
 | --- | --- |

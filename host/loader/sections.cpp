@@ -82,8 +82,8 @@ std::span<const Key> material_keys() {
       {.name = "alpha",
        .type = KeyType::texture,
        .doc = "Opacity of the surface. The first component of a color counts, and the alpha of an image. "
-              "Only for planes, triangles, polygons, parallelograms, disks and meshes, which a ray hits once "
-              "at each surface.",
+              "Only for planes, triangles, polygons, parallelograms, disks and meshes, whose faces a ray "
+              "hits at most once.",
        .max = 1,
        .optional = true},
       {.name = "alpha_mode",

@@ -13,11 +13,11 @@ extern const Integrator sppm_integrator;
 namespace {
 
 constexpr std::string_view manual =
-    "Photon mapping. It works as `path` does, but light that reaches a point through more than one surface "
-    "is found from the lights. For each sample the lights emit `photons` new photons, which surfaces scatter "
+    "Photon mapping. It works as `path` does, but light that more than one surface scatters is found from "
+    "the lights. For each sample the lights emit `photons` new photons, which surfaces scatter "
     "and store. A path from the eye gathers the photons around the first point that scatters light widely. "
     "The radius shrinks from sample to sample. Caustics of point lights and small area lights are therefore "
-    "soon free of noise. Light that is scattered by one surface is the same as in `path`. Volume caustics in "
+    "soon free of noise. Light that only one surface scatters is the same as in `path`. Volume caustics in "
     "media are not computed.";
 
 }  // namespace
