@@ -15,8 +15,8 @@ namespace {
 constexpr std::string_view manual =
     R"(Any surface of the second degree: A x² + B y² + C z² + D xy + E xz + F yz + G x + H y + J z + K = 0. It is
 clipped by the box from `min` to `max`. The inside is where that value is below 0, within the box. The normals
-point to where it grows. Closed: where the inside reaches the box, the box's faces are its caps. With `open =
-true` they are left out, and the surface is a sheet.
+point to where it grows. Closed: where the inside reaches the box, the box's faces are its caps. With
+`open = true` they are left out, and the surface is a sheet.
 
 ```toml
 [[quadric]]                # a saddle: y = x² − z²
@@ -28,9 +28,10 @@ open = true
 material = "wall"
 ```
 
-A hyperboloid of two sheets is `square = [1, -1, 1]`, `constant = 0.1`. A hyperbolic cylinder is `square = [1,
-0, -1]`, `constant = 0.1`. Two planes that cross are `product = [1, 0, 0]`. If a surface has a shape of its
-own here, such as an [ellipsoid](#ellipsoid) or a [cone](#cone), that shape is faster and more exact.
+A hyperboloid of two sheets is `square = [1, -1, 1]`, `constant = 0.1`. A hyperbolic cylinder is
+`square = [1, 0, -1]`, `constant = 0.1`. Two planes that cross are `product = [1, 0, 0]`. If a surface has a
+shape of its own here, such as an [ellipsoid](#ellipsoid) or a [cone](#cone), that shape is faster and more
+exact.
 
 `transform` may be any invertible affine map. It moves the surface and the box.
 

@@ -27,9 +27,9 @@ material = "glass"
 [ellipsoid](#ellipsoid) with the same uv.
 
 **uv.** In the sphere's own axes (rotated by `transform`), with n the unit vector from the centre: the pole is
-+y. `v = atan2(√(n.x² + n.z²), −n.y) / π` runs from 0 at the south pole to 1 at the north pole. `u = 0.5 +
-atan2(−n.z, n.x) / 2π`, with 1 replaced by 0, runs eastward (counter-clockwise seen from the north pole). It
-starts at the seam at −x and runs over +z (¼) and +x (½) to −z (¾).
++y. `v = atan2(√(n.x² + n.z²), −n.y) / π` runs from 0 at the south pole to 1 at the north pole.
+`u = 0.5 + atan2(−n.z, n.x) / 2π`, with 1 replaced by 0, runs eastward (counter-clockwise seen from the north
+pole). It starts at the seam at −x and runs over +z (¼) and +x (½) to −z (¾).
 
 **Numeric trap.** The textbook discriminant b² − 4ac subtracts two large, nearly equal numbers for a small or
 distant sphere. Here the discriminant is computed from the distance between the centre and the ray, r² − |f +
