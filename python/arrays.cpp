@@ -39,14 +39,14 @@ eyeray::Value value_of(const py::handle& value, const std::string& where, int de
     for (const py::handle each : value) values.push_back(value_of(each, where, depth + 1));
     return values;
   }
-  throw py::type_error(where + ": " + type_name(value) + " is nothing that a scene can hold");
+  throw py::type_error(where + ": " + type_name(value) + " cannot be a value of a scene");
 }
 
 eyeray::Table table_within(const py::dict& dict, const std::string& where, int depth) {
   eyeray::Table table;
   for (const auto& [key, value] : dict) {
     if (!py::isinstance<py::str>(key))
-      throw py::type_error(where + ": a key is a str, not " + type_name(key));
+      throw py::type_error(where + ": a key must be a str, not " + type_name(key));
     const std::string name = py::str(key);
     table.set(name, value_of(value, where + "." + name, depth));
   }
@@ -59,11 +59,11 @@ py::array array_named(const py::dict& table, const char* name, const std::string
   const std::string place = where + "." + name;
   if (!py::isinstance<py::array>(value) && !py::isinstance<py::list>(value) &&
       !py::isinstance<py::tuple>(value))
-    throw py::type_error(place + " is an array, not " + type_name(value));
+    throw py::type_error(place + " must be an array, not " + type_name(value));
   const py::array array = py::array::ensure(value);
   if (!array) throw py::error_already_set();
   if (std::string(kinds).find(array.dtype().kind()) == std::string::npos)
-    throw py::type_error(place + " is of " + wanted + ", not of " + std::string(py::str(array.dtype())));
+    throw py::type_error(place + " must be of " + wanted + ", not of " + std::string(py::str(array.dtype())));
   if (array.ndim() != 2 || array.shape(1) != columns)
     throw py::value_error(place + " has the shape " + shape_of(array) + ", not (n, " +
                           std::to_string(columns) + ")");
@@ -87,7 +87,8 @@ std::vector<uint32_t> indices_named(const py::dict& table, const char* name, con
   for (size_t i = 0; i < indices.size(); ++i) {
     const int64_t index = array.data()[i];
     if (index < 0 || index > std::numeric_limits<uint32_t>::max())
-      throw py::value_error(where + "." + name + ": " + std::to_string(index) + " is no index of a vertex");
+      throw py::value_error(where + "." + name + ": " + std::to_string(index) +
+                            " is not the index of a vertex");
     indices[i] = uint32_t(index);
   }
   return indices;
@@ -109,7 +110,7 @@ py::array color_array(const py::object& picture, const py::object& dtype, const 
   if (!copies && (dtype.is_none() || color.dtype().equal(py::dtype::from_args(dtype)))) return color;
   if (!copy.is_none() && !copies)
     throw py::value_error(
-        "a picture's colours are float32: another dtype is a copy, which copy=False forbids");
+        "a picture's colours are float32: another dtype needs a copy, which copy=False forbids");
   return color.attr("astype")(dtype.is_none() ? py::object(color.dtype()) : dtype);
 }
 
@@ -132,7 +133,7 @@ bool is_mesh_of_arrays(const py::handle& table) {
 }
 
 void add_mesh(eyeray::SceneBuilder& builder, const py::dict& table, const std::string& where) {
-  if (!table.contains("triangles")) throw py::value_error(where + " has vertices, and no triangles");
+  if (!table.contains("triangles")) throw py::value_error(where + " has vertices, but no triangles");
   const Floats vertices = floats_named(table, "vertices", where, 3);
   const std::vector<uint32_t> triangles = indices_named(table, "triangles", where);
   Floats normals, uv;
@@ -157,7 +158,7 @@ std::vector<std::string> defines_of(const py::object& defines) {
       all.push_back(std::string(py::str(key)) + "=" + value_of(value, std::string(py::str(key)), 1).toml());
     return all;
   }
-  return strings_of(defines, "defines is a list of \"key=value\", or a dict");
+  return strings_of(defines, "defines must be a list of \"key=value\", or a dict");
 }
 
 std::vector<std::string> strings_of(const py::object& list, const char* wanted) {

@@ -50,18 +50,19 @@ void raise(std::exception_ptr thrown) {
 }
 
 Backend backend_named(const py::object& value) {
-  const auto name = cast_to<std::string>(value, "a backend is 'gpu', 'twin' or 'reference'");
+  const auto name = cast_to<std::string>(value, "a backend must be 'gpu', 'twin' or 'reference'");
   if (name == "gpu") return Backend::gpu;
   if (name == "twin") return Backend::twin;
   if (name == "reference") return Backend::reference;
-  throw py::value_error("a backend is 'gpu', 'twin' or 'reference', not '" + name + "'");
+  throw py::value_error("a backend must be 'gpu', 'twin' or 'reference', not '" + name + "'");
 }
 
 eyeray::Rect rect_of(const py::object& crop) {
   if (crop.is_none()) return {};
   const auto [x, y, width, height] =
-      cast_to<std::array<int, 4>>(crop, "a crop is (x, y, width, height) in whole pixels");
-  if (width < 1 || height < 1) throw py::value_error("a crop is (x, y, width, height), of at least a pixel");
+      cast_to<std::array<int, 4>>(crop, "a crop must be (x, y, width, height) in whole pixels");
+  if (width < 1 || height < 1)
+    throw py::value_error("a crop must be (x, y, width, height), of at least a pixel");
   return {x, y, width, height};
 }
 
@@ -70,7 +71,7 @@ eyeray::Rect rect_of(const py::object& crop) {
 std::function<bool(const eyeray::Progress&)> progress_of(const py::object& callback,
                                                          const Cancellation& cancellation) {
   if (callback.is_none()) return {};
-  if (!PyCallable_Check(callback.ptr())) throw py::type_error("progress is a function of a float");
+  if (!PyCallable_Check(callback.ptr())) throw py::type_error("progress must be a function of a float");
   return [&callback, cancellation](const eyeray::Progress& now) {
     if (cancellation.requested()) return false;
     const py::gil_scoped_acquire acquired;
@@ -94,7 +95,7 @@ Scene parse(const std::string& toml, const std::string& name, const py::object& 
 
 void add(eyeray::SceneBuilder& builder, const std::string& section, const py::handle& value,
          const std::string& where) {
-  if (!py::isinstance<py::dict>(value)) throw py::type_error(where + " is a dict, or a list of dicts");
+  if (!py::isinstance<py::dict>(value)) throw py::type_error(where + " must be a dict, or a list of dicts");
   const auto table = py::reinterpret_borrow<py::dict>(value);
   if (section == "mesh" && is_mesh_of_arrays(table))
     add_mesh(builder, table, where);
@@ -111,7 +112,7 @@ Scene build(const py::dict& tables, const std::string& name, const py::object& d
       continue;
     }
     if (!py::isinstance<py::list>(value) && !py::isinstance<py::tuple>(value))
-      throw py::type_error(section + " is a dict, or a list of dicts");
+      throw py::type_error(section + " must be a dict, or a list of dicts");
     size_t index = 0;
     for (const py::handle each : value) add(*builder, section, each, section + "." + std::to_string(index++));
   }
@@ -125,10 +126,10 @@ Picture render(const std::shared_ptr<Renderer>& renderer, const Scene& scene, co
                const std::optional<Cancellation>& cancellation) {
   eyeray::RenderOptions options;
   options.backend = backend_named(backend);
-  options.aovs = strings_of(aovs, "aovs is a list of names");
+  options.aovs = strings_of(aovs, "aovs must be a list of names");
   options.crop = rect_of(crop);
-  options.noise = cast_to<double>(noise, "noise is a number");
-  options.clamp = cast_to<double>(clamp, "clamp is a number");
+  options.noise = cast_to<double>(noise, "noise must be a number");
+  options.clamp = cast_to<double>(clamp, "clamp must be a number");
   if (cancellation) options.cancellation = *cancellation;
   options.progress = progress_of(progress, options.cancellation);
   return in_background<Picture>(options.cancellation, [=] { return renderer->render(scene, options); });
@@ -139,7 +140,7 @@ Report verify(const std::shared_ptr<Renderer>& renderer, const Scene& scene, con
               const std::optional<Cancellation>& cancellation) {
   eyeray::VerifyOptions options;
   options.backends.clear();
-  for (const std::string& each : strings_of(backends, "backends is a list of names"))
+  for (const std::string& each : strings_of(backends, "backends must be a list of names"))
     options.backends.push_back(backend_named(py::str(each)));
   options.crop = rect_of(crop);
   options.evidence = evidence.value_or(Path());
@@ -155,7 +156,7 @@ void add_scene(py::module_& module) {
                   py::arg("allowed_folders") = std::vector<Path>(), py::arg("formulas") = true,
                   "From a file: .toml, or a mesh (.obj .ply .gltf .glb).")
       .def_static("parse", &parse, py::arg("toml"), py::kw_only(), py::arg("name") = "scene",
-                  py::arg("defines") = none, py::arg("formulas") = true, "From text, as a file holds it.")
+                  py::arg("defines") = none, py::arg("formulas") = true, "From text, as a file contains it.")
       .def_static("build", &build, py::arg("tables"), py::kw_only(),
                   py::arg("name") = "scene built in Python", py::arg("defines") = none,
                   py::arg("formulas") = true,
@@ -177,7 +178,7 @@ py::bytes png_of(const Picture& picture) {
 }
 
 void add_picture(py::module_& module) {
-  py::class_<Picture>(module, "Picture", "A picture. Its arrays are not copied, and cannot be written.")
+  py::class_<Picture>(module, "Picture", "A picture. Its arrays are not copied, and are read-only.")
       .def_property_readonly(
           "color", [](const py::object& self) { return array_of(self.cast<const Picture&>().color(), self); },
           "Linear RGB, float32 of (height, width, 3), row 0 at the top.")
@@ -205,9 +206,9 @@ void add_picture(py::module_& module) {
           [](const Picture& picture) {
             return picture.samples_done() == 0 ? py::object(py::none()) : png_of(picture);
           },
-          "The picture in a notebook.")
+          "The picture as a notebook shows it.")
       .def("write", &Picture::write, py::arg("file"), py::call_guard<py::gil_scoped_release>(),
-           "As .png, .pfm, .hdr or .exr.");
+           "Write it as .png, .pfm, .hdr or .exr.");
 }
 
 // Closing a device waits for calls that render, and those may wait for the GIL, to tell of their progress.
@@ -218,11 +219,11 @@ void close_without_gil(Renderer* renderer) {
 }
 
 void add_renderer(py::module_& module) {
-  py::class_<Cancellation>(module, "Cancellation", "Asks a call to end soon, from any thread.")
+  py::class_<Cancellation>(module, "Cancellation", "Asks a call, from any thread, to end soon.")
       .def(py::init<>())
       .def("request", &Cancellation::request)
       .def_property_readonly("requested", &Cancellation::requested);
-  py::class_<Report>(module, "Report", "What verify() found; true where every gate passes.")
+  py::class_<Report>(module, "Report", "The findings of verify(); true if every gate passes.")
       .def_readonly("passed", &Report::passed)
       .def_property_readonly("failures",
                              [](const Report& report) {

@@ -174,8 +174,7 @@ std::shared_ptr<const Projection> parse(TableReader& table) {
   if (table.failed()) return nullptr;
   for (const char* key : {"focus", "blades", "blade_rotation"})
     if (aperture.radius == 0 && table.has(key)) {
-      table.warning(key,
-                    fmt::format("`{}` changes nothing without an `aperture`, as everything is sharp", key));
+      table.warning(key, fmt::format("`{}` has no effect without an `aperture`: everything is sharp", key));
       break;
     }
   return make_projection(values);

@@ -48,7 +48,8 @@ void add_completion(CLI::App& app, Run& run) {
 void add_manual(CLI::App& app, Run& run) {
   CLI::App* const command = app.add_subcommand("manual", "Write a man page for each command.");
   const auto folder = std::make_shared<std::string>();
-  command->add_option("FOLDER", *folder, "Where they go: eyeray.1, eyeray-render.1 and so on.")->required();
+  command->add_option("FOLDER", *folder, "The folder to write eyeray.1, eyeray-render.1 and so on to.")
+      ->required();
   command->footer("Example:\n  eyeray manual man1 && man man1/eyeray-render.1");
   command->callback([&app, folder, &run] { run = [&app, folder] { return write_manual(app, *folder); }; });
 }

@@ -132,7 +132,7 @@ std::string format_bounds(const Scene& scene) {
   std::string text =
       is_finite(all) ? fmt::format("{} to {}", format_vec(all.min), format_vec(all.max)) : "none";
   if (unbounded > 0)
-    text += fmt::format("{} {} shape{} without end", is_finite(all) ? ", and" : ":", unbounded,
+    text += fmt::format("{} {} unbounded shape{}", is_finite(all) ? ", and" : ":", unbounded,
                         unbounded == 1 ? "" : "s");
   return text;
 }
@@ -150,7 +150,7 @@ std::string format_focus(const Scene& scene) {
   const Projection& projection = *scene.camera.projection;
   if (const std::optional<Vec3> point = focus_point(scene))
     return fmt::format(
-        "{}, {:.6g} in front of the eye: the plane through this point, perpendicular to w, is sharp",
+        "{}, {:.6g} in front of the eye: the plane of focus passes through this point, perpendicular to w",
         format_vec(*point), projection.aperture().focus);
   return projection.function() ? "set by the camera's function"
                                : "everything is sharp: the camera has no aperture";
@@ -289,8 +289,8 @@ ExitCode CheckCommand::run() const {
 }  // namespace
 
 void add_check(CLI::App& app, Run& run) {
-  CLI::App* const command =
-      app.add_subcommand("check", "Check a scene without rendering, and print what follows from it.");
+  CLI::App* const command = app.add_subcommand(
+      "check", "Check a scene without rendering it, and print the values derived from it.");
   const auto options = std::make_shared<CheckCommand>();
   options->scene.add_to(*command);
   command->get_option("SCENE")->required(false);
@@ -298,7 +298,7 @@ void add_check(CLI::App& app, Run& run) {
   command->add_flag("--manual", options->manual, "Print the reference of every table and key, as Markdown.");
   command->add_flag("--json", options->json, "Answer as JSON on standard output.");
   command->footer(
-      "All errors of the scene are shown at once, as file:line:column: error, with\n"
+      "All errors of the scene are reported at once, as file:line:column: error, with\n"
       "exit code 2.\n"
       "Example: eyeray check scenes/whitted.toml -s 1920x1080");
   command->callback([options, &run] { run = [options] { return options->run(); }; });

@@ -62,7 +62,8 @@ Comparison compare(const CompareCommand& command, const image::Image& a, const i
       result.failures.push_back(fmt::format("{}: {}", *name, describe(soundness)));
   }
   if (!a.same_size(b)) {
-    result.failures.push_back(fmt::format("wrong size: {} against {}", describe_size(a), describe_size(b)));
+    result.failures.push_back(
+        fmt::format("the sizes differ: {} against {}", describe_size(a), describe_size(b)));
     return result;
   }
 
@@ -74,9 +75,9 @@ Comparison compare(const CompareCommand& command, const image::Image& a, const i
   result.pixels = int64_t{a.width()} * a.height();
   result.different = compare::count_different(a, b, command.tolerance);
   if (result.different > command.max_different) {
-    result.failures.push_back(fmt::format("{} of {} pixels differ by more than {} · max(1, |b|); {} may",
-                                          result.different, result.pixels, command.tolerance,
-                                          command.max_different));
+    result.failures.push_back(
+        fmt::format("{} of {} pixels differ by more than {} · max(1, |b|); at most {} may", result.different,
+                    result.pixels, command.tolerance, command.max_different));
   }
   return result;
 }
@@ -92,9 +93,9 @@ void compare_alpha(const CompareCommand& command, Comparison& result) {
   }
   const int64_t different = compare::count_different(*a, *b, command.tolerance);
   if (different > command.max_different)
-    result.failures.push_back(fmt::format("the alpha of {} of {} pixels differs by more than {}; {} may",
-                                          different, result.pixels, command.tolerance,
-                                          command.max_different));
+    result.failures.push_back(
+        fmt::format("the alpha of {} of {} pixels differs by more than {}; that of at most {} may", different,
+                    result.pixels, command.tolerance, command.max_different));
 }
 
 // Writes data, or false colour for people, from `low` to `high`, or without these over its own range.
@@ -151,13 +152,14 @@ ExitCode CompareCommand::run() const {
     for (const std::string& read : {a, b}) {
       std::error_code absent;
       if (std::filesystem::equivalent(file, read, absent))
-        throw Error(ExitCode::bad_input, "{} is compared, and {} would overwrite it", file, option);
+        throw Error(ExitCode::bad_input, "{} is compared, but {} would overwrite it: name another file", file,
+                    option);
     }
   }
   // --aov writes a layer of an .exr, or a file for each AOV: either of the two may be the .exr.
   if (!layer.empty() && image::image_format(a) != image::ImageFormat::exr &&
       image::image_format(b) != image::ImageFormat::exr)
-    throw Error(ExitCode::bad_input, "--layer {}: neither {} nor {} is an .exr", layer, a, b);
+    throw Error(ExitCode::bad_input, "--layer {} needs an .exr: neither {} nor {} is one", layer, a, b);
   std::vector<std::string> warnings;
   image::Image image_a = image::read_image(a, layer, warnings),
                image_b = image::read_image(b, layer, warnings);
@@ -190,7 +192,7 @@ void add_compare(CLI::App& app, Run& run) {
   CLI::App* const command = app.add_subcommand("compare", "Compare two picture files.");
   const auto options = std::make_shared<CompareCommand>();
   command->add_option("A", options->a, "A picture: .pfm, .png, .hdr or .exr.")->required();
-  command->add_option("B", options->b, "The picture that it should be.")->required();
+  command->add_option("B", options->b, "The picture to compare it with.")->required();
   command
       ->add_option("--tolerance", options->tolerance,
                    "The tolerance of each channel's linear value, relative to max(1, |b|).")

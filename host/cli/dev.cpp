@@ -99,7 +99,7 @@ void DevCommand::report_failure(const Json& failure) const {
   } else {
     print_lines(stderr, "{}{}\n", diagnostics_found.empty() ? "eyeray: error: " : "", message);
   }
-  if (!once && !outputs.empty()) print_lines(stderr, "{} stays as it was\n", outputs[0]);
+  if (!once && !outputs.empty()) print_lines(stderr, "{} is unchanged\n", outputs[0]);
 }
 
 void DevCommand::report(const Json& event, const dev::Board& board) {
@@ -111,7 +111,9 @@ void DevCommand::report(const Json& event, const dev::Board& board) {
     const int listens = event.value("port", 0);
     if (listens != event.value("wanted", 0))
       print_lines(stderr, "port {} is in use; the page is on port {}\n", event.value("wanted", 0), listens);
-    print_lines(stderr, "look at {}\nfrom another machine, first: ssh -L {}:127.0.0.1:{} THIS-MACHINE\n",
+    print_lines(stderr,
+                "open {} in a browser\n"
+                "from another machine, first run: ssh -L {}:127.0.0.1:{} THIS-MACHINE\n",
                 event.value("address", ""), listens, listens);
   }
   if (what == "changed")
@@ -162,7 +164,7 @@ ExitCode DevCommand::run() {
 
 void add_dev(CLI::App& app, Run& run) {
   CLI::App* const command = app.add_subcommand(
-      "dev", "Render on every save of the scene or a shader, and show it on a page for the browser.");
+      "dev", "Render on every save of the scene or a shader, and show the picture on a page in the browser.");
   const auto options = std::make_shared<DevCommand>();
   // A dispatch is made to take 40 ms; compiling may take its time.
   options->executor.gpu.timeout_seconds = 2;
@@ -175,10 +177,12 @@ void add_dev(CLI::App& app, Run& run) {
       ->option_text("FILE")
       ->allow_extra_args(false)
       ->take_all();
-  command->add_option("--port", options->port, "The page's port on 127.0.0.1; another one if it is taken.")
+  command
+      ->add_option("--port", options->port,
+                   "The page's port on 127.0.0.1. If it is in use, dev takes another one.")
       ->option_text(fmt::format("N={}", usual_port))
       ->check(whole_within(1, 65535));
-  command->add_flag("--no-page", options->no_page, "Show nothing in a browser.");
+  command->add_flag("--no-page", options->no_page, "Serve no page for a browser.");
   command->add_flag("--once", options->once, "Render once and end, with exit code 0 or the fault's.");
   command
       ->add_option("--diagnostics", options->diagnostics,
@@ -193,9 +197,9 @@ void add_dev(CLI::App& app, Run& run) {
       "Example:\n"
       "  eyeray shaders --export my-shaders\n"
       "  eyeray dev scenes/whitted.toml --shaders my-shaders\n"
-      "Errors are shown as file:line:column: error, and leave the last good picture\n"
-      "alone. A shader that does not end is stopped after --timeout. Ctrl-C ends dev\n"
-      "with exit code 130.");
+      "Errors are shown as file:line:column: error; the last good picture stays. A\n"
+      "shader that does not end is stopped after --timeout. Ctrl-C ends dev with exit\n"
+      "code 130.");
   command->callback([options, &run] { run = [options] { return options->run(); }; });
 }
 

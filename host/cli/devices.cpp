@@ -88,7 +88,7 @@ void add_devices(CLI::App& app, Run& run) {
   const auto json = std::make_shared<bool>(false);
   command->add_flag("--json", *json, "Answer as JSON on standard output.");
   command->footer(
-      "The number or a part of the name is what --device takes:\n"
+      "--device takes the number of a device, or a part of its name:\n"
       "  eyeray devices --json\n"
       "  eyeray render scenes/whitted.toml --device 0\n"
       "Exit code 3 when no device can be used.");

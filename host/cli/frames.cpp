@@ -61,11 +61,10 @@ std::vector<int> parse_frames(const std::string& text) {
   const bool whole = std::ranges::all_of(parts, [](const auto& part) { return part.has_value(); });
   const int step = whole && parts.size() == 3 ? *parts[2] : 1;
   if (!whole || parts.size() < 2 || parts.size() > 3 || step < 1 || *parts[0] > *parts[1])
-    throw Error(
-        ExitCode::bad_input,
-        "--frames {}: write FIRST:LAST, such as 0:48, or FIRST:LAST:STEP, numbers within ±{}, the last no "
-        "less than the first",
-        text, most_frames_at_once);
+    throw Error(ExitCode::bad_input,
+                "--frames {}: write FIRST:LAST, such as 0:48, or FIRST:LAST:STEP; the numbers must be within "
+                "±{}, and LAST at least FIRST",
+                text, most_frames_at_once);
   std::vector<int> frames;
   for (int frame = *parts[0]; frame <= *parts[1]; frame += step) frames.push_back(frame);
   return frames;
@@ -74,10 +73,10 @@ std::vector<int> parse_frames(const std::string& text) {
 std::string frame_name(const std::string& pattern, int frame) {
   const auto place = place_of_number(pattern);
   if (!place)
-    throw Error(
-        ExitCode::bad_input,
-        "{}: with --frames a name has a place for the frame's number, once: %d, or %04d for four digits",
-        pattern);
+    throw Error(ExitCode::bad_input,
+                "{}: with --frames, the name must contain the frame's number exactly once, as %d, or as %04d "
+                "for four digits",
+                pattern);
   const std::string number = fmt::format("{}{:0{}}", frame < 0 ? "-" : "", std::abs(frame), place->digits);
   return pattern.substr(0, place->begin) + number + pattern.substr(place->end);
 }
@@ -85,7 +84,7 @@ std::string frame_name(const std::string& pattern, int frame) {
 void check_video_name(const std::string& output) {
   constexpr std::array<std::string_view, 4> endings = {".mp4", ".mkv", ".mov", ".webm"};
   if (std::ranges::find(endings, fs::path(output).extension().string()) == endings.end())
-    throw Error(ExitCode::bad_input, "--video {}: the name of a video ends in .mp4, .mkv, .mov or .webm",
+    throw Error(ExitCode::bad_input, "--video {}: a video's name must end in .mp4, .mkv, .mov or .webm",
                 output);
   check_writable(output);
 }
@@ -97,8 +96,7 @@ void check_video(const std::string& output) {
   } catch (const Error&) {
     // A program that is not there is handled like one that fails.
   }
-  throw Error(ExitCode::file_io,
-              "--video is made by ffmpeg, which is not there: install it (Debian: ffmpeg)");
+  throw Error(ExitCode::file_io, "--video needs ffmpeg, which is not installed: install it (Debian: ffmpeg)");
 }
 
 void make_video(const std::vector<fs::path>& pictures, double frames_per_second, const std::string& output) {
@@ -126,7 +124,7 @@ void make_video(const std::vector<fs::path>& pictures, double frames_per_second,
   }
   fs::remove(part, ignored);
   throw Error(ExitCode::file_io, "ffmpeg made no video of the {} frames: {}", pictures.size(),
-              result.err.empty() ? "it says nothing" : result.err.substr(0, 500));
+              result.err.empty() ? "it printed no reason" : result.err.substr(0, 500));
 }
 
 }  // namespace eyeray::engine::cli

@@ -26,11 +26,10 @@ ExitCode SphereflakeCommand::run() const {
   const uint64_t count = generate::sphereflake_count(size_factor);
   if (divisions == 0 && triangles == 0) {
     if (size_factor > max_sphereflake_as_spheres)
-      throw Error(
-          ExitCode::bad_input,
-          "size factor {} has {} spheres, more than a scene file holds; the largest as spheres is {}, "
-          "--tessellate makes a mesh",
-          size_factor, count, max_sphereflake_as_spheres);
+      throw Error(ExitCode::bad_input,
+                  "size factor {} makes {} spheres, too many for a scene file; the largest size factor is "
+                  "{}, or let --tessellate make a mesh",
+                  size_factor, count, max_sphereflake_as_spheres);
     write_generated(output, false, [&] {
       return Generated{.recipe = fmt::format("sphereflake --size-factor {}", size_factor),
                        .counts = {{"spheres", count}},
@@ -73,7 +72,7 @@ ExitCode TerrainCommand::run() {
 }
 
 void add_output(CLI::App& command, GenerateOutput& output) {
-  command.add_option("-o,--output", output.scene, "The scene file; a mesh lies beside it as .ply.")
+  command.add_option("-o,--output", output.scene, "The scene file. A mesh is written beside it, as .ply.")
       ->option_text("FILE.toml")
       ->required();
   command.add_flag("--force", output.force, "Overwrite files that eyeray generate did not make.");
@@ -89,12 +88,13 @@ void add_sphereflake(CLI::App& generate, Run& run) {
   command->add_option("--size-factor", options->size_factor, "Levels: 4 has 7381 spheres, 5 has 66430.")
       ->option_text("N=4")
       ->check(whole_within(1, generate::max_sphereflake));
-  CLI::Option* const tessellate = command
-                                      ->add_option("--tessellate", options->divisions,
-                                                   "Make a mesh, with an octahedron for each sphere whose "
-                                                   "edges are divided by N: 8 N^2 triangles.")
-                                      ->option_text("N")
-                                      ->check(whole_within(1, 8192));
+  CLI::Option* const tessellate =
+      command
+          ->add_option(
+              "--tessellate", options->divisions,
+              "Make a mesh: each sphere is an octahedron whose edges are divided by N, with 8 N^2 triangles.")
+          ->option_text("N")
+          ->check(whole_within(1, 8192));
   command->add_option("--triangles", options->triangles, "Make a mesh of about N triangles in all.")
       ->option_text("N")
       ->check(whole_within(1, int64_t(generate::max_generated_triangles)))
@@ -107,10 +107,11 @@ void add_terrain(CLI::App& generate, Run& run) {
   CLI::App* const command = generate.add_subcommand("terrain", "A fractal landscape as a mesh of any size.");
   const auto options = std::make_shared<TerrainCommand>();
   add_output(*command, options->output);
-  CLI::Option* const grid =
-      command->add_option("--grid", options->terrain.grid, "Cells a side, two triangles each.")
-          ->option_text("N=160")
-          ->check(whole_within(1, generate::max_terrain_grid));
+  CLI::Option* const grid = command
+                                ->add_option("--grid", options->terrain.grid,
+                                             "The number of cells along each side. A cell has two triangles.")
+                                ->option_text("N=160")
+                                ->check(whole_within(1, generate::max_terrain_grid));
   command->add_option("--triangles", options->triangles, "Make about N triangles.")
       ->option_text("N")
       ->check(whole_within(1, int64_t(generate::max_generated_triangles)))
@@ -132,12 +133,13 @@ void add_studio(CLI::App& generate, Run& run) {
     std::filesystem::path picture;
     int width = 1024;
   };
-  CLI::App* const command = generate.add_subcommand("studio", "Light from all around, for [environment].");
+  CLI::App* const command =
+      generate.add_subcommand("studio", "A picture of light from all directions, for [environment].");
   const auto options = std::make_shared<Options>();
   command->add_option("-o,--output", options->picture, "The picture.")
       ->option_text("FILE.hdr|.exr|.pfm")
       ->required();
-  command->add_option("--width", options->width, "Pixels across; half as many down.")
+  command->add_option("--width", options->width, "The width in pixels. The height is half of it.")
       ->option_text("N=1024")
       ->check(whole_within(2, generate::most_studio_width));
   command->footer("Example: eyeray generate studio -o studio.hdr");

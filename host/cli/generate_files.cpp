@@ -28,7 +28,7 @@ void check_target(const fs::path& path, bool force) {
   if (file && !force) {
     file.read(start.data(), std::streamsize(start.size()));
     if (file.gcount() > 0 && start.find(made_by) == std::string::npos)
-      throw Error(ExitCode::file_io, "{} is there and was not made by eyeray generate; --force overwrites it",
+      throw Error(ExitCode::file_io, "{} exists and was not made by eyeray generate; --force overwrites it",
                   path.string());
   }
   check_writable(path);
@@ -70,8 +70,8 @@ void report(const GenerateOutput& output, const Generated& made, const Mesh& mes
 
 void check_triangles(double triangles) {
   if (triangles > double(generate::max_generated_triangles))
-    throw Error(ExitCode::bad_input, "that would be {:.0f} triangles; the most is {}", triangles,
-                generate::max_generated_triangles);
+    throw Error(ExitCode::bad_input, "the mesh would have {:.0f} triangles; at most {} are allowed",
+                triangles, generate::max_generated_triangles);
 }
 
 void write_generated(const GenerateOutput& output, bool with_mesh, const std::function<Generated()>& make) {
@@ -79,10 +79,9 @@ void write_generated(const GenerateOutput& output, bool with_mesh, const std::fu
   if (output.scene.extension() != ".toml")
     throw Error(ExitCode::bad_input, "{}: a scene's name must end in .toml", output.scene.string());
   if (const std::string mesh = output.mesh().filename().string(); with_mesh && printable(mesh) != mesh)
-    throw Error(
-        ExitCode::bad_input,
-        "{}: the scene names its mesh after itself: choose a name in UTF-8, without control characters",
-        output.scene.string());
+    throw Error(ExitCode::bad_input,
+                "{}: the mesh is named after the scene: choose a name in UTF-8, without control characters",
+                output.scene.string());
   check_target(output.scene, output.force);
   if (with_mesh) check_target(output.mesh(), output.force);
 

@@ -15,10 +15,10 @@ constexpr const char* footer =
     "Proof:           eyeray verify scenes/whitted.toml\n"
     "Exit codes: 0 ok, 1 a comparison failed, 2 bad usage, scene or shader,\n"
     "            3 no usable Vulkan device, 4 file input or output, 5 time-out,\n"
-    "            6 a checkpoint that nothing goes on from, 70 a bug in eyeray,\n"
+    "            6 a checkpoint that cannot be resumed, 70 a bug in eyeray,\n"
     "            128 + N ended by signal N.\n"
-    "Data goes to standard output, words to standard error. Under --json a failure\n"
-    "is JSON too: {\"error\": ...}.";
+    "Data goes to standard output, messages to standard error. With --json, a failure\n"
+    "is JSON, too: {\"error\": ...}.";
 
 // A command of former versions, which users may still type. No list shows it.
 void name_bench(CLI::App& app) {
@@ -26,8 +26,8 @@ void name_bench(CLI::App& app) {
   command->set_help_flag();
   command->parse_complete_callback([] {
     throw Error(ExitCode::bad_input,
-                "what was eyeray bench is a program of its own, eyeray-bench, which is not installed: build "
-                "it from the source by scripts/build release eyeray-bench");
+                "eyeray bench is now a separate program, eyeray-bench, which is not installed: build it from "
+                "source with scripts/build release eyeray-bench");
   });
 }
 

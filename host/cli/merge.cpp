@@ -112,8 +112,8 @@ ExitCode MergeCommand::report_faults(const shards::PartSet& set) const {
     return faults.damaged.empty() ? ExitCode::bad_input : ExitCode::file_io;
   }
   if (!quiet && !json)
-    print_lines(stdout, "{} parts are all of {}, {}×{}, and sound\n", set.parts().size(), set.header()->scene,
-                set.header()->area.width, set.header()->area.height);
+    print_lines(stdout, "{} parts make the whole of {}, {}×{}, and are sound\n", set.parts().size(),
+                set.header()->scene, set.header()->area.width, set.header()->area.height);
   return ExitCode::ok;
 }
 
@@ -157,7 +157,7 @@ void add_merge(CLI::App& app, Run& run) {
   command
       ->add_option(
           "-o,--output", options->outputs,
-          "Where the picture goes: .png, .pfm, .hdr or .exr. May be repeated. Default: SCENE.png here.")
+          "The picture file to write: .png, .pfm, .hdr or .exr. May be repeated. Default: SCENE.png here.")
       ->option_text("FILE")
       ->allow_extra_args(false)
       ->take_all();
@@ -169,10 +169,10 @@ void add_merge(CLI::App& app, Run& run) {
   command->footer(
       "Examples:\n"
       "  eyeray merge whitted.*-of-64.eyeray -o whitted.png\n"
-      "  eyeray merge whitted.*-of-64.eyeray --check --json      what is missing, damaged, doubled or "
-      "foreign\n"
-      "  eyeray merge report.*.json -o report.json               of verify --shard I/N --json\n"
-      "The picture is that of one machine, bit by bit.");
+      "  eyeray merge whitted.*-of-64.eyeray --check --json      list missing, damaged, doubled or foreign "
+      "parts\n"
+      "  eyeray merge report.*.json -o report.json               join reports of verify --shard I/N --json\n"
+      "The picture equals one that a single machine renders, bit by bit.");
   command->callback([options, &run] { run = [options] { return options->run(); }; });
 }
 

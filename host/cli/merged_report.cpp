@@ -39,12 +39,12 @@ ShardReport read_report(const std::string& file) {
     const auto index = size_t(report.index);
     const size_t scenes = index < report.suite_size ? (report.suite_size - index - 1) / size_t(count) + 1 : 0;
     if (!report.scenes.is_array() || report.scenes.size() != scenes)
-      throw Error(ExitCode::file_io, "{}: it is damaged: it has not the scenes of its share", file);
+      throw Error(ExitCode::file_io, "{}: it is damaged: it lacks scenes of its share", file);
     return report;
   } catch (const Json::exception&) {
-    throw Error(ExitCode::file_io, "{}: it is no report of verify --shard I/N --json", file);
+    throw Error(ExitCode::file_io, "{}: it is not a report of verify --shard I/N --json", file);
   } catch (const std::out_of_range&) {
-    throw Error(ExitCode::file_io, "{}: it is no report of verify --shard: its share makes no sense", file);
+    throw Error(ExitCode::file_io, "{}: it is not a report of verify --shard: its share is invalid", file);
   }
 }
 
@@ -63,7 +63,7 @@ Json merged_report(const std::vector<std::string>& files) {
       const ShardReport& first = reports.begin()->second;
       if (report.suite != first.suite || report.count != first.count) {
         faults.foreign.push_back(
-            fmt::format("{} is of other scenes, options or shares than {}", file, first.file));
+            fmt::format("{} has other scenes, options or shares than {}", file, first.file));
         continue;
       }
     }
@@ -76,7 +76,7 @@ Json merged_report(const std::vector<std::string>& files) {
   faults.count = reports.begin()->second.count;
   for (int i = 0; i < faults.count; ++i)
     if (!reports.contains(i)) faults.missing.push_back(i);
-  if (faults.any()) throw Error(ExitCode::bad_input, "these reports do not make one: {}", faults.text());
+  if (faults.any()) throw Error(ExitCode::bad_input, "these reports cannot be merged: {}", faults.text());
 
   // Scene i is the share's whose number is i modulo their count.
   Json scenes = Json::array();

@@ -32,7 +32,7 @@ struct NewCommand {
 void NewCommand::write() const {
   for (const EmbeddedFile& file : project_files())
     if (const fs::path path = fs::path(folder) / file.name; fs::exists(path))
-      throw Error(ExitCode::file_io, "{} is there already; nothing was written", path.string());
+      throw Error(ExitCode::file_io, "{} exists already; nothing was written", path.string());
   std::vector<fs::path> written;
   try {
     for (const EmbeddedFile& file : project_files()) {
@@ -51,8 +51,10 @@ void NewCommand::write() const {
 ExitCode NewCommand::run() const {
   write();
   const std::string scene = (fs::path(folder) / "scene.toml").string();
-  print_lines(stderr, "{} files written to {}; look at them with\n  eyeray dev {}\n", project_files().size(),
-              folder, shell_word(scene));
+  print_lines(stderr,
+              "{} files written to {}; view the scene with\n"
+              "  eyeray dev {}\n",
+              project_files().size(), folder, shell_word(scene));
   if (json) {
     Json names = Json::array();
     for (const EmbeddedFile& file : project_files()) names.push_back(file.name);
@@ -65,7 +67,7 @@ ExitCode NewCommand::run() const {
 
 void add_new(CLI::App& app, Run& run) {
   CLI::App* const command = app.add_subcommand(
-      "new", "Write a small project: a scene with a shape and a pattern of its own, and CI for it.");
+      "new", "Write a small project: a scene with a user-defined shape and pattern, and CI for it.");
   const auto options = std::make_shared<NewCommand>();
   command->add_option("DIR", options->folder, "The folder to write it to.")->required();
   command->add_flag("--json", options->json, "Answer as JSON on standard output.");

@@ -35,7 +35,8 @@ constexpr std::array value_options = {
     ValueOption{"--spp", "N", "image", "samples", "Samples a pixel"},
     ValueOption{"--exposure", "STOPS", "image", "exposure", "Exposure of a .png"},
     ValueOption{"--integrator", "NAME", "render", "integrator", "Integrator (docs/scene-reference.md)"},
-    ValueOption{"--max-depth", "N", "render", "max_depth", "Most reflections and refractions in a row"},
+    ValueOption{"--max-depth", "N", "render", "max_depth",
+                "Maximum number of successive reflections and refractions"},
     ValueOption{"--seed", "N", "render", "seed", "Seed of all random numbers"},
     ValueOption{"--triangle", "METHOD", "render", "triangle", "Triangle intersection"}};
 
@@ -61,15 +62,16 @@ void warn_of_misplaced_shaders(const std::filesystem::path& folder) {
       if (std::filesystem::path(shader.name).filename() == place.filename()) namesake = &shader;
     }
     if (namesake)
-      print_lines(stderr, "eyeray: warning: {} takes no shader's place; did you mean {}?\n",
-                  entry.path().string(), (folder / namesake->name).string());
+      print_lines(stderr, "eyeray: warning: {} replaces no shader; did you mean {}?\n", entry.path().string(),
+                  (folder / namesake->name).string());
   }
 }
 
 // The process is to have their runtime from its start.
 void sanitize(executors::ExecutorOptions& options, const std::string& list) {
   if (list != "address" && list != "undefined" && list != "address,undefined" && list != "undefined,address")
-    throw Error(ExitCode::bad_input, "--sanitize is address, undefined or address,undefined, not '{}'", list);
+    throw Error(ExitCode::bad_input, "--sanitize must be address, undefined or address,undefined, not '{}'",
+                list);
   options.twin.compile = true;
   options.twin.sanitizers = list;
   constexpr const char* prepared = "EYERAY_SANITIZERS";
@@ -84,7 +86,7 @@ void sanitize(executors::ExecutorOptions& options, const std::string& list) {
 std::pair<int, int> parse_pixel(const std::string& text) {
   int pixel[2];
   if (!parse_integers(text, ',', pixel))
-    throw Error(ExitCode::bad_input, "a pixel is X,Y, as 320,240, not '{}'", text);
+    throw Error(ExitCode::bad_input, "a pixel must be X,Y, such as 320,240, not '{}'", text);
   return {pixel[0], pixel[1]};
 }
 
@@ -104,24 +106,24 @@ void SceneOptions::add_to(CLI::App& command) {
   command
       .add_option("SCENE", file_, "The scene file (docs/scene-file.md), or a mesh: .obj, .ply, .gltf, .glb.")
       ->required()
-      ->check([](const std::string& file) { return file.empty() ? "wants the name of a file" : ""; });
+      ->check([](const std::string& file) { return file.empty() ? "must be the name of a file" : ""; });
   const auto add = [&](const char* name, auto& value, const char* text, const std::string& description) {
     return command.add_option(name, value, description)->option_text(text)->group(group);
   };
   add("-D,--define", defines_, "KEY=VALUE",
-      "Lay a value over the scene: render.max_depth=3, sphere.0.radius=2, camera.eye=[0,1,5]. May be "
+      "Override a value of the scene: render.max_depth=3, sphere.0.radius=2, camera.eye=[0,1,5]. May be "
       "repeated.")
       ->allow_extra_args(false)
       ->take_all();
   add("--allow-path", trust_.folders, "DIR",
-      "A folder outside the scene's own that the scene may read from. May be repeated.")
+      "A folder outside the scene's own from which the scene may read files. May be repeated.")
       ->allow_extra_args(false)
       ->take_all();
   command
       .add_flag("--no-formulas{false}", trust_.formulas,
                 "Refuse a scene with user-defined functions ([[implicit]] with `code` or `file`).")
       ->group(group);
-  add("-s,--size", size_, "WxH", "Picture size in pixels, as 640x480.");
+  add("-s,--size", size_, "WxH", "Picture size in pixels, such as 640x480.");
   static_assert(std::tuple_size_v<decltype(values_)> == value_options.size());
   for (size_t i = 0; i < value_options.size(); ++i) {
     const ValueOption& each = value_options[i];
@@ -169,7 +171,8 @@ void add_executor_options(CLI::App& command, executors::ExecutorOptions& options
       ->group(group);
   command
       .add_option("--shaders", options.shader_folder,
-                  "A folder laid over the embedded shaders, file by file (see eyeray shaders --export).")
+                  "A folder whose files replace the embedded shaders of the same names (see eyeray shaders "
+                  "--export).")
       ->option_text("DIR")
       ->group(group)
       ->check([](const std::string& folder) {
@@ -196,7 +199,7 @@ void add_executor_options(CLI::App& command, executors::ExecutorOptions& options
       ->group(group);
   command
       .add_flag("--fast-math", options.gpu.fast_math,
-                "Let the driver contract and re-associate arithmetic: no bit-exact results.")
+                "Let the driver contract and re-associate arithmetic. Results are then not bit-exact.")
       ->group(group);
   std::string keys;
   for (const executors::Tuning& each : executors::tunings())
@@ -207,7 +210,7 @@ void add_executor_options(CLI::App& command, executors::ExecutorOptions& options
           [&options](const std::vector<std::string>& settings) {
             for (const std::string& setting : settings) executors::tune(options, setting);
           },
-          fmt::format("Set how kernels are built and find hits, for measurements; no pixel changes "
+          fmt::format("Set how kernels are built and find hits, for measurements. No setting changes a pixel "
                       "(docs/tuning.md). May be repeated. Settings: {}.",
                       keys))
       ->option_text("KEY=VALUE")
@@ -236,14 +239,14 @@ void add_crop_option(CLI::App& command, Rect& crop) {
   const auto parse = [&crop](const std::string& text) {
     int numbers[4];
     if (!parse_integers(text, ',', numbers))
-      throw Error(ExitCode::bad_input, "--crop wants X,Y,W,H in pixels, as 0,0,64,64, not '{}'", text);
+      throw Error(ExitCode::bad_input, "--crop must be X,Y,W,H in pixels, such as 0,0,64,64, not '{}'", text);
     crop = {numbers[0], numbers[1], numbers[2], numbers[3]};
     if (crop.width < 1 || crop.height < 1)
-      throw Error(ExitCode::bad_input, "--crop {} has no pixels: width and height are at least 1", text);
+      throw Error(ExitCode::bad_input, "--crop {} has no pixels: width and height must be at least 1", text);
   };
   command
       .add_option_function<std::string>("--crop", parse,
-                                        "Only these pixels of the picture, from its top left.")
+                                        "Only this rectangle of pixels, counted from the picture's top left.")
       ->option_text("X,Y,W,H")
       ->group("Scene");
 }

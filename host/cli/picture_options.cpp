@@ -14,7 +14,7 @@ void PictureOptions::add_to(CLI::App& command) {
   command
       .add_option(
           "-o,--output", outputs,
-          "Where the picture goes: .png, .pfm, .hdr or .exr. May be repeated. Default: SCENE.png here.")
+          "The picture file to write: .png, .pfm, .hdr or .exr. May be repeated. Default: SCENE.png here.")
       ->option_text("FILE")
       ->allow_extra_args(false)
       ->take_all();
@@ -22,9 +22,8 @@ void PictureOptions::add_to(CLI::App& command) {
   command
       .add_option_function<std::string>(
           "--aov", parse,
-          fmt::format("Also write {}, or all of them: each as data (FILE.NAME.pfm) and in false colour "
-                      "(FILE.NAME.png), or of a FILE.exr as its layers; ids with what they stand for "
-                      "(FILE.NAME.json).",
+          fmt::format("Also write {}, or all of them. Each is written as data (FILE.NAME.pfm) and in false "
+                      "colour (FILE.NAME.png), or as a layer of FILE.exr. Ids get a legend (FILE.NAME.json).",
                       film::channel_names()))
       ->option_text("LIST");
   command.add_flag("--half", half, "Write the colours of an .exr in 16 bits a channel, not 32.");
@@ -46,7 +45,7 @@ void PictureOptions::check_outputs() {
     // A checkpoint is removed when the picture is there.
     for (const std::string& file : {request.checkpoint.begin, request.checkpoint.resume}) {
       if (!file.empty() && fs::weakly_canonical(file) == fs::weakly_canonical(output))
-        throw Error(ExitCode::bad_input, "{} cannot be the picture and its checkpoint", file);
+        throw Error(ExitCode::bad_input, "{} cannot be both the picture and its checkpoint", file);
     }
   }
 }
@@ -54,12 +53,14 @@ void PictureOptions::check_outputs() {
 // A part is whole pixels of the picture, in a file of its own.
 void PictureOptions::check_shard() {
   if (classic)
-    throw Error(ExitCode::bad_input,
-                "--classic makes pixels of corners that shards share: leave out --shard");
-  if (half) throw Error(ExitCode::bad_input, "--half is for the picture: give it to eyeray merge");
+    throw Error(
+        ExitCode::bad_input,
+        "--classic computes pixels from their corners, which neighbouring shards share: leave out --shard");
+  if (half)
+    throw Error(ExitCode::bad_input, "--half applies to the picture, not to a part: give it to eyeray merge");
   if (outputs.size() > 1 || (!outputs.empty() && fs::path(outputs[0]).extension() != ".eyeray"))
     throw Error(ExitCode::bad_input,
-                "--shard writes one part, -o NAME.eyeray; pictures are made of all parts, by eyeray merge");
+                "--shard writes one part, -o NAME.eyeray; eyeray merge makes pictures of all parts");
   if (outputs.empty())
     outputs.push_back(fmt::format("{}.{}-of-{}.eyeray", fs::path(scene.file()).stem().string(),
                                   request.shard->index + 1, request.shard->count));

@@ -36,7 +36,8 @@ ExitCode ProbeCommand::run() {
 
 void add_probe(CLI::App& app, Run& run) {
   CLI::App* const command = app.add_subcommand(
-      "probe", "Show all rays of one pixel, by GPU, twin and reference, and what differs first.");
+      "probe",
+      "Show all rays of one pixel, as GPU, twin and reference trace them, and their first difference.");
   const auto options = std::make_shared<ProbeCommand>();
   options->scene_options.add_to(*command);
   command

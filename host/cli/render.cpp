@@ -42,14 +42,14 @@ struct RenderCommand {
 void print_stages(const session::Result& picture) {
   for (const auto& [stage, seconds] : picture.times.stages())
     print_lines(stderr, "  {:<16} {:>10}\n", stage, format_seconds(seconds));
-  print_lines(stderr, "  {:<16} {:>10}\n", "all in all", format_seconds(picture.seconds));
+  print_lines(stderr, "  {:<16} {:>10}\n", "total", format_seconds(picture.seconds));
 }
 
 void print_rays(const RayCounts& kinds, double seconds) {
   const auto line = [](std::string_view kind, uint64_t rays, const std::string& more = "") {
     print_lines(stderr, "  {:<16} {:>10}{}\n", kind, rays, more);
   };
-  line("eye rays", kinds.eye, fmt::format(", {} of them hit", kinds.eye_hits));
+  line("camera rays", kinds.eye, fmt::format(", {} of them hit", kinds.eye_hits));
   line("reflected rays", kinds.reflected);
   line("refracted rays", kinds.refracted,
        kinds.total_reflections ? fmt::format(", and {} total reflections", kinds.total_reflections) : "");
@@ -68,20 +68,22 @@ std::string what_was_kept(const session::Result& picture, bool aovs) {
     text = fmt::format("interrupted; {} of {} samples a pixel were kept{}", picture.totals.samples_done,
                        picture.samples, aovs ? ", and no AOVs" : "");
   } else if (!file.empty()) {
-    text = "interrupted before the picture was whole";
+    text = "interrupted before the picture was complete";
   } else if (picture.shard) {
-    text = "interrupted, and a part is whole or nothing; nothing was kept (--checkpoint FILE would)";
+    text =
+        "interrupted; an unfinished part is not written, so nothing was kept (--checkpoint FILE would keep "
+        "the work)";
   } else if (picture.totals.bands == 1) {
     text = "interrupted before every pixel had a sample; nothing was kept";
   } else {
     text = fmt::format(
-        "interrupted, and a picture of {} bands is whole only at its end; nothing was kept "
-        "(--checkpoint FILE would)",
+        "interrupted; a picture of {} bands is complete only at its end, so nothing was kept (--checkpoint "
+        "FILE would keep the work)",
         picture.totals.bands);
   }
   if (file.empty()) return text;
-  return fmt::format("{}; {} has {:.1f} % of the work: to go on, give the same options and --resume {}", text,
-                     file, 100 * picture.share(), shell_word(file));
+  return fmt::format("{}; {} has {:.1f} % of the work: to continue, give the same options and --resume {}",
+                     text, file, 100 * picture.share(), shell_word(file));
 }
 
 void add_frame_options(CLI::App& command, RenderCommand& options) {
@@ -99,7 +101,8 @@ void add_frame_options(CLI::App& command, RenderCommand& options) {
                   "Make a video of the frames, too, with ffmpeg: .mp4, .mkv, .mov or .webm.")
       ->option_text("FILE")
       ->group(group);
-  command.add_flag("--overwrite", options.overwrite, "Render frames again whose files exist.")->group(group);
+  command.add_flag("--overwrite", options.overwrite, "Render frames again even if their files exist.")
+      ->group(group);
 }
 
 void add_long_render_options(CLI::App& command, RenderCommand& options) {
@@ -110,10 +113,10 @@ void add_long_render_options(CLI::App& command, RenderCommand& options) {
   };
   CLI::Option* const checkpoint =
       add("--checkpoint", file.begin, "FILE",
-          "Store the work so far in this file, now and then and on Ctrl-C, until the picture is written.");
+          "Store the work so far in this file, at intervals and on Ctrl-C, until the picture is written.");
   add("--resume", file.resume, "FILE",
-      "Continue from a checkpoint, and store it as --checkpoint does. All other options must be as they "
-      "were.")
+      "Continue from a checkpoint, and go on storing it as --checkpoint does. All other options must be the "
+      "same as before.")
       ->excludes(checkpoint);
   add("--checkpoint-every", file.seconds, "SECONDS=30", "The time between two writes of the checkpoint.")
       ->check(within(0.01, 1e6));
@@ -166,8 +169,8 @@ ExitCode RenderCommand::run_frames() {
   if (const auto shard = std::exchange(options.request.shard, std::nullopt)) {
     if (!video.empty())
       throw Error(ExitCode::bad_input,
-                  "--video takes all frames, and --shard renders a share of them: the video "
-                  "comes last, without --shard");
+                  "--video needs all frames, but --shard renders only a share of them: make the video last, "
+                  "without --shard");
     std::vector<int> share;
     for (size_t i = size_t(shard->index); i < wanted.size(); i += size_t(shard->count))
       share.push_back(wanted[i]);
@@ -179,15 +182,15 @@ ExitCode RenderCommand::run_frames() {
   const bool shown = options.outputs[0].ends_with(".png");
   if (!video.empty()) {
     if (!shown)
-      throw Error(ExitCode::bad_input, "--video is made of the first output, which is to be a .png then");
+      throw Error(ExitCode::bad_input, "--video is made from the first output, which must be a .png");
     check_video(video);
   }
   const Scene scene = options.scene.load();
   const Animation& animation = scene.animation;
   if (animation.tracks == 0)
     throw Error(ExitCode::bad_input,
-                "{} has no [[track]] and shows no animation of a glTF file: nothing moves, and all its "
-                "frames would be the same",
+                "{} has no [[track]] and shows no animation of a glTF file: nothing moves, so all its frames "
+                "would be the same",
                 options.scene.file());
 
   session_.options() = executors::for_frames(options.executor, scene.image.all_samples());
@@ -216,7 +219,7 @@ ExitCode RenderCommand::run_frames() {
     return code;
   }
   if (kept > 0 && !quiet)
-    print_lines(stderr, "{} of {} frames were there and are kept; --overwrite renders them anew\n", kept,
+    print_lines(stderr, "{} of {} frames existed and are kept; --overwrite renders them again\n", kept,
                 wanted.size());
   if (!video.empty()) make_video(pictures, animation.frames_per_second, video);
   said["kept"] = kept;
@@ -228,7 +231,7 @@ ExitCode RenderCommand::run() {
   session_.options() = options.executor;
   if (!frames.empty()) return run_frames();
   if (!video.empty() || overwrite)
-    throw Error(ExitCode::bad_input, "--{} is about --frames", video.empty() ? "overwrite" : "video");
+    throw Error(ExitCode::bad_input, "--{} needs --frames", video.empty() ? "overwrite" : "video");
   Json said;
   const ExitCode code = run_picture(options, said);
   if (json) print_json(said);
@@ -248,22 +251,22 @@ void add_render(CLI::App& app, Run& run) {
       command
           ->add_option("--noise", request.noise,
                        fmt::format("Take samples until the error of each pixel is at most this share of its "
-                                   "brightness, as 0.01. --spp N (default {}) is the maximum.",
+                                   "brightness, such as 0.01. --spp N (default {}) is the maximum.",
                                    most_samples_by_default))
           ->option_text("SHARE")
           ->check(within(1e-4, 1));
   command
       ->add_option("--clamp", request.clamp,
-                   "Cut every sample to this value in each channel: no bright dots, but a biased picture, "
-                   "which is darker than the truth.")
+                   "Clamp each channel of every sample to this value. This removes bright dots, but the "
+                   "picture is biased: darker than the truth.")
       ->option_text("X")
       ->check(within(1e-6, 1e15));
   command
       ->add_option_function<std::string>(
           "--shard",
           [render](const std::string& text) { render->options.request.shard = shards::parse_shard(text); },
-          "Render the I-th of N shares of the picture, as 3/64, to a part; eyeray merge makes the picture of "
-          "all parts.")
+          "Render the I-th of N shares of the picture, such as 3/64, to a part; eyeray merge makes the "
+          "picture of all parts.")
       ->option_text("I/N")
       ->group("Many machines");
   command->add_flag(
@@ -271,8 +274,8 @@ void add_render(CLI::App& app, Run& run) {
       "Print the time of each stage, and the numbers of camera, reflected, refracted and shadow rays.");
   command
       ->add_flag("--classic", render->options.classic,
-                 "Sample as Haines' published statistics do: one ray at each pixel corner, at most 5 rays in "
-                 "a row, and none left out for a small contribution.")
+                 "Sample as Haines' published statistics do: one ray at each pixel corner, at most 5 "
+                 "successive rays, and no ray left out for a small contribution.")
       ->excludes("--spp")
       ->excludes(noise)
       ->excludes("--max-depth");

@@ -109,7 +109,7 @@ void add_shaders(CLI::App& app, Run& run) {
   command->add_flag("--force", options->force, "Let --export overwrite files that differ.");
   command->add_flag("--json", options->json, "Answer as JSON on standard output.");
   command->footer(
-      "Example: change a shader and look at it at once\n"
+      "Example: change a shader and see the result at once\n"
       "  eyeray shaders --export my-shaders\n"
       "  eyeray dev scenes/whitted.toml --shaders my-shaders");
   command->callback([options, &run] { run = [options] { return options->run(); }; });

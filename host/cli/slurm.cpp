@@ -56,12 +56,12 @@ void SlurmCommand::check_options() const {
   for (const std::string& word : sbatch_words)
     for (const char* own : {"--array", "-a", "--dependency", "-d", "--job-name", "-J", "--wait", "-W"})
       if (word == own || word.starts_with(std::string(own) + "="))
-        throw Error(ExitCode::bad_input, "{} is eyeray's to say: leave it out", own);
+        throw Error(ExitCode::bad_input, "{} is set by eyeray: leave it out", own);
   if (!more_scenes.empty() && !(picture.outputs.empty() && folder.empty() && video.empty()))
     throw Error(ExitCode::bad_input,
-                "several scenes have a picture and a folder each, named after them: leave out -o, --folder "
-                "and --video");
-  if (!video.empty() && frames.empty()) throw Error(ExitCode::bad_input, "--video is about --frames");
+                "each of several scenes has its own picture and folder, named after it: leave out -o, "
+                "--folder and --video");
+  if (!video.empty() && frames.empty()) throw Error(ExitCode::bad_input, "--video needs --frames");
   if (!video.empty()) check_video_name(video);
 }
 
@@ -114,11 +114,11 @@ slurm::Array SlurmCommand::array_of(const std::string& scene) const {
 void print(const slurm::Array& array, const slurm::ArrayState& state,
            const std::vector<std::string>& submitted) {
   const size_t there = size_t(array.shards) - state.missing.size();
-  print_lines(stderr, "{}: {} of {} shares are there{}\n", array.render_words[0], there, array.shards,
-              state.done ? ", and all is done" : "");
+  print_lines(stderr, "{}: {} of {} shares are done{}\n", array.render_words[0], there, array.shards,
+              state.done ? ", and the whole task is done" : "");
   if (!state.queue.empty()) print_lines(stderr, "in the queue, as {}:\n", array.job_name);
   for (const std::string& line : state.queue) print_lines(stderr, "  {}\n", line);
-  if (!state.output.empty()) print_lines(stderr, "why not all is done: {}\n", state.output.string());
+  if (!state.output.empty()) print_lines(stderr, "why shares are missing: {}\n", state.output.string());
   for (const std::string& line : state.failures) print_lines(stderr, "  {}\n", line);
   if (!submitted.empty())
     print_lines(stderr, "submitted {}; squeue, sacct and scancel know them by --name={}\n",
@@ -154,11 +154,12 @@ ExitCode SlurmCommand::run() {
 }  // namespace
 
 void add_slurm(CLI::App& app, Run& run, const std::vector<std::string>& sbatch_words) {
-  CLI::App* const command = app.add_subcommand("slurm", "Render a scene on a Slurm cluster, a share a job.");
+  CLI::App* const command =
+      app.add_subcommand("slurm", "Render a scene on a Slurm cluster, one share in each job.");
   const auto options = std::make_shared<SlurmCommand>();
   options->sbatch_words = sbatch_words;
   options->picture.add_to(*command);
-  command->add_option("MORE", options->more_scenes, "Further scenes, under the same options.");
+  command->add_option("MORE", options->more_scenes, "Further scenes, with the same options.");
   const auto add = [&](const char* name, auto& value, const char* text, const char* description) {
     return command->add_option(name, value, description)->option_text(text)->group("Slurm");
   };
@@ -166,13 +167,14 @@ void add_slurm(CLI::App& app, Run& run, const std::vector<std::string>& sbatch_w
       ->required()
       ->check(whole_within(1, render::most_shards));
   add("--frames", options->frames, "FIRST:LAST[:STEP]",
-      "Render these frames of an animated scene, every N-th of them a share; -o out.%04d.png.");
+      "Render these frames of an animated scene; a share is every N-th of them. Use it with -o "
+      "out.%04d.png.");
   add("--video", options->video, "FILE", "Make a video of the frames with ffmpeg, on the last job's node.");
   add("--folder", options->folder, "DIR",
       "The folder for parts, checkpoints and scripts, visible to all nodes. Default: SCENE.slurm here.");
   command
       ->add_flag("--no-submit", options->no_submit,
-                 "Write the scripts and report how far the picture is, but submit nothing.")
+                 "Write the scripts and report the picture's progress, but submit nothing.")
       ->group("Slurm");
   command->add_flag("-q,--quiet", options->quiet, "Print only warnings and errors.");
   command->add_flag("--json", options->json, "Report as JSON on standard output.");
@@ -182,8 +184,8 @@ void add_slurm(CLI::App& app, Run& run, const std::vector<std::string>& sbatch_w
       "--time=1:00:00\n"
       "  eyeray slurm scenes/animation.toml --frames 0:47 --shards 12 --video animation.mp4 -- "
       "--time=1:00:00\n"
-      "Words behind -- are sbatch's. The same command again reports how far the jobs\n"
-      "are, and submits what is missing when they have ended.");
+      "Words after -- are passed to sbatch. The same command again reports the progress\n"
+      "of the jobs, and submits missing shares once the jobs have ended.");
   command->callback([options, command, &run] {
     options->render_words =
         words_of_render(*command, {"--output", "--half", "--shards", "--frames", "--video", "--folder",

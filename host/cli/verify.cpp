@@ -103,7 +103,7 @@ void VerifyCommand::find_files() {
   }
   for (const std::string& name : may_stay_unverified)
     if (std::ranges::find(files, name) == files.end())
-      throw Error(ExitCode::bad_input, "--allow-unverified {}: that is none of the scenes", name);
+      throw Error(ExitCode::bad_input, "--allow-unverified {}: this is none of the scenes to verify", name);
 }
 
 // Every shard.count-th scene: neighbours in a folder are alike.
@@ -183,11 +183,11 @@ void VerifyCommand::write_reports(std::span<const compare::Report> reports) cons
 // Checks that CLI11 cannot make.
 void VerifyCommand::check_options() const {
   if (!update.empty() && against.empty())
-    throw Error(ExitCode::bad_input, "--update needs --against: which picture is to be updated?");
+    throw Error(ExitCode::bad_input, "--update needs --against, which names the picture to update");
   if (!update.empty() && options.crop.pixels() > 0)
     throw Error(ExitCode::bad_input, "--update stores whole pictures: leave out --crop");
   if (fs::path(against).extension() == ".pfm" && suite_size > 1)
-    throw Error(ExitCode::bad_input, "--against {}: {} scenes need a folder of pictures", against,
+    throw Error(ExitCode::bad_input, "--against {}: for {} scenes, it must be a folder of pictures", against,
                 files.size());
 }
 
@@ -195,7 +195,7 @@ ExitCode VerifyCommand::run() {
   if (record) {
     const std::string changed = scene_options.as_written();
     if (!changed.empty() || options.crop.pixels() > 0 || options.max_explained)
-      throw Error(ExitCode::bad_input, "--record takes scenes as their files say: leave out{}",
+      throw Error(ExitCode::bad_input, "--record verifies scenes as their files define them: leave out{}",
                   changed.empty() ? " --crop and --max-explained" : changed);
     options.max_explained = most_explained;
   }
@@ -250,14 +250,14 @@ void add_verify(CLI::App& app, Run& run) {
   verify::Options& how = options->options;
   options->scene_options.add_to(*command);
   command->add_option("MORE", options->more_scenes,
-                      "Further scenes, or folders of them, under the same options.");
+                      "Further scenes, or folders of them, with the same options.");
   add_crop_option(*command, how.crop);
   add_executor_options(*command, how.executor);
   const auto parse = [&how](const std::string& list) {
     how.backends = parse_backends(list);
     if (std::ranges::find(how.backends, executors::Backend::reference) != how.backends.end())
       throw Error(ExitCode::bad_input,
-                  "--backends names what is compared with the reference: gpu, twin or gpu,twin");
+                  "--backends must be gpu, twin or gpu,twin: the executors to compare with the reference");
   };
   command
       ->add_option_function<std::string>("--backends", parse,
@@ -276,8 +276,8 @@ void add_verify(CLI::App& app, Run& run) {
       ->option_text("FILE");
   command
       ->add_flag("--update{failing}", options->update,
-                 "If nothing else fails, store the scene's picture as the golden one where that differs or "
-                 "is missing; with =force, always.")
+                 "If nothing else fails, store the scene's picture as the golden picture where that differs "
+                 "or is missing; with =force, always.")
       ->check(one_of({"failing", "force"}))
       ->disable_flag_override(false)
       ->option_text("[=force]");
@@ -290,16 +290,17 @@ void add_verify(CLI::App& app, Run& run) {
       ->option_text("N=0")
       ->check(whole_within(0, 64));
   command->add_flag("--raster", how.raster,
-                    "Compare the hits of camera rays with the device's rasteriser, too.");
+                    "Also compare the hits of camera rays with the device's rasteriser.");
   command
       ->add_option("--keep", options->keep,
                    "The folder for the pictures of a failed gate. Default: SCENE.verify here.")
       ->option_text("DIR");
-  command->add_flag("--keep-passed", options->keep_passed, "Write these pictures if no gate fails, too.");
+  command->add_flag("--keep-passed", options->keep_passed, "Write these pictures even if no gate fails.");
   command
       ->add_option_function<std::string>(
           "--shard", [options](const std::string& text) { options->shard = shards::parse_shard(text); },
-          "Verify every N-th scene, from the I-th on, as 3/64; eyeray merge joins the reports of --json.")
+          "Verify every N-th scene, from the I-th on, such as 3/64; eyeray merge joins the reports of "
+          "--json.")
       ->option_text("I/N");
   command->add_flag("-q,--quiet", options->quiet, "Print no progress.");
   command->add_flag("--json", options->json, "Report as JSON.");
@@ -316,7 +317,7 @@ void add_verify(CLI::App& app, Run& run) {
       ->excludes("--json");
   command
       ->add_option("--allow-unverified", options->may_stay_unverified,
-                   "A scene that may fail to render among several. May be repeated.")
+                   "One of several scenes that may fail to render. May be repeated.")
       ->option_text("SCENE")
       ->allow_extra_args(false)
       ->take_all();
@@ -324,7 +325,7 @@ void add_verify(CLI::App& app, Run& run) {
       "Examples:\n"
       "  eyeray verify scenes/whitted.toml\n"
       "  eyeray verify scenes/ -s 96x72 --junit report.xml\n"
-      "  eyeray verify scenes/whitted.toml --record     after a change that is meant\n"
+      "  eyeray verify scenes/whitted.toml --record     after an intended change\n"
       "Exit code 0 when every gate passes, 1 when one fails.");
   command->callback([options, &run] { run = [options] { return options->run(); }; });
 }

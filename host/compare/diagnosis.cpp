@@ -24,22 +24,21 @@ std::string side(const Report& report) {
              other_agrees = agrees_with_reference(report, pair.other);
   if (same)
     return fmt::format(
-        "{} and {} agree with each other and not with the reference: look into the shaders, the "
-        "records that are packed for them, or the reference",
+        "{} and {} agree with each other, but not with the reference: check the shaders, the records that "
+        "are packed for them, or the reference",
         pair.value, pair.other);
   if (other_agrees && value_agrees)
     return fmt::format(
-        "{0} and {1} agree with the reference, and not bit by bit with each other: look into {0}'s "
-        "data by a bit, or what its compiler or driver does to float arithmetic",
+        "{0} and {1} agree with the reference, but not bit by bit with each other: check {0}'s data for a "
+        "wrong bit, or how its compiler or driver changes float arithmetic",
         pair.value, pair.other);
   if (other_agrees || value_agrees)
     return fmt::format(
-        "{} agrees with the reference: look into {}'s data, compiler or driver, or a shader of your own",
+        "{} agrees with the reference: check {}'s data, compiler or driver, or your own shaders",
         other_agrees ? pair.other : pair.value, other_agrees ? pair.value : pair.other);
   return fmt::format(
-      "neither {} nor {} agrees with the reference, nor they with each other: look into the "
-      "shaders first",
-      pair.value, pair.other);
+      "{} and {} agree neither with the reference nor with each other: check the shaders first", pair.value,
+      pair.other);
 }
 
 // What is wrong first along the life of a ray.
@@ -52,17 +51,17 @@ std::string place(const ReferenceResult& result) {
   const Tally& tally = c.*failing->tally;
   switch (tally.worst.seam) {
     case Seam::primitive:
-      return "eye rays hit something else: camera, traversal or intersection";
+      return "camera rays hit another primitive: check the camera, traversal or intersection";
     case Seam::t:
-      return "eye rays hit the right primitive at the wrong distance: its intersection";
+      return "camera rays hit the right primitive at the wrong distance: check its intersection";
     case Seam::position:
     case Seam::normal:
     case Seam::geometric_normal:
     case Seam::uv:
-      return fmt::format("eye rays hit the right place, and its {} is wrong: the shape's surface",
+      return fmt::format("camera rays hit the right point, but its {} is wrong: check the shape's surface",
                          name(tally.worst.seam));
     case Seam::material:
-      return "eye rays hit the right place, with the wrong material: what is packed";
+      return "camera rays hit the right point, but with the wrong material: check the packed records";
     case Seam::none:
     case Seam::color:
     case Seam::counts:
@@ -70,20 +69,20 @@ std::string place(const ReferenceResult& result) {
       break;
   }
   if (!c.first_hits.passes()) return "first hits differ";
-  if (tally.worst.seam == Seam::trail) return "first hits agree, and paths part where the reference's do not";
+  if (tally.worst.seam == Seam::trail)
+    return "first hits agree, but paths diverge where the reference's do not";
   if (c.by_samples())
-    return "paths decide the same, and bring other light: materials, densities, weights, lights or textures";
+    return "paths take the same decisions, but carry other light: check materials, densities, weights, "
+           "lights or textures";
   if (!c.counts.passes()) {
     const bool further = tally.worst.reference_counts.x > 1 || tally.worst.value_counts.x > 1;
-    return further ? "first hits agree, and reflected, refracted or shadow rays go or hit elsewhere"
-                   : "first hits agree, and other rays are traced, or counted, from there";
+    return further ? "first hits agree, but reflected, refracted or shadow rays have other directions or hits"
+                   : "first hits agree, but other rays are traced, or counted, from there";
   }
-  return tally.worst.reference_counts.x > 1 ? "all rays hit the same, and the colours differ, where light is "
-                                              "reflected or refracted: materials, "
-                                              "lights or textures"
-                                            : "all rays hit the same, and the colours differ, in direct "
-                                              "light: materials, lights, shadows or "
-                                              "textures";
+  return tally.worst.reference_counts.x > 1 ? "all rays have the same hits, but colours differ where light "
+                                              "is reflected or refracted: check materials, lights or textures"
+                                            : "all rays have the same hits, but colours differ in direct "
+                                              "light: check materials, lights, shadows or textures";
 }
 
 }  // namespace
@@ -93,8 +92,8 @@ std::string Report::diagnosis() const {
   for (const ExactResult& result : exact)
     if (!result.comparison.incomparable.empty()) return "";
   if (own_gates_pass())
-    return "the scene's own gates pass: what it should look like has changed, in the scene or in how all "
-           "executors see it; --update keeps the new picture";
+    return "the scene's own gates pass, so its expected look has changed, by the scene or by a change in all "
+           "executors; --update keeps the new picture";
   std::string text = side(*this);
   for (const ReferenceResult& result : against_reference) {
     const std::string found = place(result);

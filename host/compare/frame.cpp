@@ -25,13 +25,14 @@ std::string describe(const Rect& area) {
 std::string why_incomparable(const Frame& value, const Frame& reference) {
   if (reference.area.pixels() <= 0) return "there is no pixel to compare";
   if (!(value.area == reference.area)) {
-    return fmt::format("wrong size: {} against {}", describe(value.area), describe(reference.area));
+    return fmt::format("the sizes differ: {} against {}", describe(value.area), describe(reference.area));
   }
   if (value.samples.size() != reference.samples.size())
-    return fmt::format("wrong size: {} samples against {}", value.samples.size(), reference.samples.size());
+    return fmt::format("the numbers of samples differ: {} against {}", value.samples.size(),
+                       reference.samples.size());
   for (const Frame* frame : {&value, &reference}) {
     if (!whole(*frame)) {
-      return fmt::format("wrong size: a frame of {} holds a picture of {}×{} and {} first hits",
+      return fmt::format("the sizes differ: a frame of {} contains a picture of {}×{} and {} first hits",
                          describe(frame->area), frame->color.width(), frame->color.height(),
                          frame->first_hits.size());
     }

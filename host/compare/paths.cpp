@@ -145,7 +145,7 @@ class PathJudge {
     const Events other = paths_.reference(p.pixel, p.sample, Vec2(0.0), 0);
     const size_t e = parting_of(own, other);
     if (e < own.size() && e < other.size())
-      p.parting = fmt::format("event {}: {}, and the reference's {}", e, paths_.describe(own[e]),
+      p.parting = fmt::format("event {}: {}, but the reference's {}", e, paths_.describe(own[e]),
                               paths_.describe(other[e]));
     return p;
   }

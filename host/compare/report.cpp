@@ -17,18 +17,19 @@ void add_failures(std::vector<std::string>& failures, const std::string& sides, 
   const auto add = [&](int64_t count, const std::string& what) {
     if (count <= 0) return;
     failures.push_back(
-        fmt::format("gate {}: {}, {}: {} of {} {} differ {}; the worst is {},{}, which parts at {}",
+        fmt::format("gate {}: {}, {}: {} of {} {} differ {}; the worst is {},{}, which diverges at {}",
                     type.gate, sides, type.of, count, tally.pixels, type.unit, what, tally.worst.pixel.x,
                     tally.worst.pixel.y, name(tally.worst.seam)));
   };
   add(tally.unexplained + tally.unexamined, "unexplained");
   if (tally.capped_pixels() > tally.may_be_explained)
-    add(tally.capped_pixels(), fmt::format("explained, more than the {} allowed", tally.may_be_explained));
+    add(tally.capped_pixels(),
+        fmt::format("explained, which is more than the {} allowed", tally.may_be_explained));
 }
 
 std::string describe(const PairedSum& sum) {
   return fmt::format(
-      "the tile of {}×{} pixels at {},{} is off by {:.2g} in channel {} on the mean, and {:.2g} may be "
+      "the tile of {}×{} pixels at {},{} differs by {:.2g} on average in channel {}; up to {:.2g} may be "
       "chance",
       sum.tile.width, sum.tile.height, sum.tile.x, sum.tile.y, sum.share, sum.channel, sum.allowed);
 }
@@ -41,8 +42,7 @@ std::string describe(const ExactResult& result) {
   }
   return fmt::format(
       "gate A: {} and {}: {} of {} pixels differ in their bits, {} of them in an id, by at most {} ULP "
-      "(allowed: {}); the "
-      "worst is {},{}, which parts at {}",
+      "(allowed: {}); the worst is {},{}, which diverges at {}",
       result.value, result.other, c.different_pixels, c.pixels, c.different_ids, c.max_ulp, result.ulp,
       c.worst.pixel.x, c.worst.pixel.y, name(c.worst.seam));
 }
@@ -86,9 +86,8 @@ std::vector<std::string> Report::failures() const {
   }
   if (photons && !photons->passes())
     failures.push_back(fmt::format(
-        "gate D: twin against the reference, photons: of {} {} go another way ({} may), {} lie aside ({} "
-        "may), "
-        "and of these {} are unexplained{}",
+        "gate D: twin against the reference, photons: of {}, {} diverge ({} may), {} are displaced ({} may), "
+        "and {} of these are unexplained{}",
         photons->sent, photons->parted, photons->may_part(), photons->aside, photons->may_lie_aside(),
         photons->unexplained, photons->worst.empty() ? "" : "; the first is " + photons->worst));
   for (const ExactResult& result : exact) {

@@ -53,7 +53,7 @@ void add_worst(std::string& text, const Report& report, const WorstPixel& worst,
   const std::string error = std::isinf(worst.excess) ? "beyond all" : fmt::format("{:.3g}", worst.excess);
   line(text, "    worst pixel {},{}{}: {} {}{}{}", worst.pixel.x, worst.pixel.y,
        worst.sample < 0 ? "" : fmt::format(", sample {}", worst.sample), error, unit,
-       worst.seam == Seam::none ? "" : fmt::format(", parts at {}", name(worst.seam)),
+       worst.seam == Seam::none ? "" : fmt::format(", diverges at {}", name(worst.seam)),
        worst.parting.empty() ? "" : ", " + worst.parting);
   const auto side = [&](const std::string& who, const Vec3& color, const Counts& counts,
                         const FirstHit& hit) {
@@ -91,8 +91,8 @@ void add(std::string& text, const Report& report, const ReferenceResult& result)
     add_tally(text, report, result.value, "reference", type, result.comparison.*type.tally);
   if (const PairedSum& sum = result.comparison.paired_sum; result.comparison.by_samples())
     line(text,
-         "  gate D {} {} = reference, sums: {}×{} pixels at {},{} differ by {:.2g} on the mean of channel "
-         "{}; {:.2g} may be chance",
+         "  gate D {} {} = reference, sums: {}×{} pixels at {},{} differ by {:.2g} on average in channel {}; "
+         "up to {:.2g} may be chance",
          sum.excess() <= 1 ? "passed" : "FAILED", result.value, sum.tile.width, sum.tile.height, sum.tile.x,
          sum.tile.y, sum.share, sum.channel, sum.allowed);
   if (result.metrics) line(text, "    {}", to_text(*result.metrics));
@@ -116,7 +116,7 @@ void add(std::string& text, const Report& report, const RasterResult& result) {
   line(text, "  gate R {} {} = the rasteriser: {} equal{}, {} explained{}, {} unexplained{}",
        result.passes() ? "passed" : "FAILED", result.value, result.equal, share, result.explained_pixels(),
        causes.empty() ? "" : causes + ")", result.unexplained,
-       result.hidden > 0 ? fmt::format(", {} behind what is not drawn", result.hidden) : "");
+       result.hidden > 0 ? fmt::format(", {} behind shapes that are not drawn", result.hidden) : "");
   if (result.passes()) return;
   line(text, "    pixel {},{}: {}", result.pixel.x, result.pixel.y, result.difference);
   line(text, "      {:9} {}", result.value, describe(result.traced, report));
@@ -138,7 +138,7 @@ void add(std::string& text, const Report& report, const GoldenResult& result) {
     if (result.metrics) line(text, "    {}", to_text(*result.metrics));
   }
   if (!result.changed.empty())
-    line(text, "    since the golden picture was made have changed: {}", fmt::join(result.changed, ", "));
+    line(text, "    changed since the golden picture was made: {}", fmt::join(result.changed, ", "));
   if (result.updated) line(text, "  updated {}", result.file);
 }
 
@@ -170,8 +170,8 @@ std::string to_lines(const Metrics& m, const std::string& indent) {
     line(text, "{}HDR-FLIP: mean {:.3g}, p95 {:.3g}, p99 {:.3g}, {} exposures from {:.4g} to {:.4g} stops",
          indent, hdr->flip.mean, hdr->flip.p95, hdr->flip.p99, hdr->exposures.count, hdr->exposures.start,
          hdr->exposures.stop);
-  line(text, "{}shown apart by more than {} of 255: {} pixels", indent, fmt::join(display_steps, ", "),
-       fmt::join(m.display_over, ", "));
+  line(text, "{}values on screen that differ by more than {} of 255: {} pixels", indent,
+       fmt::join(display_steps, ", "), fmt::join(m.display_over, ", "));
   return text;
 }
 
@@ -201,9 +201,8 @@ std::string to_text(const Report& report) {
   }
   if (const auto& photons = report.photons)
     line(text,
-         "  gate D {} twin = reference, photons: of {} {} go another way ({} may) and {} lie aside ({} may), "
-         "{} "
-         "unexplained; they are left out",
+         "  gate D {} twin = reference, photons: of {}, {} diverge ({} may) and {} are displaced ({} may), "
+         "{} unexplained; they are left out",
          photons->passes() ? "passed" : "FAILED", photons->sent, photons->parted, photons->may_part(),
          photons->aside, photons->may_lie_aside(), photons->unexplained);
   for (const ReferenceResult& result : report.against_reference) {

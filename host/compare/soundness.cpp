@@ -99,7 +99,7 @@ std::string describe(const Soundness& soundness) {
   if (soundness.flags & media_overflow) text += ": more than four media nested";
   if (soundness.flags & stack_overflow) text += ": more rays pending than the stack holds";
   if (soundness.flags & loop_budget) text += ": the driver's cap on loop iterations was near";
-  if (soundness.flags & iteration_limit) text += ": a shape was not found in the steps allowed";
+  if (soundness.flags & iteration_limit) text += ": the search for a shape ran out of steps";
   return text;
 }
 

@@ -42,8 +42,8 @@ std::vector<std::string> DiskCache::warnings() const {
   std::vector<std::string> warnings;
   for (const std::filesystem::path& folder : folders) {
     if (const std::string why = why_not_private(folder); !why.empty())
-      warnings.push_back(fmt::format("the cache {} is not used, so that each start compiles anew: {}",
-                                     folder.string(), why));
+      warnings.push_back(
+          fmt::format("the cache {} is not used, so each start compiles again: {}", folder.string(), why));
     if (!warnings.empty() && folder == folder_) break;
   }
   return warnings;

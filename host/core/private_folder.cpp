@@ -29,7 +29,7 @@ std::string why_not_private(const std::filesystem::path& folder) {
   struct stat status{};
   if (is_private_folder(folder) || ::lstat(folder.c_str(), &status) != 0) return "";
   if (S_ISLNK(status.st_mode)) return "it is a symbolic link; name the folder that it leads to";
-  if (!S_ISDIR(status.st_mode)) return "it is no folder";
+  if (!S_ISDIR(status.st_mode)) return "it is not a folder";
   if (status.st_uid != ::geteuid())
     return fmt::format("it belongs to another user, with the number {}", status.st_uid);
   return fmt::format("other users may write to it; chmod go-w {} keeps them out", folder.string());

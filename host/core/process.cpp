@@ -167,7 +167,7 @@ void restart(const Environment& environment) {
   // By its name, which debuggers look for.
   arguments[0] = std::filesystem::read_symlink("/proc/self/exe");
   ::execve("/proc/self/exe", pointers(arguments).data(), pointers(variables).data());
-  throw Error(ExitCode::file_io, "cannot start {} anew: {}", arguments[0], strerror(errno));
+  throw Error(ExitCode::file_io, "cannot restart {}: {}", arguments[0], strerror(errno));
 }
 
 ProcessResult run_process(const std::vector<std::string>& argv, const Environment& environment,

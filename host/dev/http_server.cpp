@@ -203,7 +203,7 @@ MHD_Result HttpServer::Loop::Client::take(const char* path, const char* method, 
     try {
       answer = loop.handler_(std::move(request));
     } catch (const std::exception&) {
-      answer = {400, "text/plain; charset=utf-8", "This request makes no sense.\n"};
+      answer = {400, "text/plain; charset=utf-8", "This request is malformed.\n"};
     }
     has_answer = true;
     loop.wake();
@@ -259,7 +259,7 @@ HttpServer::Loop::Loop(int port, Handler handler, const WebLimits& limits)
   bool listens = listen(port);
   for (int i = 1; !listens && i < ports_to_try && port + i < 65536; ++i) listens = listen(port + i);
   if (!listens && !listen(0))
-    throw Error(ExitCode::file_io, "no port of 127.0.0.1 can be had: {}", strerror(errno));
+    throw Error(ExitCode::file_io, "no port of 127.0.0.1 is available: {}", strerror(errno));
   thread_ = std::thread([this] { run(); });
 }
 

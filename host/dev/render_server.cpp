@@ -315,12 +315,12 @@ std::vector<std::string> RenderServer::doubts(const View& view, const Painted& p
   const std::string shaders = options_.executor.shader_folder.string();
   if (view.backend != executors::Backend::twin || shaders.empty()) return doubts;
   if (!options_.executor.twin.compile)
-    doubts.push_back(fmt::format(
-        "this is the twin of eyeray's own shaders: for those of {} there is no C++ compiler (c++, "
-        "g++, clang++ or $CXX)",
-        shaders));
+    doubts.push_back(
+        fmt::format("this is the twin of eyeray's own shaders: to compile those of {}, install a C++ "
+                    "compiler (c++, g++, clang++ or $CXX)",
+                    shaders));
   else if (tunables_->any_chosen())
-    doubts.push_back("the twin has the values that are written in the shaders, not those of the sliders");
+    doubts.push_back("the twin uses the values that are written in the shaders, not those of the sliders");
   return doubts;
 }
 
@@ -330,7 +330,7 @@ void RenderServer::probe(const Json& request) {
   options.y = request.value("y", 0);
   Json answer{{"x", options.x}, {"y", options.y}};
   try {
-    if (!scene_) throw Error(ExitCode::bad_input, "there is no scene to look into yet");
+    if (!scene_) throw Error(ExitCode::bad_input, "no scene is loaded yet");
     collect(longest_wait);
     options.executor = options_.executor;
     const probe::Findings findings = probe::probe_pixel(*scene_, options);

@@ -172,7 +172,7 @@ void Supervisor::take_messages() {
         since_message_ = {};
         handle(*message);
       } catch (const Json::exception&) {
-        lose_worker(ExitCode::bad_input, "the rendering process says what makes no sense");
+        lose_worker(ExitCode::bad_input, "the rendering process sent an invalid message");
       }
       continue;
     }
@@ -181,7 +181,7 @@ void Supervisor::take_messages() {
     else if (busy_ && !heard_ && since_message_.seconds() > grace)
       worker_.kill(), ask_worker();
     else if (busy_ && since_message_.seconds() > options_.timeout_seconds + patience && !worker_.debugged())
-      lose_worker(ExitCode::timed_out, fmt::format("no answer for {}: a shader that never ends?",
+      lose_worker(ExitCode::timed_out, fmt::format("no answer for {}: does a shader never end?",
                                                    format_seconds(options_.timeout_seconds + patience)));
     return;
   }

@@ -28,7 +28,7 @@ constexpr float not_compared = 0.2f;  // the grey of pixels whose difference is 
 std::string random_token() {
   std::array<unsigned char, 16> bytes;
   if (::getrandom(bytes.data(), bytes.size(), 0) != ssize_t(bytes.size()))
-    throw Error(ExitCode::file_io, "no random numbers to be had: getrandom: {}", strerror(errno));
+    throw Error(ExitCode::file_io, "cannot get random numbers: getrandom: {}", strerror(errno));
   std::string token;
   for (const unsigned char byte : bytes) token += fmt::format("{:02x}", byte);
   return token;
@@ -92,7 +92,7 @@ Answer values(const Board& board, Request& request) {
   const int width = int(number(request, "width", 1)), height = int(number(request, "height", 1));
   if (x < 0 || y < 0 || width < 1 || height < 1 || width > most_values || height > most_values / width ||
       x > image.width() - width || y > image.height() - height)
-    return refusal(400, "These are not pixels of the picture, or more than 4096.");
+    return refusal(400, "The rectangle must lie within the picture and have 1 to 4096 pixels.");
   Json rows = Json::array();
   for (int j = y; j < y + height; ++j) {
     for (int i = x; i < x + width; ++i) {

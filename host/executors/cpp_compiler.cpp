@@ -69,10 +69,9 @@ std::vector<std::string> cpp_compiler() {
 std::vector<std::string> require_cpp_compiler() {
   Words compiler = cpp_compiler();
   if (compiler.empty())
-    throw Error(
-        ExitCode::bad_input,
-        "the twin of your shaders wants a C++ compiler: $CXX names none that there is, and $PATH has no "
-        "c++, g++ or clang++");
+    throw Error(ExitCode::bad_input,
+                "the twin of your shaders needs a C++ compiler: $CXX names none that exists, and $PATH has "
+                "no c++, g++ or clang++");
   return compiler;
 }
 

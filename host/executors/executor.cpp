@@ -9,7 +9,7 @@ Backend parse_backend(std::string_view name) {
   for (const Backend backend : {Backend::gpu, Backend::twin, Backend::reference}) {
     if (name == backend_name(backend)) return backend;
   }
-  throw Error(ExitCode::bad_input, "no backend '{}': there are gpu, twin and reference", name);
+  throw Error(ExitCode::bad_input, "no backend is named '{}': choose gpu, twin or reference", name);
 }
 
 std::string_view backend_name(Backend backend) {

@@ -86,9 +86,8 @@ std::vector<Diagnostic> doubt_lipschitz_constants(const Scene& scene) {
     warning.severity = Severity::warning;
     warning.position = shape->position;
     warning.message = fmt::format(
-        "`lipschitz` is {:.4g}, but the function is as steep as {:.4g} at [{:.4g}, {:.4g}, {:.4g}] in its "
-        "own space: rays may "
-        "pass through the surface",
+        "`lipschitz` is {:.4g}, but the function's slope is {:.4g} at [{:.4g}, {:.4g}, {:.4g}] in its own "
+        "space: rays may pass through the surface",
         use.lipschitz, found.slope, found.at.x, found.at.y, found.at.z);
   }
   return warnings;

@@ -22,11 +22,11 @@ uint32_t loop_budget_of(const records::PackedScene& scene, std::string_view driv
       (trace_iterations(scene, false) + 1) * (scene.lights.size() + 1 + (scene.panes ? MOST_PANES : 0));
   if (one_ray < granted_iterations) return uint32_t(granted_iterations - one_ray);
   throw Error(ExitCode::no_device,
-              "{} ends loops after 65 535 iterations and says nothing, too few for {} primitives{} and "
-              "{} lights without a BVH: use a newer driver, or {}",
+              "{} silently ends loops after 65 535 iterations, too few for {} primitives{} and {} lights "
+              "without a BVH: use a newer driver, or {}",
               driver, scene.primitives.size(),
               scene.shape_iterations > 0
-                  ? fmt::format(" ({} iterations round their outlines)", scene.shape_iterations)
+                  ? fmt::format(" ({} iterations around their outlines)", scene.shape_iterations)
                   : "",
               scene.lights.size(), option_text("backend", "twin"));
 }

@@ -23,11 +23,10 @@ uint64_t room_on(const gpu::DeviceInfo& device, size_t record, int buffers) {
 // Error (no_device) where what becomes of the photons has no room.
 size_t bytes_of_results(const gpu::DeviceInfo& device, uint32_t photons) {
   if (const uint64_t room = room_on(device, sizeof(shader::PhotonResult), 1); photons > room)
-    throw Error(
-        ExitCode::no_device,
-        "`photons` in [render] is {}, and {} has room for what becomes of {} ({} bytes each, a shader sees "
-        "{} of one buffer): lower it",
-        photons, device.name, room, sizeof(shader::PhotonResult), device.limits.storage_range);
+    throw Error(ExitCode::no_device,
+                "`photons` in [render] is {}, but {} has memory for the results of {} ({} bytes each; a "
+                "shader sees {} bytes of one buffer): lower it",
+                photons, device.name, room, sizeof(shader::PhotonResult), device.limits.storage_range);
   return photons * sizeof(shader::PhotonResult);
 }
 
@@ -101,12 +100,11 @@ bool PhotonKernel::send_out(uint32_t index, std::span<const uint32_t> left_out) 
     const gpu::DeviceInfo& device = device_.info();
     const uint64_t room = room_on(device, sizeof(shader::Photon), 2);
     if (stored_ > room)
-      throw Error(
-          ExitCode::no_device,
-          "of {} photons surfaces stop {}, and {} has room for {} ({} bytes each, a shader sees {} of one "
-          "buffer): lower `photons` in [render] to {} or less",
-          settings_.count, stored_, device.name, room, sizeof(shader::Photon), device.limits.storage_range,
-          uint64_t(0.9 * double(room) / stored_ * settings_.count));
+      throw Error(ExitCode::no_device,
+                  "of {} photons, surfaces store {}, but {} has memory for {} ({} bytes each; a shader sees "
+                  "{} bytes of one buffer): lower `photons` in [render] to {} or less",
+                  settings_.count, stored_, device.name, room, sizeof(shader::Photon),
+                  device.limits.storage_range, uint64_t(0.9 * double(room) / stored_ * settings_.count));
     make_room(uint32_t(std::min(room, uint64_t{stored_} + stored_ / 8)));
     if (!trace(index)) return false;
   }

@@ -54,9 +54,8 @@ void check_records(const std::filesystem::path& folder, std::string_view shared)
   Diagnostic diagnostic;
   diagnostic.position = {file.string(), at == theirs.end() ? 0 : at->number, 0};
   diagnostic.message = fmt::format(
-      "the program was compiled with another {}, and packs scenes by that: it reads '{}' here; records can "
-      "be "
-      "changed in eyeray's own source alone",
+      "eyeray packs scenes by the {} that it was compiled with, which has '{}' here: change records only in "
+      "eyeray's own source",
       shared, own == ours.end() ? "nothing more" : own->text);
   if (at != theirs.end()) show_source_line(diagnostic, at->text);
   throw InputError({std::move(diagnostic)});

@@ -25,7 +25,7 @@ void choose_acceleration(ExecutorOptions& options, std::string_view value) {
 const Tuning tuning_rows[] = {
     {"acceleration",
      {"auto", "bvh", "brute-force"},
-     "a BVH over the scene, every primitive for every ray, or what suits the scene",
+     "a BVH over the scene, every primitive for every ray, or a choice by the scene",
      choose_acceleration},
     {"splits",
      {"off", "on"},
@@ -33,7 +33,7 @@ const Tuning tuning_rows[] = {
      [](ExecutorOptions& options, std::string_view value) { options.pack.split = value == "on"; }},
     {"profile",
      {"auto", "cpu", "gpu", "small"},
-     "what kernels are made for, by default what the device is; the next four are its parts",
+     "the kind of device that kernels are made for, by default the device's own; it sets the next four",
      choose_part<&ProfileOptions::profile>},
     {"loads",
      {"texels", "storage"},
@@ -80,11 +80,11 @@ std::span<const Tuning> tunings() {
 void tune(ExecutorOptions& options, std::string_view setting) {
   const size_t equals = setting.find('=');
   if (equals == std::string_view::npos)
-    throw Error(ExitCode::bad_input, "--tune wants KEY=VALUE, as rays=lanes, not '{}'", setting);
+    throw Error(ExitCode::bad_input, "--tune must be KEY=VALUE, such as rays=lanes, not '{}'", setting);
   const Tuning& tuning = tuning_of(setting.substr(0, equals));
   const std::string_view value = setting.substr(equals + 1);
   if (std::ranges::find(tuning.values, value) == tuning.values.end())
-    throw Error(ExitCode::bad_input, "--tune {} is one of {}, not '{}'", tuning.key,
+    throw Error(ExitCode::bad_input, "--tune {} must be one of {}, not '{}'", tuning.key,
                 fmt::join(tuning.values, ", "), value);
   tuning.choose(options, value);
 }

@@ -197,8 +197,8 @@ TwinModule::TwinModule(const fs::path& folder, const std::string& sanitizers) {
       fs::remove(part, failed);
       std::vector<Diagnostic> diagnostics = diagnostics_in(result.err, folder, sources);
       if (!diagnostics.empty()) throw InputError(std::move(diagnostics));
-      throw Error(ExitCode::bad_input, "{} makes no twin of the shaders (exit code {}): {}", command[0],
-                  result.code, printable(result.err.substr(0, 2000)));
+      throw Error(ExitCode::bad_input, "{} cannot compile the twin of the shaders (exit code {}): {}",
+                  command[0], result.code, printable(result.err.substr(0, 2000)));
     }
     fs::rename(part, module);
     drop_old(place);
@@ -206,7 +206,7 @@ TwinModule::TwinModule(const fs::path& folder, const std::string& sanitizers) {
   handle_ = ::dlopen(module.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!handle_) throw Error(ExitCode::file_io, "cannot load the twin of the shaders: {}", ::dlerror());
   functions_ = static_cast<const twin::Functions*>(::dlsym(handle_, "eyeray_twin"));
-  if (!functions_) throw Error(ExitCode::file_io, "no twin in {}", module.string());
+  if (!functions_) throw Error(ExitCode::file_io, "{} contains no twin", module.string());
 }
 
 TwinModule::~TwinModule() {

@@ -90,7 +90,8 @@ void Execution::run_loop(Call& call, size_t header) {
   for (int turns = 0; call.ways.contains(block.label); ++turns) {
     if (turns == most_turns)
       refuse(block.instructions.back(),
-             fmt::format("this loop goes round more than {} times, or as often as p says", most_turns));
+             fmt::format("this loop has more than {} iterations, or a number of them that depends on p",
+                         most_turns));
     run_block(call, block);
     run_blocks(call, header + 1, end);
   }
@@ -141,7 +142,7 @@ void Execution::go(Call& call, uint32_t to, Term condition) {
 
 void Execution::run_instruction(Call& call, const Instruction& instruction) {
   if (++effort_ > most_effort || expression_.steps().size() > most_steps)
-    refuse(instruction, "with all turns of its loops the function is too long");
+    refuse(instruction, "with all iterations of its loops the function is too long");
   if (run_memory(call, instruction) || run_composite(call, instruction) || run_branch(call, instruction))
     return;
 
@@ -152,11 +153,11 @@ void Execution::run_instruction(Call& call, const Instruction& instruction) {
     std::vector<Value> from;
     for (size_t i = 2; i < instruction.words.size(); ++i) {
       if (call.pointers.contains(instruction.words[i]))
-        refuse(instruction, "this function is not known here: modf and the like");
+        refuse(instruction, "this function is not supported here: modf and the like");
       from.push_back(value(call, instruction.words[i]));
     }
     result = glsl_function(expression_, instruction.words[1], from);
-    if (!result) refuse(instruction, "this function is not known here");
+    if (!result) refuse(instruction, "this function is not supported here");
   } else {
     std::vector<Value> from;
     for (const uint32_t id : instruction.words) from.push_back(value(call, id));
@@ -167,7 +168,7 @@ void Execution::run_instruction(Call& call, const Instruction& instruction) {
       refuse(instruction,
              component.op == spv::OpTypeInt
                  ? "a whole number is computed from p"
-                 : fmt::format("instruction {} of SPIR-V is not known here", int(instruction.op)));
+                 : fmt::format("instruction {} of SPIR-V is not supported here", int(instruction.op)));
   }
   call.values[instruction.result] = *result;
 }

@@ -112,7 +112,7 @@ bool Execution::run_composite(Call& call, const Instruction& instruction) {
       const auto coming_from = [&](uint32_t block) -> const Value& {
         for (size_t i = 0; i + 1 < words.size(); i += 2)
           if (words[i + 1] == block) return value(call, words[i]);
-        refuse(instruction, "a value comes from nowhere");
+        refuse(instruction, "a value is used where it is not defined");
       };
       result = coming_from(call.from.back());
       for (size_t i = call.from.size() - 1; i-- > 0;)

@@ -165,7 +165,7 @@ Formula::Formula(FormulaText text, std::vector<FormulaParameter> parameters, std
   for (const FormulaParameter& parameter : parameters_) {
     if (parameter.name == entry_of(kind).name)
       faults.push_back(
-          {1, 1, fmt::format("no parameter can be called `{}`: that is the function", parameter.name)});
+          {1, 1, fmt::format("no parameter can be named `{}`: that is the function's name", parameter.name)});
     for (const double value : parameter.values)
       if (!std::isfinite(float(value)))
         faults.push_back(
@@ -230,12 +230,12 @@ const expression::StraightLine& Formula::straight_line() const {
       straight_line_ =
           expression::straight_line(expression, execution.run(mangled(entry_of(compiled_->kind))));
       if (straight_line_.size() > most_straight_steps)
-        throw InputError(
-            {{Severity::error,
-              {},
-              fmt::format("without loops, calls and branches the function has {} operations, and may have {}",
-                          straight_line_.size(), most_straight_steps),
-              ""}});
+        throw InputError({{Severity::error,
+                           {},
+                           fmt::format("with loops, calls and branches expanded, the function has {} "
+                                       "operations; at most {} are allowed",
+                                       straight_line_.size(), most_straight_steps),
+                           ""}});
     } catch (const InputError& error) {
       std::vector<Diagnostic> diagnostics = in_text(error, compiled_->text);
       for (Diagnostic& diagnostic : diagnostics)
@@ -311,8 +311,7 @@ bool is_formula_name(const std::string& name) {
 
 std::string endless_formula(const std::string& title) {
   return fmt::format(
-      "{} did not come to an end: in one call its loops made more than 10000 turns, which is as long as "
-      "eyeray waits",
+      "{} did not end: its loops made more than 10000 iterations in one call, the most that eyeray allows",
       title);
 }
 

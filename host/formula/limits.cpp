@@ -171,7 +171,7 @@ std::optional<uint32_t> Measure::known_turns(const ir::Loop& loop, const ir::Blo
 std::string too_much(std::string_view what, double found, double most) {
   return found <= most
              ? ""
-             : fmt::format("with the functions that it calls the formula has {}, and may have {:.0f}",
+             : fmt::format("with the functions that it calls the formula has {}; at most {:.0f} are allowed",
                            found < 1e9 ? fmt::format("{:.0f} {}", found, what)
                                        : fmt::format("{:.1e} {}", found, what),
                            most);

@@ -247,7 +247,7 @@ bool FunctionLowering::lower_branch(const Block& block, uint32_t& label, ir::Blo
       give_back(last, out);
       return false;
     default:
-      refuse(last, fmt::format("instruction {} of SPIR-V is not known here", int(last.op)));
+      refuse(last, fmt::format("instruction {} of SPIR-V is not supported here", int(last.op)));
   }
 }
 
@@ -330,7 +330,7 @@ const ir::Place& FunctionLowering::value(uint32_t id) {
 const FunctionLowering::Pointer& FunctionLowering::pointer(uint32_t id) const {
   const auto found = pointers_.find(id);
   if (found != pointers_.end()) return found->second;
-  throw InputError({{Severity::error, {}, "this place cannot be followed", ""}});
+  throw InputError({{Severity::error, {}, "this variable cannot be followed", ""}});
 }
 
 void FunctionLowering::refuse(const Instruction& instruction, const std::string& what) const {

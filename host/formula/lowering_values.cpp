@@ -110,7 +110,7 @@ void FunctionLowering::lower_instruction(const Instruction& instruction, ir::Blo
   if (instruction.op == spv::OpExtInst ? lower_function(instruction, out)
                                        : lower_arithmetic(instruction, out))
     return;
-  refuse(instruction, fmt::format("instruction {} of SPIR-V is not known here", int(instruction.op)));
+  refuse(instruction, fmt::format("instruction {} of SPIR-V is not supported here", int(instruction.op)));
 }
 
 ir::Operand FunctionLowering::apply(ir::Block& out, Op op, ir::Operand x, ir::Operand y, ir::Operand z) {
@@ -269,7 +269,7 @@ bool FunctionLowering::lower_function(const Instruction& instruction, ir::Block&
       return true;
     }
     default:
-      refuse(instruction, "this function is not known here");
+      refuse(instruction, "this function is not supported here");
   }
 }
 
@@ -361,7 +361,7 @@ bool FunctionLowering::lower_composite(const Instruction& instruction, ir::Block
       for (const ir::Operand number : result.numbers) assign({number}, {constant(scalar(type), 0)}, out);
       break;
     case spv::OpPhi:
-      if (type.op == spv::OpTypeArray) refuse(instruction, "an array cannot be chosen here");
+      if (type.op == spv::OpTypeArray) refuse(instruction, "a condition cannot choose between arrays");
       if (!values_.contains(instruction.result)) values_[instruction.result] = new_place(type, false);
       return true;
     default:

@@ -87,13 +87,14 @@ bool Judge::pair_brackets() {
     const char c = text(i)[0];
     if (c == '(' || c == '[' || c == '{') open.push_back(i);
     if (open.size() > most_nesting) {
-      fail(i, fmt::format("brackets nest at most {} deep: name a part of it", most_nesting));
+      fail(i, fmt::format("brackets can be nested at most {} deep: give a part of the expression a name",
+                          most_nesting));
       return false;
     }
     if (c != ')' && c != ']' && c != '}') continue;
     const char wanted = c == ')' ? '(' : c == ']' ? '[' : '{';
     if (open.empty() || text(open.back())[0] != wanted) {
-      fail(i, fmt::format("this '{}' closes nothing", c));
+      fail(i, fmt::format("this '{}' has no opening bracket", c));
       return false;
     }
     partner_[i] = open.back();
@@ -112,7 +113,7 @@ void Judge::find_functions() {
       functions_.push_back({i, is(close + 1, "{")});
       own_.insert(text(i + 1));
       if (functions_.size() == most_functions + 1)
-        fail(i, fmt::format("a formula has at most {} functions", most_functions));
+        fail(i, fmt::format("a formula can have at most {} functions", most_functions));
       i = close;
     } else if (opens(i)) {
       i = partner_[i];
@@ -124,7 +125,7 @@ void Judge::find_functions() {
 bool Judge::judge_word(size_t i) {
   const std::string& word = text(i);
   if (i > 0 && is(i - 1, ".")) {
-    if (!is_swizzle(word)) fail(i, fmt::format("'.{}' is no part of a vector", word));
+    if (!is_swizzle(word)) fail(i, fmt::format("'.{}' is not a component of a vector", word));
     return false;
   }
   if (is_type(word) || is_keyword(word)) return false;
@@ -183,7 +184,7 @@ void Judge::judge_arrays() {
     if (!size && !empty)
       fail(open - 1, fmt::format("the size of an array must be a decimal number from 1 to {}, written out",
                                  most_elements));
-    if (is(close + 1, "[")) fail(close + 1, "arrays of arrays are not known here");
+    if (is(close + 1, "[")) fail(close + 1, "arrays of arrays are not supported");
     // A list without a size has no more elements than tokens.
     largest = std::max(largest, size.value_or(empty ? partner_[close + 1] - close : 0));
   };
@@ -192,7 +193,7 @@ void Judge::judge_arrays() {
     if (!type_at(i)) continue;
     if (is(i + 1, "[")) {
       const bool list = is(partner_[i + 1] + 1, "(");
-      if (!list) fail(i, fmt::format("write the size of an array behind its name: {} name[…]", text(i)));
+      if (!list) fail(i, fmt::format("write the size of an array after its name: {} name[…]", text(i)));
       judge(i + 1, list);
     }
     for (const size_t name : declared_at(i))
@@ -201,7 +202,7 @@ void Judge::judge_arrays() {
   if (largest * comparisons > most_compared)
     faults_.push_back(
         {1, 1,
-         fmt::format("arrays of {} and {} comparisons are too much together: compare elements in a loop",
+         fmt::format("comparing arrays of {} elements in {} places is too much: compare elements in a loop",
                      largest, comparisons)});
 }
 
@@ -216,7 +217,7 @@ void Judge::judge_chains() {
   size_t links = 0;
   const auto add_link = [&](size_t i) {
     if (++links == most_links + 1)
-      fail(i, fmt::format("a statement chains at most {} operators: split it", most_links));
+      fail(i, fmt::format("a statement can have at most {} operators: split it", most_links));
   };
   for (size_t i = 0; i < t_.tokens.size(); ++i) {
     const size_t base = open.empty() ? 0 : open.back().links;
@@ -310,7 +311,7 @@ void Judge::find_unset() {
 Text read_text(std::string_view text, FormulaKind kind, std::vector<Fault>& faults) {
   Text result;
   if (text.size() > most_bytes) {
-    faults.push_back({1, 1, fmt::format("a formula has at most {} bytes", most_bytes)});
+    faults.push_back({1, 1, fmt::format("a formula can have at most {} bytes", most_bytes)});
     return result;
   }
   result.tokens = tokenize(text, faults);

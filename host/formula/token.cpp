@@ -67,7 +67,7 @@ class Tokenizer {
     const size_t last = rest_.find_last_not_of('\r', end == 0 ? 0 : end - 1);
     if (rest_[last] == '\\')
       faults_.push_back({line_, column_ + int(last),
-                         "a comment must not end in a backslash: to GLSL the next line would be part of it"});
+                         "a comment must not end in a backslash: in GLSL the next line would be part of it"});
     take(end);
   }
 
@@ -105,7 +105,8 @@ class Tokenizer {
     if (const size_t known = length; known < rest_.size() && is_word(rest_[known])) {
       while (length < rest_.size() && is_word(rest_[length])) ++length;
       faults_.push_back(
-          {line_, column_, fmt::format("'{}' is no number that is known here", rest_.substr(0, length))});
+          {line_, column_,
+           fmt::format("'{}' is not a number that a formula can have", rest_.substr(0, length))});
     }
     add(decimal ? Token::Kind::decimal : Token::Kind::integer, length);
   }
@@ -122,7 +123,7 @@ class Tokenizer {
       faults_.push_back({line_, column_,
                          byte >= 0x20 && byte < 0x7f
                              ? fmt::format("'{}' has no meaning in a formula", rest_[0])
-                             : "outside of comments a formula is of ASCII characters"});
+                             : "outside of comments a formula can have only ASCII characters"});
     take(1);
   }
 

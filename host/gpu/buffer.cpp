@@ -55,11 +55,11 @@ Buffer::Buffer(Device& device, size_t bytes, std::string name, BindingKind kind)
   const DeviceLimits& limits = context_->info.limits;
   const uint64_t range = kind == BindingKind::texels ? limits.texel_range : limits.storage_range;
   if (bytes_ > range)
-    throw Error(ExitCode::no_device, "buffer '{}' has {} bytes, and {} lets a shader see {} of one buffer",
+    throw Error(ExitCode::no_device, "buffer '{}' has {} bytes, but {} lets a shader see {} of one buffer",
                 name_, bytes_, context_->info.name, range);
   const size_t total = bytes_ + 2 * guard_;
   if (total > std::min(limits.allocation, limits.heap))
-    throw Error(ExitCode::no_device, "buffer '{}' has {} bytes, and {} has memory for {} (heap of {})", name_,
+    throw Error(ExitCode::no_device, "buffer '{}' has {} bytes, but {} has memory for {} (heap of {})", name_,
                 bytes_, context_->info.name, limits.allocation, limits.heap);
   raw_ = std::make_unique<RawBuffer>(
       context_, total, context_->shares_memory ? MemoryKind::shared : MemoryKind::device, name_);

@@ -47,10 +47,10 @@ const DeviceInfo& choose_device(std::span<const DeviceInfo> devices, std::string
   }
   if (best) return *best;
   if (any_match)
-    throw Error(ExitCode::no_device, "no device that {} means is usable; there is{}",
+    throw Error(ExitCode::no_device, "no device that matches {} is usable; the devices are{}",
                 option_text("device", select), list(devices));
-  throw Error(ExitCode::no_device, "no Vulkan device matches {}; there is{}", option_text("device", select),
-              list(devices));
+  throw Error(ExitCode::no_device, "no Vulkan device matches {}; the devices are{}",
+              option_text("device", select), list(devices));
 }
 
 }  // namespace eyeray::engine::gpu

@@ -33,8 +33,7 @@ std::string way_out() {
   }
   return fmt::format(
       "{}install one (Debian: apt install mesa-vulkan-drivers, which renders on the processor too), or "
-      "render without Vulkan "
-      "by {}",
+      "render without Vulkan with {}",
       variables, option_text("backend", "twin"));
 }
 
@@ -70,11 +69,10 @@ void open_loader() {
   void* entry = library ? dlsym(library, "vkGetInstanceProcAddr") : nullptr;
   if (!entry) {
     const char* reason = dlerror();
-    throw Error(
-        ExitCode::no_device,
-        "there is no Vulkan loader on this machine: install it and a driver (Debian: apt install libvulkan1 "
-        "mesa-vulkan-drivers), or render without Vulkan by {}; {}",
-        option_text("backend", "twin"), reason ? reason : "vkGetInstanceProcAddr is missing");
+    throw Error(ExitCode::no_device,
+                "there is no Vulkan loader on this machine: install it and a driver (Debian: apt install "
+                "libvulkan1 mesa-vulkan-drivers), or render without Vulkan with {}; {}",
+                option_text("backend", "twin"), reason ? reason : "vkGetInstanceProcAddr is missing");
   }
   volkInitializeCustom(reinterpret_cast<PFN_vkGetInstanceProcAddr>(entry));
   opened = true;
@@ -123,13 +121,13 @@ Instance::Instance(const DeviceOptions& options) : Instance(options.timeout_seco
   if (!address_space_left(needed_addresses))
     throw Error(
         ExitCode::no_device,
-        "Vulkan drivers need a GiB of address space, and less is left: allow more (ulimit -v), or use {}",
+        "Vulkan drivers need a GiB of address space, but less is left: allow more (ulimit -v), or use {}",
         option_text("backend", "twin"));
   choose_vector_width(options);
   const ForeignCall drivers(timeout_seconds_, late_start(timeout_seconds_));
   open_loader();
   if (volkGetInstanceVersion() < VK_API_VERSION_1_1)
-    throw Error(ExitCode::no_device, "the Vulkan loader is of version 1.0, eyeray needs 1.1 or later");
+    throw Error(ExitCode::no_device, "the Vulkan loader has version 1.0, but eyeray needs 1.1 or later");
 
   // Ask for 1.2 where the loader knows it: it names the driver. A device of 1.1 is still welcome.
   auto application = make<VkApplicationInfo>(VK_STRUCTURE_TYPE_APPLICATION_INFO);

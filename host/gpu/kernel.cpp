@@ -18,11 +18,11 @@ void check_limits(const Reflection& reflection, const DeviceInfo& device, const 
   for (size_t axis = 0; axis < 3; ++axis) fits = fits && size[axis] <= device.limits.group_size[axis];
   if (!fits)
     throw Error(ExitCode::no_device,
-                "kernel '{}' has work groups of {} × {} × {} invocations, {} runs at most {}", name, size[0],
-                size[1], size[2], device.name, device.limits.group_invocations);
+                "kernel '{}' has work groups of {} × {} × {} invocations, but {} runs at most {}", name,
+                size[0], size[1], size[2], device.name, device.limits.group_invocations);
   if (reflection.push_constant_bytes > device.limits.push_constants)
-    throw Error(ExitCode::no_device, "kernel '{}' has {} bytes of push constants, {} takes at most {}", name,
-                reflection.push_constant_bytes, device.name, device.limits.push_constants);
+    throw Error(ExitCode::no_device, "kernel '{}' has {} bytes of push constants, but {} takes at most {}",
+                name, reflection.push_constant_bytes, device.name, device.limits.push_constants);
 }
 
 VkDescriptorType descriptor_type(BindingKind kind) {
@@ -162,14 +162,14 @@ void Kernel::create_pipeline(std::span<const uint32_t> spirv, const DiskCache& d
 void Kernel::check_interface(size_t push_constant_bytes) const {
   const uint32_t wanted = reflection_.push_constant_bytes;
   if (wanted != 0 && wanted != push_constant_bytes)
-    throw Error(
-        ExitCode::bad_input,
-        "kernel '{}' declares {} bytes of push constants, and is given {}: declare them as eyeray's own does",
-        name_, wanted, push_constant_bytes);
+    throw Error(ExitCode::bad_input,
+                "kernel '{}' declares {} bytes of push constants, but eyeray sets {}: declare them as "
+                "eyeray's own kernel does",
+                name_, wanted, push_constant_bytes);
   for (const auto& [binding, kind] : reflection_.bindings) {
     if (!objects_->bound.contains(binding))
-      throw Error(ExitCode::bad_input, "kernel '{}' reads binding {}, of which it is given no buffer", name_,
-                  binding);
+      throw Error(ExitCode::bad_input, "kernel '{}' reads binding {}, for which eyeray binds no buffer",
+                  name_, binding);
   }
 }
 
@@ -190,8 +190,8 @@ void Kernel::bind(uint32_t binding, const Buffer& buffer, size_t offset, size_t 
   const BindingKind kind = reflection_.bindings.at(binding);
   if (buffer.kind() != kind)
     throw Error(ExitCode::bad_input,
-                "kernel '{}' declares binding {} as a {} buffer; here it is the other kind: declare it by "
-                "eyeray's own kernels/bindings.glsl",
+                "kernel '{}' declares binding {} as a {} buffer, but eyeray binds the other kind: declare it "
+                "as eyeray's own kernels/bindings.glsl does",
                 name_, binding, kind == BindingKind::texels ? "texel" : "storage");
   const VkDescriptorBufferInfo info{buffer.raw().handle(), offset, bytes};
   VkBufferView view = VK_NULL_HANDLE;

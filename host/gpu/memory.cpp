@@ -65,11 +65,10 @@ void require_room_in_files(const Context& context, VkDeviceSize bytes) {
   const bool backed = is_backed(context.device, memory, info.allocationSize);
   vkFreeMemory(context.device, memory, nullptr);
   if (!backed)
-    throw Error(
-        ExitCode::file_io,
-        "{} keeps its memory in a file, and files may have {} bytes: File too large; allow larger files "
-        "(ulimit -f), or use {}",
-        context.info.name, limit.rlim_cur, option_text("backend", "twin"));
+    throw Error(ExitCode::file_io,
+                "{} keeps its memory in a file, but files may have at most {} bytes: File too large; allow "
+                "larger files (ulimit -f), or use {}",
+                context.info.name, limit.rlim_cur, option_text("backend", "twin"));
 }
 
 VkDeviceMemory allocate_memory(const Context& context, const VkMemoryRequirements& requirements,

@@ -107,7 +107,7 @@ DeviceInfo describe(VkPhysicalDevice device, int index) {
   if (properties.apiVersion >= VK_API_VERSION_1_1)
     describe_version_1_1(device, properties.apiVersion, info);
   else
-    info.why_not = fmt::format("it speaks Vulkan {}, eyeray needs 1.1", info.api_version);
+    info.why_not = fmt::format("it supports Vulkan {}, but eyeray needs 1.1", info.api_version);
   info.driver_id = driver_id(properties, info.limits.subgroup_size);
   if (!compute_queue_family(device))
     info.why_not += info.why_not.empty() ? "it has no compute queue" : "; it has no compute queue";

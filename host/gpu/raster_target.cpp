@@ -51,18 +51,16 @@ constexpr VkAccessFlags drawing_accesses =
 
 void check_size(const DeviceInfo& device, uint32_t width, uint32_t height) {
   if (std::max(width, height) > device.limits.drawn_size)
-    throw Error(
-        ExitCode::no_device,
-        "{} draws pictures of {} pixels a side at most, and this one has {}×{}: leave out --raster, or "
-        "draw fewer",
-        device.name, device.limits.drawn_size, width, height);
+    throw Error(ExitCode::no_device,
+                "{} draws pictures of at most {} pixels a side, but this one has {}×{}: leave out --raster, "
+                "or make the picture smaller",
+                device.name, device.limits.drawn_size, width, height);
   const uint64_t bytes = uint64_t{width} * height * pixel_bytes;
   if (bytes > std::min(device.limits.allocation, device.limits.heap / 2))
-    throw Error(
-        ExitCode::no_device,
-        "to draw {}×{} pixels takes two images of {} bytes, and {} has memory for {} (heap of {}): leave "
-        "out --raster, or draw fewer",
-        width, height, bytes, device.name, device.limits.allocation, device.limits.heap);
+    throw Error(ExitCode::no_device,
+                "drawing {}×{} pixels takes two images of {} bytes, but {} has memory for {} (heap of {}): "
+                "leave out --raster, or make the picture smaller",
+                width, height, bytes, device.name, device.limits.allocation, device.limits.heap);
 }
 
 }  // namespace

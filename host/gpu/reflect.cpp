@@ -141,8 +141,8 @@ Reflection reflect(std::span<const uint32_t> spirv) {
     const std::optional<BindingKind> kind = binding_kind(module, variable);
     if (!kind || id.set.value_or(0) != 0)
       throw Error(ExitCode::bad_input,
-                  "the shader binds '{}' at set {}, binding {}: eyeray gives storage buffers and texel "
-                  "buffers (uimageBuffer, rgba32ui) in set 0 only",
+                  "the shader binds '{}' at set {}, binding {}: eyeray provides only storage buffers and "
+                  "texel buffers (uimageBuffer, rgba32ui), in set 0",
                   id.name, id.set.value_or(0), *id.binding);
     reflection.bindings.emplace(*id.binding, *kind);
   }

@@ -56,8 +56,8 @@ struct Inputs {
 void expect(const Device& device, const char* what, uint32_t index, uint32_t expected, uint32_t found) {
   if (found == expected) return;
   throw Error(ExitCode::no_device,
-              "{} (driver {} {}) computes wrong: {} of invocation {} should be {:#010x}, and is {:#010x}; "
-              "choose another device by {}, or update the driver",
+              "{} (driver {} {}) computes wrong results: {} of invocation {} should be {:#010x}, but is "
+              "{:#010x}; choose another device with {}, or update the driver",
               device.info().name, device.info().driver, device.info().driver_version, what, index, expected,
               found, option_text("device"));
 }

@@ -69,7 +69,7 @@ void set_vector_width(bool wide) {
 std::string driver_cache_warning() {
   for (const std::filesystem::path& folder : driver_caches())
     if (const std::string why = why_not_private(folder); !why.empty())
-      return fmt::format("Mesa's shader cache {} is not used, so that each start compiles anew: {}",
+      return fmt::format("Mesa's shader cache {} is not used, so each start compiles again: {}",
                          folder.string(), why);
   return "";
 }

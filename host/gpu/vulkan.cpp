@@ -47,7 +47,7 @@ Error failure(VkResult result, std::string_view what) {
 
 Error late_start(double seconds) {
   return {ExitCode::timed_out,
-          "the Vulkan driver could not start within {} s: look whether its device hangs, or raise {}",
+          "the Vulkan driver could not start within {} s: check whether its device hangs, or raise {}",
           seconds, option_text("timeout")};
 }
 

@@ -52,12 +52,14 @@ struct Header {
     constexpr uint64_t sizes[] = {core_header, info_header, 52, 56, 108, 124};
     if (std::ranges::find(sizes, size) == std::end(sizes))
       return fmt::format("its header has {} bytes, which no BMP of Windows has", size);
-    if (planes != 1) return fmt::format("it has {} planes; there is 1", planes);
-    if (compression == 1 || compression == 2) return "it is compressed in runs: write it without compression";
-    if (compression == 4 || compression == 5) return "it holds a JPEG or a PNG for a printer: take that file";
+    if (planes != 1) return fmt::format("it has {} planes instead of 1", planes);
+    if (compression == 1 || compression == 2)
+      return "its compression (run lengths) is not supported: write it without compression";
+    if (compression == 4 || compression == 5)
+      return "it contains a JPEG or a PNG for a printer: use that file";
     const bool fields = compression == bit_fields || compression == alpha_bit_fields;
     if (compression != plain && !fields)
-      return fmt::format("it has compression {}, which is none of BMP's", compression);
+      return fmt::format("it has compression {}, which BMP does not define", compression);
     constexpr uint64_t known[] = {1, 4, 8, 16, 24, 32};
     if (std::ranges::find(known, bits) == std::end(known) || (fields && bits != 16 && bits != 32))
       return fmt::format("it has {} bits a pixel{}", bits, fields ? " in bit fields" : "");
@@ -90,7 +92,7 @@ void note_colors(std::string_view bytes, const Header& header, std::vector<std::
   const uint32_t across = number_at(bytes, file_header + 24, 4), down = number_at(bytes, file_header + 28, 4);
   if (across > 0 && down > 0 && across != down)
     warnings.push_back(
-        fmt::format("its pixels are no squares ({} and {} a metre), which is not honoured", across, down));
+        fmt::format("its pixels are not square ({} and {} a metre), which is ignored", across, down));
   if (header.size < 108) return;
   constexpr uint32_t calibrated = 0, srgb = 0x73524742, windows = 0x57696e20;
   const uint32_t space = number_at(bytes, file_header + 56, 4);
@@ -98,9 +100,9 @@ void note_colors(std::string_view bytes, const Header& header, std::vector<std::
   const bool endpoints = space == calibrated && std::ranges::any_of(bytes.substr(file_header + 60, 48),
                                                                     [](char c) { return c != 0; });
   if (endpoints)
-    warnings.emplace_back("its own primaries and gamma are not honoured: its colours are taken for sRGB");
+    warnings.emplace_back("its own primaries and gamma are ignored: its colours are read as sRGB");
   if (space != calibrated)
-    warnings.emplace_back("its colour profile is not honoured: its colours are taken for sRGB");
+    warnings.emplace_back("its colour profile is ignored: its colours are read as sRGB");
 }
 
 }  // namespace
@@ -139,7 +141,8 @@ std::string read_bmp(std::string_view bytes, std::span<Pixel> pixels, std::vecto
           number_at(bytes, row + bit / 8, 1) >> (8 - header.bits - bit % 8) & ((1U << header.bits) - 1);
       const uint64_t at = header.palette_at() + index * header.color_size();
       if (index >= header.colors || at + 3 > bytes.size())
-        return fmt::format("a pixel has colour {}, its palette {}", index, header.colors);
+        return fmt::format("a pixel has colour number {}, but the palette has {} colours", index,
+                           header.colors);
       for (size_t c = 0; c < 3; ++c) out[x][c] = uint8_t(bytes[size_t(at + 2 - c)]);
       out[x][3] = 255;
     }

@@ -105,7 +105,7 @@ CodedImage decode_coded_image(std::span<const std::byte> bytes, const std::strin
     throw fail(fmt::format("it has {} bytes; the most is {} (1 GiB)", bytes.size(), most_coded_bytes));
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const Format format = format_of(text);
-  if (format == Format::other) throw fail("it is no PNG, JPEG, BMP or TGA");
+  if (format == Format::other) throw fail("it is not a PNG, JPEG, BMP or TGA");
   const auto size = size_of(text, format);
   if (!size) throw fail(fmt::format("it is damaged ({})", stbi_failure_reason()));
   const auto [width, height] = *size;

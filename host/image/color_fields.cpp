@@ -49,7 +49,7 @@ std::string inflated(std::string_view chunk) {
   return profile;
 }
 
-constexpr std::string_view taken_as_srgb = " is not honoured: its colours are taken for sRGB";
+constexpr std::string_view taken_as_srgb = " is ignored: its colours are read as sRGB";
 
 // What a PNG's chunks say of colours, the one that counts.
 std::string png_colors(const std::map<std::string_view, std::string_view>& chunks) {
@@ -97,10 +97,10 @@ std::vector<std::string> png_color_fields(std::string_view bytes) {
   if (std::string colors = png_colors(chunks); !colors.empty()) clauses.push_back(std::move(colors));
   if (const auto size = chunks.find("pHYs"); size != chunks.end() && size->second.size() == 9)
     if (number(size->second, 0, 4) != number(size->second, 4, 4))
-      clauses.emplace_back("its pixels are no squares (pHYs), which is not honoured");
+      clauses.emplace_back("its pixels are not square (pHYs), which is ignored");
   if (const auto exif = chunks.find("eXIf"); exif != chunks.end())
     if (const int orientation = tiff_orientation(exif->second); orientation != 1)
-      clauses.push_back(fmt::format("its EXIF orientation (eXIf) of {} is not honoured", orientation));
+      clauses.push_back(fmt::format("its EXIF orientation (eXIf) of {} is ignored", orientation));
   return clauses;
 }
 
@@ -114,7 +114,7 @@ std::vector<std::string> jpeg_color_fields(std::string_view bytes) {
       profile += segment.substr(std::min(segment.size(), icc.size() + 2));
     const uint32_t across = number(segment, 8, 2), down = number(segment, 10, 2);
     if (marker == app0 && segment.starts_with(jfif) && across != down)
-      clauses.emplace_back("its pixels are no squares (JFIF's densities), which is not honoured");
+      clauses.emplace_back("its pixels are not square (JFIF's densities), which is ignored");
   });
   if (!profile.empty() && !is_srgb_profile(profile))
     clauses.push_back(fmt::format("its colour profile{}", taken_as_srgb));

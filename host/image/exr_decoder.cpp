@@ -62,7 +62,7 @@ class ExrReader {
       : name_(name), size_(bytes.size()), stream_(bytes, name), file_(stream_, 0, false) {
     for (int part = 0; part < file_.parts(); ++part) {
       const Imf::Header& header = file_.header(part);
-      if (header.hasType() && Imf::isDeepData(header.type())) fail("it holds deep data");
+      if (header.hasType() && Imf::isDeepData(header.type())) fail("it contains deep data");
       const std::string part_name = header.hasName() ? header.name() : "";
       for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
         const std::string full = it.name();
@@ -81,11 +81,11 @@ class ExrReader {
     const Imf::Header& header = file_.header(chosen[0].part);
     if (Imf::hasChromaticities(header) && !is_rec709(Imf::chromaticities(header)))
       warnings.push_back(name_ +
-                         ": its chromaticities are not those of Rec. 709; its numbers are taken as they are");
+                         ": its chromaticities are not those of Rec. 709; its numbers are used unchanged");
     if (header.pixelAspectRatio() != 1)
-      warnings.push_back(name_ + ": its pixelAspectRatio is not 1; pixels are taken as squares");
+      warnings.push_back(name_ + ": its pixelAspectRatio is not 1; pixels are read as squares");
     if (Imf::hasEnvmap(header) && Imf::envmap(header) == Imf::ENVMAP_CUBE)
-      warnings.push_back(name_ + ": it holds the faces of a cube (envmap), taken as one picture");
+      warnings.push_back(name_ + ": it contains the faces of a cube (envmap), which are read as one picture");
     return in_display_window(read_channels(chosen), header);
   }
 
@@ -163,17 +163,17 @@ class ExrReader {
     std::vector<Channel> all = in_layer(layer);
     if (all.empty() && layer.empty() && !channels_.empty()) {
       all = in_layer(channels_[0].layer);
-      if (all.size() < channels_.size()) fail(fmt::format("which of its layers? There are {}", layers()));
+      if (all.size() < channels_.size()) fail(fmt::format("it has several layers; name one of {}", layers()));
     }
     if (all.empty())
       fail(layer.empty() ? "it has no channels"
                          : fmt::format("it has no layer '{}'{}", layer,
-                                       layers().empty() ? "" : "; there are " + layers()));
+                                       layers().empty() ? "" : "; its layers are " + layers()));
     const auto find = [&](std::string_view component) {
       return std::ranges::find(all, component, &Channel::component);
     };
     const auto has = [&](std::string_view component) { return find(component) != all.end(); };
-    if (has("RY") || has("BY")) fail("it holds luminance and chroma, not red, green and blue");
+    if (has("RY") || has("BY")) fail("it contains luminance and chroma, not red, green and blue");
     for (const auto& names : {std::array{"R", "G", "B"}, {"X", "Y", "Z"}}) {
       const auto missing = std::ranges::find_if_not(names, has);
       if (missing == names.end()) return {*find(names[0]), *find(names[1]), *find(names[2])};
@@ -183,7 +183,7 @@ class ExrReader {
     if (has("Y") && !has("X")) return {*find("Y")};
     std::erase_if(all, [](const Channel& channel) { return channel.component == "A"; });
     if (all.empty() || all.size() > 3)
-      fail(fmt::format("a picture has one to three channels, and this {}", all.size()));
+      fail(fmt::format("a picture must have one to three channels, not {}", all.size()));
     return all;
   }
 

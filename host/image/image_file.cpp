@@ -52,7 +52,7 @@ Image decode(std::string_view bytes, const std::string& name, Load load, Convert
 }
 
 Image decode_png(std::string_view bytes, const std::string& name) {
-  if (!bytes.starts_with("\x89PNG\r\n\x1a\n")) malformed(name, "it is not one");
+  if (!bytes.starts_with("\x89PNG\r\n\x1a\n")) malformed(name, "its signature is not that of a PNG");
   if (bytes.size() > size_t(std::numeric_limits<int>::max())) malformed(name, "it is too long");
   if (stbi_is_16_bit_from_memory(reinterpret_cast<const stbi_uc*>(bytes.data()), int(bytes.size()))) {
     return decode(bytes, name, stbi_load_16_from_memory,

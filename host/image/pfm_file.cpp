@@ -25,7 +25,7 @@ class HeaderReader {
   // The next word, without the one white-space byte that ends it.
   std::string_view word() {
     const size_t end = rest_.find_first_of(" \t\r\n");
-    if (end == 0 || end > longest_word) malformed("its header is not one");
+    if (end == 0 || end > longest_word) malformed("its header is malformed");
     const std::string_view word = rest_.substr(0, end);
     rest_.remove_prefix(end + 1);
     return word;
@@ -35,7 +35,8 @@ class HeaderReader {
     const std::string_view text = word();
     Number value{};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size()) malformed("its header holds a bad number");
+    if (error != std::errc() || end != text.data() + text.size())
+      malformed("its header contains a malformed number");
     return value;
   }
   std::string_view rest() const { return rest_; }
@@ -108,7 +109,7 @@ Image decode_pfm(std::string_view bytes, const std::string& name) {
   const int height = header.number<int>();
   const double scale = header.number<double>();
   if (!image_size_allowed(width, height)) header.malformed("its size is out of range");
-  if (!std::isfinite(scale) || scale == 0) header.malformed("its scale is not a number other than 0");
+  if (!std::isfinite(scale) || scale == 0) header.malformed("its scale must be a number other than 0");
 
   // Check the length before memory is taken for it.
   const int channels = magic == "PF" ? 3 : 1;
@@ -116,7 +117,7 @@ Image decode_pfm(std::string_view bytes, const std::string& name) {
   const size_t data_bytes = row_samples * size_t(height) * sizeof(float);
   const std::string_view data = header.rest();
   if (data.size() < data_bytes) header.malformed("it ends too early");
-  if (data.size() > data_bytes) header.malformed("it goes on after the last pixel");
+  if (data.size() > data_bytes) header.malformed("it has data after the last pixel");
 
   // Take the rows from the bottom up.
   Image image(width, height, channels);

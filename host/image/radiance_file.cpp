@@ -62,7 +62,7 @@ class Reader {
         continue;
       }
       const size_t count = shift < 32 ? size_t(pixel[3]) << shift : pixels.size();
-      if (x == 0 || count > pixels.size() - x) malformed("a run leaves its row");
+      if (x == 0 || count > pixels.size() - x) malformed("a run of pixels extends beyond its row");
       std::fill_n(pixels.begin() + std::ptrdiff_t(x), count, pixels[x - 1]);
       x += count;
       shift += 8;
@@ -80,7 +80,7 @@ class Reader {
     for (size_t x = 0; x < pixels.size();) {
       const unsigned char code = byte();
       const size_t count = code > 128 ? code - 128u : code;
-      if (count == 0 || count > pixels.size() - x) malformed("a run leaves its row");
+      if (count == 0 || count > pixels.size() - x) malformed("a run of pixels extends beyond its row");
       const unsigned char repeated = code > 128 ? byte() : 0;
       for (size_t i = 0; i < count; ++i) pixels[x++][channel] = code > 128 ? repeated : byte();
     }
@@ -197,15 +197,14 @@ Image decode_radiance(std::string_view bytes, const std::string& name, std::vect
     } else if (std::sscanf(line.c_str(), "COLORCORR=%lf %lf %lf", &r, &g, &b) == 3) {
       scale /= Vec3(r, g, b);
     } else if (line.starts_with("PRIMARIES=") && !usual_primaries(line)) {
-      warnings.push_back(name +
-                         ": its PRIMARIES are not those of Rec. 709; its numbers are taken as they are");
+      warnings.push_back(name + ": its PRIMARIES are not those of Rec. 709; its numbers are used unchanged");
     } else if (std::sscanf(line.c_str(), "PIXASPECT=%lf", &r) == 1 && r != 1) {
-      warnings.push_back(name + ": its PIXASPECT is not 1; pixels are taken as squares");
+      warnings.push_back(name + ": its PIXASPECT is not 1; pixels are read as squares");
     }
   }
   for (int c = 0; c < 3; ++c)
     if (!(scale[c] > 0) || !std::isfinite(scale[c]))
-      reader.malformed("its EXPOSURE or COLORCORR is not above 0");
+      reader.malformed("its EXPOSURE and COLORCORR must be above 0");
   if (!rgbe) reader.malformed("its format is not 32-bit_rle_rgbe");
   int width = 0, height = 0, end = 0;
   const std::string size = reader.line();
@@ -231,7 +230,7 @@ Image decode_radiance(std::string_view bytes, const std::string& name, std::vect
         image.pixel(x, y)[c] = float(scale[c] * std::ldexp(double(pixel[size_t(c)]), pixel[3] - 136));
     }
   }
-  if (reader.left() > 0) reader.malformed("it goes on after the last pixel");
+  if (reader.left() > 0) reader.malformed("it has data after the last pixel");
   return image;
 }
 

@@ -88,8 +88,8 @@ class TgaReader {
         const uint64_t index = header_.is_mapped() ? number_at(bytes_, at_, size) : 0;
         if (header_.is_mapped() &&
             (index < header_.map_first || index - header_.map_first >= header_.map_count))
-          return fmt::format("a pixel has colour {}, its palette those from {} on, {}", index,
-                             header_.map_first, header_.map_count);
+          return fmt::format("a pixel has colour number {}, but the palette begins at {} and has {} colours",
+                             index, header_.map_first, header_.map_count);
         place(pixels, i) = pixel(index);
         if (!same || k + 1 == count) at_ += size;
       }
@@ -133,15 +133,15 @@ class TgaReader {
       return below > 0 ? above / below : 0;
     };
     if (const double aspect = ratio(474); aspect > 0 && aspect != 1)
-      warnings.push_back(fmt::format(
-          "its pixels are no squares ({:.3g} times as wide as high), which is not honoured", aspect));
+      warnings.push_back(
+          fmt::format("its pixels are not square ({:.3g} times as wide as high), which is ignored", aspect));
     if (const double gamma = ratio(478); gamma > 0 && gamma != 1)
-      warnings.push_back(fmt::format("its gamma of {:.3g} is not honoured", gamma));
+      warnings.push_back(fmt::format("its gamma of {:.3g} is ignored", gamma));
     switch (number_at(bytes_, at + 494, 1)) {
       case 3:
         break;
       case 4:
-        warnings.emplace_back("its colours are multiplied by alpha, which is not honoured");
+        warnings.emplace_back("its colours are multiplied by alpha, which is ignored");
         break;
       default:  // 0: no alpha; 1 and 2: it means nothing
         has_alpha_ = false;

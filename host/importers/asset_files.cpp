@@ -20,7 +20,7 @@ fs::path AssetFiles::locate(std::string_view name) {
   std::string portable(name);
   std::ranges::replace(portable, '\\', '/');
   if (portable.empty() || portable.find('\0') != std::string::npos)
-    throw Error(ExitCode::bad_input, "it refers to a file without a name");
+    throw Error(ExitCode::bad_input, "it refers to a file with an empty name");
   const fs::path file = (folder_ / portable).lexically_normal();
   if (!allowed_.hold(file)) {
     throw Error(ExitCode::bad_input, "{} lies outside the file's folder; {} allows other ones", name,

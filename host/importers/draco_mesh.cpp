@@ -163,7 +163,8 @@ DracoResult decode(draco::DecoderBuffer buffer, uint64_t most_values) {
   BoundedDecoder<Decoder> decoder(most_values);
   const auto mesh = std::make_shared<draco::Mesh>();
   const draco::Status status = decoder.Decode(draco::DecoderOptions(), &buffer, mesh.get());
-  if (decoder.exceeded()) return {nullptr, "have more faces or vertices than data of this size can mean", 0};
+  if (decoder.exceeded())
+    return {nullptr, "have more faces or vertices than data of this size can encode", 0};
   if (!status.ok()) return {nullptr, fmt::format("are damaged: {}", status.error_msg()), 0};
   return {mesh, "", decoder.values()};
 }
@@ -175,7 +176,7 @@ DracoResult decode_draco(std::string_view data, uint64_t most_values) {
   buffer.Init(data.data(), data.size());
   draco::DecoderBuffer head = buffer;
   draco::DracoHeader header;
-  if (!draco::PointCloudDecoder::DecodeHeader(&head, &header).ok()) return {nullptr, "are not Draco's", 0};
+  if (!draco::PointCloudDecoder::DecodeHeader(&head, &header).ok()) return {nullptr, "are not Draco data", 0};
   if (header.encoder_type != draco::TRIANGULAR_MESH) return {nullptr, "are not a mesh", 0};
   if ((header.flags & METADATA_FLAG_MASK) && !MetadataCheck(head).sound())
     return {nullptr, "are damaged: their metadata end too early", 0};
@@ -185,9 +186,9 @@ DracoResult decode_draco(std::string_view data, uint64_t most_values) {
     if (header.encoder_method == draco::MESH_SEQUENTIAL_ENCODING)
       return decode<draco::MeshSequentialDecoder>(buffer, most_values);
   } catch (const std::exception&) {  // of the standard library's containers
-    return {nullptr, "are damaged: they ask for more memory than there is", 0};
+    return {nullptr, "are damaged: they need more memory than there is", 0};
   }
-  return {nullptr, "are of a kind that eyeray does not know", 0};
+  return {nullptr, "are of a kind that eyeray does not support", 0};
 }
 
 }  // namespace eyeray::engine::importers

@@ -129,8 +129,8 @@ void GltfReader::check_extensions() {
   }
   if (unknown > most_extensions_named) left_out_.add("more extensions", unknown - most_extensions_named);
   if (!needed.empty())
-    scene_.warnings.push_back("the picture is not what the file means: it requires " + needed +
-                              ", which eyeray does not know (extensionsRequired)");
+    scene_.warnings.push_back("the picture is not as the file intends: it requires " + needed +
+                              ", which eyeray does not support (extensionsRequired)");
 }
 
 // Depth first, children in the order written.
@@ -150,7 +150,8 @@ void GltfReader::read_nodes() {
     const Visit visit = pending.back();
     pending.pop_back();
     const GltfObject node = document_.element("nodes", visit.node);
-    if (seen[visit.node]) node.fail("is reached twice: a node has one parent, and is not below itself");
+    if (seen[visit.node])
+      node.fail("is reached twice: a node can have one parent, and cannot be below itself");
     seen[visit.node] = true;
     const Mat4 world = visit.parent * transform(visit.node);
     worlds_[visit.node] = world;
@@ -206,13 +207,13 @@ Mat4 GltfReader::transform(size_t index) {
   const GltfObject node = document_.element("nodes", index);
   if (node.has("matrix")) {
     if (node.has("translation") || node.has("rotation") || node.has("scale"))
-      node.fail("has a matrix, and a translation, rotation or scale beside it");
+      node.fail("has both a matrix and a translation, rotation or scale");
     const Mat4 matrix =
         glm::make_mat4(node.numbers("matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}).data());
     if (matrix[0].w != 0 || matrix[1].w != 0 || matrix[2].w != 0 || matrix[3].w != 1)
       node.fail("has a matrix that is not affine");
     if (shears(Mat3(matrix)))
-      breaches_.add("matrices of nodes that shear, taken as they are", node.place() + ".matrix");
+      breaches_.add("matrices of nodes that shear, used unchanged", node.place() + ".matrix");
     return matrix;
   }
   const auto numbers = [&](const char* key, std::vector<double> fallback) {
@@ -272,7 +273,8 @@ void GltfReader::read_mesh(size_t index, size_t mesh, const Mat4& world) {
   for (const GltfMeshes::Part& part :
        skinned || !pose.weights.empty() ? meshes_.posed_parts(mesh, pose) : meshes_.parts(mesh)) {
     if (transforms.size() > most_instances - scene_.instances.size())
-      node.fail(fmt::format("is beyond the {} instances that a file may have", most_instances));
+      node.fail(
+          fmt::format("is one of more than {} instances, the most that a file may have", most_instances));
     for (const Mat4& transform : transforms)
       scene_.instances.push_back({part.mesh, transform, part.material, {}});
   }

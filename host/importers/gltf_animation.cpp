@@ -95,7 +95,7 @@ class AnimationReader {
       if (curve.rotates) {
         const glm::dquat q = quaternion(value.data());
         if (!(glm::length(q) > 1e-6))
-          animation_.fail(fmt::format("leaves nodes[{}] a rotation without length", target.first));
+          animation_.fail(fmt::format("gives nodes[{}] a rotation of length 0", target.first));
         for (double& component : value) component /= glm::length(q);
       }
       motion.values.emplace(target, std::move(value));
@@ -109,9 +109,9 @@ class AnimationReader {
     if (!target) channel.fail("has no target");
     const auto node = target->index("node", document_.size("nodes"));
     const std::string path = target->text("path");
-    if (!node || path == "pointer") return left_out_.add("animated values that are no node's");
+    if (!node || path == "pointer") return left_out_.add("animated values that belong to no node");
     const auto key = std::ranges::find(animated_keys, path, &AnimatedKey::name);
-    if (key == std::end(animated_keys)) target->fail("has a path that glTF does not know");
+    if (key == std::end(animated_keys)) target->fail("has a path that glTF does not define");
     if (path != "weights" && document_.element("nodes", *node).has("matrix"))
       target->fail(fmt::format("moves the {} of nodes[{}], which has a matrix", path, *node));
     if (path == "weights" && !has_targets(*node))
@@ -135,7 +135,7 @@ class AnimationReader {
   KeyCurve read_sampler(const GltfObject& sampler, const AnimatedKey& key) {
     const std::string written = sampler.has("interpolation") ? sampler.text("interpolation") : "LINEAR";
     const auto form = std::ranges::find(interpolations, written);
-    if (form == std::end(interpolations)) sampler.fail("has an interpolation that glTF does not know");
+    if (form == std::end(interpolations)) sampler.fail("has an interpolation that glTF does not define");
     const auto input = sampler.index("input", document_.size("accessors"));
     const auto output = sampler.index("output", document_.size("accessors"));
     if (!input || !output) sampler.fail("needs an input and an output");
@@ -145,9 +145,9 @@ class AnimationReader {
     curve.values = buffers_.numbers(*output, key.type);
     const GltfObject accessor = document_.element("accessors", *output);
     if (!std::ranges::all_of(curve.values, [](double x) { return std::isfinite(x); }))
-      accessor.fail(fmt::format("holds a {} that is not finite", key.name));
+      accessor.fail(fmt::format("contains a {} that is not finite", key.name));
     if (curve.interpolation == Interpolation::cubic && curve.times.size() < 2)
-      breaches_.add("animations along splines of one key, which do not move", sampler.place());
+      breaches_.add("animations along splines with one key, which do not move", sampler.place());
     const size_t parts = curve.times.size() * (curve.interpolation == Interpolation::cubic ? 3 : 1);
     curve.width = key.width > 0 ? key.width : curve.values.size() / parts;
     if (curve.width == 0 || curve.values.size() != parts * curve.width)
@@ -166,9 +166,9 @@ class AnimationReader {
     const GltfObject accessor = document_.element("accessors", index);
     const std::vector<double>& all = entry->second;
     for (size_t i = 0; i < all.size(); ++i) {
-      if (!std::isfinite(all[i])) accessor.fail("holds a time that is not finite");
+      if (!std::isfinite(all[i])) accessor.fail("contains a time that is not finite");
       if (i > 0 && !(all[i] > all[i - 1]))
-        accessor.fail(fmt::format("holds the time {} after {}: times must increase", all[i], all[i - 1]));
+        accessor.fail(fmt::format("contains the time {} after {}: times must increase", all[i], all[i - 1]));
     }
     if (all.front() < 0) breaches_.add("animations that begin before 0", accessor.place());
     return all;
@@ -177,7 +177,7 @@ class AnimationReader {
   void check_rotations(const KeyCurve& curve, const GltfObject& accessor) {
     for (size_t i = 0; i < curve.times.size(); ++i) {
       const double length = glm::length(quaternion(curve.at(i)));
-      if (!(length > 1e-6)) accessor.fail("holds a rotation without length");
+      if (!(length > 1e-6)) accessor.fail("contains a rotation of length 0");
       if (std::abs(length - 1) > 0.01)
         breaches_.add("rotations that are not of unit length, normalised", accessor.place());
     }

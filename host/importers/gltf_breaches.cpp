@@ -82,10 +82,11 @@ void GltfBreaches::check_attribute(std::string_view name, size_t index) {
   const Types type = is_normalized ? normalized(component) : plain(component);
   if (type & (quantization_declared_ ? rule->core | rule->quantized : rule->core)) return;
   if (!(type & (rule->quantized | rule->clear))) {
-    accessor.fail(fmt::format("holds {}, which cannot be {}componentType {}", name,
+    accessor.fail(fmt::format("contains {}, which cannot be {}componentType {}", name,
                               is_normalized ? "normalized " : "", component));
   }
-  add("attributes of component types that glTF does not give them, read as they say", accessor.place());
+  add("attributes of component types that glTF does not allow for them, read by their componentType",
+      accessor.place());
 }
 
 void GltfBreaches::check_attribute_names(const GltfObject& attributes) {
@@ -100,7 +101,7 @@ void GltfBreaches::check_attribute_names(const GltfObject& attributes) {
     const bool counted = !number.empty() && number.size() < 6 && (number == "0" || number[0] != '0') &&
                          std::ranges::all_of(number, [](char c) { return c >= '0' && c <= '9'; });
     if (!counted) {
-      add("attributes whose names glTF does not know, left out", place());
+      add("attributes whose names glTF does not define, left out", place());
     } else if (number != "0") {
       const std::string before = fmt::format("{}{}", *set, std::stoi(number) - 1);
       if (!attributes.has(before.c_str())) add("sets of attributes that are not counted from 0", place());

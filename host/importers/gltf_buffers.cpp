@@ -66,7 +66,7 @@ GltfBuffers::GltfBuffers(const GltfObject& document, const GltfContainer& contai
     : document_(document), container_(container), assets_(assets), breaches_(breaches) {
   buffers_.resize(document.size("buffers"));
   if (container.binary && (buffers_.empty() || document.element("buffers", 0).has("uri")))
-    breaches.add("binary chunks of .glb that no buffer takes, left out", "the file");
+    breaches.add("binary chunks of .glb that no buffer uses, left out", "the file");
   decoded_views_.resize(document.size("bufferViews"));
 }
 
@@ -89,7 +89,7 @@ std::string_view GltfBuffers::buffer(size_t index) {
     bytes = *buffers_[index];
   }
   if (length > bytes.size())
-    source.fail(fmt::format("is to have {} bytes, but there are only {}", length, bytes.size()));
+    source.fail(fmt::format("should have {} bytes, but there are only {}", length, bytes.size()));
   const size_t padding = source.has("uri") ? 0 : 3;
   const std::string uri = source.text("uri");
   const bool inside = uri.starts_with("data:");
@@ -109,7 +109,7 @@ std::string_view GltfBuffers::range(const GltfObject& source) {
   const uint64_t offset = source.count("byteOffset", 0);
   const uint64_t length = source.count("byteLength", 0);
   if (offset > bytes.size() || length > bytes.size() - offset)
-    source.fail(fmt::format("reaches to byte {} of a buffer that has {}", offset + length, bytes.size()));
+    source.fail(fmt::format("extends to byte {} of a buffer that has {}", offset + length, bytes.size()));
   return bytes.substr(offset, length);
 }
 
@@ -124,7 +124,7 @@ std::string_view GltfBuffers::view(size_t index) {
     allow(decoded->size() / 2);
     // The same bytes may be those of many views.
     if (decoded_bytes_ > std::max<uint64_t>(1 << 20, 64 * byte_size()))
-      source.fail("takes what is decoded beyond what a file of this size can mean");
+      source.fail("makes the decoded data larger than a file of this size may have");
   }
   return *decoded;
 }
@@ -132,7 +132,7 @@ std::string_view GltfBuffers::view(size_t index) {
 void GltfBuffers::claim(const GltfObject& owner, uint64_t elements) {
   elements_read_ += elements;
   if (elements_read_ > std::max<uint64_t>(1 << 20, 16 * byte_size() + allowed_elements_))
-    owner.fail("takes the elements beyond what a file of this size can mean");
+    owner.fail("makes the number of elements larger than a file of this size may have");
 }
 
 void GltfBuffers::supply(std::map<size_t, std::string> elements) {
@@ -143,7 +143,7 @@ void GltfBuffers::supply(std::map<size_t, std::string> elements) {
 GltfBuffers::Elements GltfBuffers::elements(const GltfObject& owner, std::optional<size_t> index,
                                             size_t components, uint64_t type, uint64_t count) {
   const size_t size = components * bytes_of(type);
-  if (size == 0) owner.fail("has a componentType that glTF does not know");
+  if (size == 0) owner.fail("has a componentType that glTF does not define");
   if (!index) owner.fail("has no bufferView");
   const std::string_view bytes = view(*index);
   const uint64_t stride = document_.element("bufferViews", *index).count("byteStride", size);
@@ -191,7 +191,8 @@ void GltfBuffers::check_range(const GltfObject& accessor, const std::vector<T>& 
       if (!said.empty() && said.size() != components)
         accessor.fail(fmt::format("has a {} of {} numbers", key, said.size()));
       if (!said.empty() && !(std::abs(said[k] * unit - found) <= slack))
-        breaches_.add("accessors whose min or max is not that of their data, which count", accessor.place());
+        breaches_.add("accessors whose min or max is not that of their data, which are used",
+                      accessor.place());
     }
   }
 }
@@ -230,7 +231,7 @@ std::vector<T> GltfBuffers::read(size_t index, std::string_view type, size_t com
     const uint64_t changes = sparse->count("count", 0);
     if (changes == 0 || changes > count)
       sparse->fail(
-          fmt::format("has a count of {}: it is from 1 to that of its accessor, {}", changes, count));
+          fmt::format("has a count of {}: it must be from 1 to that of its accessor, {}", changes, count));
     const auto places = sparse->object("indices");
     const auto values = sparse->object("values");
     if (!places || !values) sparse->fail("needs indices and values");
@@ -263,7 +264,7 @@ void GltfBuffers::refuse_stride(const GltfObject& owner, size_t views) const {
   const GltfObject source = document_.element("bufferViews", *view);
   if (source.has("byteStride") && !meshopt_coding(source))
     owner.fail(fmt::format(
-        "is in bufferViews[{}], which has a byteStride: that is for attributes of vertices", *view));
+        "is in bufferViews[{}], which has a byteStride: only attributes of vertices may have one", *view));
 }
 
 std::vector<Vec2> GltfBuffers::vec2(size_t accessor) {
@@ -305,13 +306,13 @@ std::vector<uint32_t> GltfBuffers::indices(size_t accessor) {
   const GltfObject source = document_.element("accessors", accessor);
   const uint64_t type = source.count("componentType", 0);
   if (type != unsigned_byte && type != unsigned_short && type != unsigned_int)
-    source.fail("holds indices, which must be unsigned integers");
-  if (source.flag("normalized")) source.fail("holds indices, which cannot be normalized");
+    source.fail("contains indices, which must be unsigned integers");
+  if (source.flag("normalized")) source.fail("contains indices, which cannot be normalized");
   refuse_stride(source, document_.size("bufferViews"));
   std::vector<uint32_t> all = read<uint32_t>(accessor, "SCALAR", 1);
   const uint64_t restart = (uint64_t{1} << 8 * bytes_of(type)) - 1;
   if (std::ranges::find(all, restart) != all.end())
-    breaches_.add("indices that begin a strip anew in other readers, taken as those of vertices",
+    breaches_.add("indices that begin a new strip in other readers, read as those of vertices",
                   source.place());
   return all;
 }

@@ -11,7 +11,7 @@ namespace {
 // Of one form of a camera; `sound`: what has to be above 0 beside is.
 void check_planes(const GltfObject& form, bool sound, GltfBreaches& breaches) {
   if (!sound || (form.has("zfar") && !(form.number("zfar", 0) > form.number("znear", 0))))
-    breaches.add("cameras whose aspectRatio, ymag, znear or zfar is out of range, which does not count",
+    breaches.add("cameras whose aspectRatio, ymag, znear or zfar is out of range, which is ignored",
                  form.place());
 }
 
@@ -25,16 +25,16 @@ ImportedCamera gltf_camera(const GltfObject& source, const Mat4& world, GltfBrea
   if (source.has("perspective") && source.has("orthographic"))
     source.fail("is both perspective and orthographic");
   if (!source.has(source.text("type").c_str()))
-    breaches.add("cameras whose type is not that of their values, which count", source.place());
+    breaches.add("cameras whose type is not that of their values, which are used", source.place());
   if (const auto perspective = source.object("perspective")) {
     const double degrees = glm::degrees(perspective->number("yfov", 0));
-    if (!(degrees > 0 && degrees < 180)) perspective->fail("has a yfov that no camera has");
+    if (!(degrees > 0 && degrees < 180)) perspective->fail("has a yfov that is out of range");
     camera.form = PerspectiveCamera{degrees, FovAxis::vertical};
     check_planes(*perspective,
                  perspective->number("znear", 0) > 0 && perspective->number("aspectRatio", 1) > 0, breaches);
   } else if (const auto orthographic = source.object("orthographic")) {
     const double size = orthographic->number("xmag", 0);
-    if (!(size > 1e-12 && size < 1e12)) orthographic->fail("has an xmag that no camera has");
+    if (!(size > 1e-12 && size < 1e12)) orthographic->fail("has an xmag that is out of range");
     camera.form = OrthographicCamera{size};
     check_planes(*orthographic, orthographic->number("znear", -1) >= 0 && orthographic->number("ymag", 0) > 0,
                  breaches);

@@ -58,7 +58,7 @@ std::optional<std::string> decode_base64(std::string_view text) {
 GltfContainer open_gltf(std::string_view bytes, const std::string& file) {
   if (bytes.size() < 4 || word(bytes, 0) != magic) return {bytes, {}, {}};
   if (bytes.size() < 12) throw malformed(file, "the file ends too early");
-  if (word(bytes, 4) != 2) throw malformed(file, fmt::format("it is not glTF 2 but {}", word(bytes, 4)));
+  if (word(bytes, 4) != 2) throw malformed(file, fmt::format("it must be glTF 2, not {}", word(bytes, 4)));
 
   // Cut the chunks: JSON first, then perhaps binary data; what else follows means nothing to us.
   std::optional<std::string_view> json;

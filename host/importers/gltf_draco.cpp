@@ -88,7 +88,7 @@ void GltfDraco::check(const GltfObject& primitive, const draco::Mesh& mesh) {
   const GltfObject accessor = document_.element("accessors", *indices);
   const uint64_t count = accessor.count("count", 0);
   if (count != uint64_t{3} * mesh.num_faces()) {
-    accessor.fail(fmt::format("has a count of {}, but the Draco data of {} have {} triangles", count,
+    accessor.fail(fmt::format("has a count of {}, but the Draco data of {} contain {} triangles", count,
                               primitive.place(), mesh.num_faces()));
   }
 }
@@ -117,8 +117,8 @@ std::optional<std::vector<uint32_t>> GltfDraco::open(const GltfObject& primitive
     const uint64_t id = ids->count(name.c_str(), 0);
     const draco::PointAttribute* attribute =
         id <= UINT32_MAX ? mesh.GetAttributeByUniqueId(static_cast<uint32_t>(id)) : nullptr;
-    if (!attribute) coding->fail(fmt::format("takes {} from attribute {}, which its data lack", name, id));
-    if (bytes_of(component) == 0) accessor.fail("has a componentType that glTF does not know");
+    if (!attribute) coding->fail(fmt::format("reads {} from attribute {}, which its data lack", name, id));
+    if (bytes_of(component) == 0) accessor.fail("has a componentType that glTF does not define");
     if (count != mesh.num_points() || components_of(type) != attribute->num_components()) {
       accessor.fail(fmt::format("has {} elements of type {}, but the Draco data of {} have {} of {} numbers",
                                 count, type, primitive.place(), mesh.num_points(),
@@ -126,7 +126,8 @@ std::optional<std::vector<uint32_t>> GltfDraco::open(const GltfObject& primitive
     }
     buffers_.claim(accessor, count);
     auto bytes = pack(*attribute, mesh.num_points(), component);
-    if (!bytes) accessor.fail(fmt::format("cannot hold what the Draco data of {} have", primitive.place()));
+    if (!bytes)
+      accessor.fail(fmt::format("cannot store the values of the Draco data of {}", primitive.place()));
     elements[*index] = std::move(*bytes);
   }
   buffers_.supply(std::move(elements));

@@ -169,7 +169,7 @@ Json parse_gltf_json(std::string_view text, const std::string& file) {
   } catch (const Json::parse_error& error) {
     throw malformed_at(file, text, error.byte > 0 ? error.byte - 1 : 0, "this is not JSON");
   } catch (const Json::exception&) {
-    throw malformed(file, "its JSON has a number that no computer holds");
+    throw malformed(file, "its JSON has a number that is out of range");
   }
   const GltfObject document(json, "", file);
   const auto asset = document.object("asset");
@@ -177,9 +177,8 @@ Json parse_gltf_json(std::string_view text, const std::string& file) {
   if (!version.starts_with("2."))
     throw malformed(file, fmt::format("it is not glTF 2: its asset.version is \"{}\"", printable(version)));
   if (asset->has("minVersion") && !is_readable(asset->text("minVersion")))
-    throw malformed(file,
-                    fmt::format("it asks for readers of glTF {}, and this is one of 2.0 (asset.minVersion)",
-                                printable(asset->text("minVersion"))));
+    throw malformed(file, fmt::format("it requires glTF {} (asset.minVersion), but eyeray reads 2.0",
+                                      printable(asset->text("minVersion"))));
   return json;
 }
 

@@ -41,11 +41,11 @@ void add_gltf_light(const GltfObject& source, const Mat4& world, GltfLeftOut& le
   const double intensity = source.number("intensity", 1);
   const Vec3 arriving = Vec3(color[0], color[1], color[2]) * intensity * unit_of_light;
   const bool right = intensity >= 0 && *std::ranges::min_element(color) >= 0 && magnitude(arriving) < 1e12;
-  if (!right) source.fail("has an intensity that no light has");
+  if (!right) source.fail("has an intensity that is out of range");
   if (*std::ranges::max_element(color) > 1)
-    breaches.add("colours of lights above 1, taken as they are", source.place());
+    breaches.add("colours of lights above 1, used unchanged", source.place());
   if (source.has("spot") && type != "spot")
-    breaches.add("cones of lights that are no spot lights, left out", source.place());
+    breaches.add("cones of lights that are not spot lights, left out", source.place());
   if (source.has("range")) left_out.add("ranges of lights");
   if (source.has("range") && !(source.number("range", 0) > 0))
     breaches.add("ranges of lights that are not above 0", source.place());
@@ -56,7 +56,7 @@ void add_gltf_light(const GltfObject& source, const Mat4& world, GltfLeftOut& le
   } else if (type == "spot") {
     scene.lights.push_back(spot_light(source, world, arriving, breaches));
   } else {
-    source.fail("has a type that glTF does not know");
+    source.fail("has a type that glTF does not define");
   }
 }
 

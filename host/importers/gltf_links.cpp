@@ -222,7 +222,7 @@ constexpr LinkRule link_rules[] = {
      [](const Links& links, const Json&, size_t i) { return links.tree.parents(i) > 1; }},
     {"nodes", "nodes below themselves",
      [](const Links& links, const Json&, size_t i) { return links.tree.is_in_loop(i); }},
-    {"nodes", "nodes with a skin, weights or instances but no mesh, which count for nothing",
+    {"nodes", "nodes with a skin, weights or instances but no mesh, which have no effect",
      [](const Links&, const Json& node, size_t) {
        const Json* const extensions = member(node, "extensions");
        return !node.contains("mesh") && (node.contains("skin") || node.contains("weights") ||
@@ -234,7 +234,7 @@ constexpr LinkRule link_rules[] = {
      }},
     {"meshes", "meshes whose primitives differ in their number of sets of joints",
      [](const Links&, const Json& mesh, size_t) { return differ(mesh, sets_of_joints); }},
-    {"skins", "skins whose joints have no common root, taken where they stand",
+    {"skins", "skins whose joints have no common root, used where they are",
      [](const Links& links, const Json& skin, size_t) { return !has_common_root(links, skin); }},
     {"skins", "skins whose skeleton is not above all joints, left out",
      [](const Links& links, const Json& skin, size_t) { return !has_sound_skeleton(links, skin); }},
@@ -251,7 +251,7 @@ constexpr LinkRule link_rules[] = {
      [](const Links& links, const Json& accessor, size_t i) {
        return (links.roles.accessors[i] & Role::attribute) && !is_aligned(links, accessor);
      }},
-    {"bufferViews", "views that hold more than one of attributes, indices and other data",
+    {"bufferViews", "views that contain more than one of attributes, indices and other data",
      [](const Links& links, const Json&, size_t i) {
        return std::popcount(links.roles.views[i] & Role::any) > 1;
      }},
@@ -259,7 +259,7 @@ constexpr LinkRule link_rules[] = {
      [](const Links& links, const Json& view, size_t i) {
        return !fits_target(links.roles.views[i], count(view, "target", 0));
      }},
-    {"bufferViews", "views of several attributes without a byteStride, taken as packed",
+    {"bufferViews", "views of several attributes without a byteStride, read as packed",
      [](const Links& links, const Json& view, size_t i) {
        return links.roles.sharing[i] > 1 && !view.contains("byteStride");
      }},

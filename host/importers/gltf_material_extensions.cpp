@@ -83,7 +83,7 @@ std::unique_ptr<Material> GltfMaterials::principled(const GltfObject& source, co
     const std::vector<double> color = specular->numbers("specularColorFactor", {1, 1, 1});
     const Vec3 tint = glm::max(Vec3(color[0], color[1], color[2]), Vec3(0));
     if (tint != Vec3(color[0], color[1], color[2]))
-      breaches_.add("values of materials below 0, taken as 0", specular->place() + ".specularColorFactor");
+      breaches_.add("values of materials below 0, set to 0", specular->place() + ".specularColorFactor");
     values.specular = scaled(source, *specular, "specularTexture",
                              Vec3(factor(*specular, "specularFactor", 1)), Content::alpha);
     values.specular_color = scaled(source, *specular, "specularColorTexture", tint, Content::color);

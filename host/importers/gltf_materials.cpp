@@ -100,9 +100,9 @@ ImageTexture GltfMaterials::decode_image(size_t index, image::PixelBudget& budge
     if (image.has("uri")) image.fail("has both a uri and a bufferView: it is one picture");
     bytes = buffers_.view(*view);
     if (document_.element("bufferViews", *view).has("byteStride"))
-      breaches_.add("pictures in views with a byteStride, which does not count", image.place());
+      breaches_.add("pictures in views with a byteStride, which is ignored", image.place());
     if (!image.has("mimeType"))
-      breaches_.add("pictures in views without a mimeType, decoded as what they are", image.place());
+      breaches_.add("pictures in views without a mimeType, decoded by their content", image.place());
   } else {
     data = buffers_.read_uri(image, "the picture");
     bytes = data;
@@ -112,9 +112,9 @@ ImageTexture GltfMaterials::decode_image(size_t index, image::PixelBudget& budge
     type = uri.substr(5, uri.find(';') - 5);
   const bool is_png = bytes.starts_with("\x89PNG"), is_jpeg = bytes.starts_with("\xff\xd8");
   if (!type.empty() && ((is_png && type != "image/png") || (is_jpeg && type != "image/jpeg")))
-    breaches_.add("pictures of another type than their mimeType, decoded as what they are", image.place());
+    breaches_.add("pictures of another type than their mimeType, decoded by their content", image.place());
   if (!is_png && !is_jpeg)
-    breaches_.add("pictures that are neither PNG nor JPEG, decoded as what they are", image.place());
+    breaches_.add("pictures that are neither PNG nor JPEG, decoded by their content", image.place());
   return decode_image_texture(std::as_bytes(std::span(bytes)), image.place(), budget, warnings);
 }
 
@@ -136,7 +136,7 @@ std::shared_ptr<const ImageTexture> GltfMaterials::texture(const GltfObject& ref
     const auto one_of = [&](const char* key, std::initializer_list<uint64_t> known) {
       const uint64_t code = how.count(key, *known.begin());
       if (std::ranges::find(known, code) == known.end())
-        how.fail(fmt::format("has a {} that glTF does not know", key));
+        how.fail(fmt::format("has a {} that glTF does not define", key));
       return code;
     };
     filter = one_of("magFilter", {linear, nearest});
@@ -181,7 +181,7 @@ TexturePtr GltfMaterials::emission(const GltfObject& material) {
   const auto strength = material.extension("KHR_materials_emissive_strength");
   if (color == Vec3(0)) {
     if (strength)
-      breaches_.add("emissive strengths of materials without an emissiveFactor, which do not shine",
+      breaches_.add("emissive strengths of materials without an emissiveFactor, which emit no light",
                     strength->place());
     return none;
   }
@@ -258,7 +258,7 @@ std::unique_ptr<Material> GltfMaterials::material(size_t index) {
   if (const std::string mode = source.text("alphaMode"); mode == "MASK" || mode == "BLEND") {
     const bool blends = mode == "BLEND";
     if (made->medium()) {
-      left_out_.add(blends ? "transparency by alpha of glass" : "cutouts in glass");
+      left_out_.add(blends ? "alpha transparency of glass" : "cutouts in glass");
     } else {
       made->mask = mask(source, blends);
     }
@@ -344,7 +344,7 @@ double GltfMaterials::factor(const GltfObject& owner, const char* key, double fa
 double GltfMaterials::not_negative(const GltfObject& owner, const char* key, double fallback) {
   const double value = owner.number(key, fallback);
   if (value < 0)
-    breaches_.add("values of materials below 0, taken as 0", fmt::format("{}.{}", owner.place(), key));
+    breaches_.add("values of materials below 0, set to 0", fmt::format("{}.{}", owner.place(), key));
   return std::max(value, 0.0);
 }
 
@@ -362,7 +362,7 @@ std::vector<double> GltfMaterials::factors(const GltfObject& owner, const char* 
 void GltfMaterials::note_rest(const GltfObject& material) {
   const std::string alpha = material.text("alphaMode");
   if (!alpha.empty() && alpha != "OPAQUE" && alpha != "MASK" && alpha != "BLEND")
-    material.fail("has an alphaMode that glTF does not know");
+    material.fail("has an alphaMode that glTF does not define");
   const bool excludes = material.extension("KHR_materials_unlit") || material.extension(specular_glossiness);
   if (excludes && std::ranges::any_of(lit_extensions,
                                       [&](const char* name) { return material.extension(name).has_value(); }))
@@ -372,7 +372,7 @@ void GltfMaterials::note_rest(const GltfObject& material) {
     breaches_.add("alpha cutoffs of materials whose alphaMode is not MASK, left out", material.place());
   const auto volume = material.extension("KHR_materials_volume");
   if (volume && !material.extension("KHR_materials_transmission"))
-    breaches_.add("volumes of materials that let no light through, left out", volume->place());
+    breaches_.add("volumes of materials that transmit no light, left out", volume->place());
 }
 
 }  // namespace eyeray::engine::importers

@@ -94,7 +94,7 @@ std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std:
     left_out_.add("points and lines");
     return std::nullopt;
   }
-  if (mode > triangle_fan) primitive.fail("has a mode that glTF does not know");
+  if (mode > triangle_fan) primitive.fail("has a mode that glTF does not define");
   const auto attributes = primitive.object("attributes");
   if (!attributes) primitive.fail("has no attributes");
 
@@ -125,10 +125,11 @@ std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std:
   const bool bent =
       !pose.joints.empty() || std::ranges::any_of(pose.weights, [](double w) { return w != 0; });
   if (tangents && !normals)
-    breaches_.add("meshes with tangents and without normals, made of their uv instead", attributes->place());
+    breaches_.add("meshes with tangents but without normals; their tangents are computed from uv instead",
+                  attributes->place());
   if (bent || !normals || !(uv_use.second_tangents ? second_uv : uv)) tangents.reset();
   if ((!uv && !uv_use.uv.empty()) || (!second_uv && two_uv))
-    breaches_.add("meshes without the uv that their material's picture takes", primitive.place());
+    breaches_.add("meshes without the uv that their material's picture needs", primitive.place());
   for (const auto& [name, accessor] :
        {std::pair<std::string_view, const std::optional<size_t>&>{"POSITION", positions},
         {"NORMAL", normals},
@@ -147,7 +148,7 @@ std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std:
   if (std::ranges::any_of(pool.tangents, [](const Vec4& tangent) { return is_no_unit(Vec3(tangent)); }))
     breaches_.add("tangents that are not of unit length, normalised", attributes->place() + ".TANGENT");
   if (!std::ranges::all_of(pool.tangents, is_direction)) {
-    breaches_.add("meshes with tangents that are no directions, made of their uv instead",
+    breaches_.add("meshes with tangents that are no directions; their tangents are computed from uv instead",
                   attributes->place());
     pool.tangents.clear();
     tangents.reset();
@@ -182,7 +183,7 @@ std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std:
   add_targets(primitive, pose.weights, document_, buffers_, breaches_, pool);
   if (!pose.joints.empty()) move_to_joints(*attributes, pose.joints, document_, buffers_, breaches_, pool);
   if (pose.joints.empty() && attributes->has("JOINTS_0"))
-    breaches_.add("meshes with joints that are shown without a skin, as they are", attributes->place());
+    breaches_.add("meshes with joints that are shown without a skin, undeformed", attributes->place());
 
   // Read the corners.
   std::vector<uint32_t> corners;
@@ -195,8 +196,8 @@ std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std:
     std::iota(corners.begin(), corners.end(), 0u);
   }
   if (!corners.empty() && std::ranges::max(corners) >= pool.positions.size()) {
-    primitive.fail(fmt::format("refers to vertex {}; there are {}, counted from 0", std::ranges::max(corners),
-                               pool.positions.size()));
+    primitive.fail(fmt::format("refers to vertex {}, but there are {}, counted from 0",
+                               std::ranges::max(corners), pool.positions.size()));
   }
   const uint64_t made_as = draco_corners ? triangle_list : mode;
   if (made_as == triangle_list ? corners.size() % 3 != 0 : corners.size() < 3)

@@ -36,17 +36,17 @@ void check(const GltfObject& view, const GltfObject& object, const Coding& codin
   const bool attributes = coding.mode == "ATTRIBUTES";
   const uint64_t stride = coding.stride;
   if (!attributes && coding.mode != "TRIANGLES" && coding.mode != "INDICES")
-    object.fail(fmt::format("has the mode \"{}\", which eyeray does not know", coding.mode));
+    object.fail(fmt::format("has the mode \"{}\", which eyeray does not support", coding.mode));
   const bool right_stride =
       attributes ? stride % 4 == 0 && stride > 0 && stride <= 256 : stride == 2 || stride == 4;
   if (!right_stride)
     object.fail(fmt::format("has a byteStride of {}, which {} cannot have", stride, coding.mode));
   if (coding.mode == "TRIANGLES" && coding.count % 3 != 0)
-    object.fail(fmt::format("has a count of {}, which is not three a triangle", coding.count));
+    object.fail(fmt::format("has a count of {}, which must be a multiple of three", coding.count));
 
   const bool known = coding.filter == "NONE" || coding.filter == "OCTAHEDRAL" ||
                      coding.filter == "QUATERNION" || coding.filter == "EXPONENTIAL";
-  if (!known) object.fail(fmt::format("has the filter \"{}\", which eyeray does not know", coding.filter));
+  if (!known) object.fail(fmt::format("has the filter \"{}\", which eyeray does not support", coding.filter));
   const bool right_filter =
       coding.filter == "NONE" || (attributes && (coding.filter == "EXPONENTIAL" || stride == 8 ||
                                                  (coding.filter == "OCTAHEDRAL" && stride == 4)));
@@ -59,7 +59,7 @@ void check(const GltfObject& view, const GltfObject& object, const Coding& codin
     view.fail("has another byteStride than what it is decoded to");
   const uint64_t length = view.count("byteLength", 0);
   if (coding.count > length / stride || coding.count * stride != length) {
-    view.fail(fmt::format("is to have {} bytes, but is decoded to {} elements of {}", length, coding.count,
+    view.fail(fmt::format("should have {} bytes, but is decoded to {} elements of {}", length, coding.count,
                           stride));
   }
 }
@@ -72,7 +72,7 @@ void check_version(const GltfObject& object, const Coding& coding, std::string_v
   const int expected = attributes ? 0xa : coding.mode == "TRIANGLES" ? 0xe : 0xd;
   if (first >> 4 == expected && (first & 15) > known) {
     object.fail(fmt::format(
-        "has data of version {} of {}; eyeray knows up to {}, as EXT_meshopt_compression has them",
+        "has data of version {} of {}; eyeray reads versions up to {}, those of EXT_meshopt_compression",
         first & 15, coding.mode, known));
   }
 }
@@ -105,8 +105,8 @@ std::string decode_meshopt(const GltfObject& view, const GltfObject& object, std
                       object.count("byteStride", 0)};
   check(view, object, coding);
   if (coded.size() < least_bytes(coding)) {
-    object.fail(fmt::format("has {} bytes, which cannot stand for {} elements of {}", coded.size(),
-                            coding.count, coding.stride));
+    object.fail(fmt::format("has {} bytes, which cannot encode {} elements of {}", coded.size(), coding.count,
+                            coding.stride));
   }
   check_version(object, coding, coded);
   std::string decoded(coding.count * coding.stride, '\0');

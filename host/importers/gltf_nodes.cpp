@@ -12,7 +12,7 @@ namespace eyeray::engine::importers {
 Mat4 gltf_transform(const GltfObject& owner, const char* key, const Vec3& translation, const Vec4& rotation,
                     const Vec3& scale, GltfBreaches& breaches) {
   const glm::dquat turn(rotation.w, rotation.x, rotation.y, rotation.z);
-  if (!(glm::length(turn) > 1e-6)) owner.fail("has a rotation without length");
+  if (!(glm::length(turn) > 1e-6)) owner.fail("has a rotation of length 0");
   if (std::abs(glm::length(turn) - 1) > 0.01)
     breaches.add("rotations that are not of unit length, normalised", owner.place() + "." + key);
   return glm::translate(Mat4(1.0), translation) * glm::mat4_cast(glm::normalize(turn)) *

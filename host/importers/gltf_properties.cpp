@@ -316,7 +316,7 @@ class PropertyCheck {
       if (const Property* row = find(table, name, true)) {
         check_value(value, here, *row);
       } else if (is_known_extension(name)) {
-        breaches_.add("extensions of objects that they are not for, left out", here);
+        breaches_.add("extensions of objects to which they do not apply, left out", here);
       }
     }
   }
@@ -335,7 +335,7 @@ class PropertyCheck {
     std::vector<Json> sorted(value.begin(), value.end());
     std::ranges::sort(sorted);
     if (std::ranges::adjacent_find(sorted) != sorted.end())
-      breaches_.add("lists that hold the same element twice", here);
+      breaches_.add("lists that contain the same element twice", here);
   }
 
   // A value that is no list, or an element of one.
@@ -370,10 +370,10 @@ class PropertyCheck {
     breaches_.add("lists and objects that are empty, which glTF does not allow", here);
   }
   void mismatch(const std::string& here) {
-    breaches_.add("values of another type than glTF gives their property", here);
+    breaches_.add("values of another type than that of their property in glTF", here);
   }
   void out_of_range(const std::string& here) {
-    breaches_.add("values that glTF does not give their property", here);
+    breaches_.add("values that glTF does not allow for their property", here);
   }
 
   const Json& document_;

@@ -34,12 +34,12 @@ std::vector<Mat4> joint_matrices(const GltfObject& document, GltfBuffers& buffer
   if (const auto accessor = source.index("inverseBindMatrices", document.size("accessors"))) {
     const GltfObject matrices = document.element("accessors", *accessor);
     if (matrices.count("componentType", 0) != floating)
-      matrices.fail("holds inverseBindMatrices, which must be floats");
+      matrices.fail("contains inverseBindMatrices, which must be floats");
     inverse = buffers.mat4(*accessor);
     for (const Mat4& m : inverse) {
       const Vec4 last(m[0].w, m[1].w, m[2].w, m[3].w - 1);
       if (!(glm::length(last) < 1e-4))
-        matrices.fail("holds inverseBindMatrices, whose last rows must be 0, 0, 0, 1");
+        matrices.fail("contains inverseBindMatrices, whose last rows must be 0, 0, 0, 1");
     }
     if (inverse.size() < joints.size()) source.fail("has fewer inverseBindMatrices than joints");
   }
@@ -56,7 +56,7 @@ void add_targets(const GltfObject& primitive, std::span<const double> weights, c
                  GltfBuffers& buffers, GltfBreaches& breaches, VertexPool& vertices) {
   const size_t count = primitive.size("targets");
   if (!weights.empty() && weights.size() != count)
-    primitive.fail(fmt::format("has {} targets, for which there are {} weights", count, weights.size()));
+    primitive.fail(fmt::format("has {} targets, but {} weights", count, weights.size()));
   for (size_t i = 0; i < weights.size(); ++i) {
     if (weights[i] == 0) continue;
     const GltfObject target = primitive.element("targets", i);
@@ -85,7 +85,7 @@ void check_targets(const GltfObject& primitive, const GltfObject& document, Gltf
         if (!change) continue;
         const auto base = attributes ? attributes->index(name, accessors) : std::nullopt;
         if (!base) {
-          breaches.add("morph targets of attributes that the mesh has not, left out", target.place());
+          breaches.add("morph targets of attributes that the mesh lacks, left out", target.place());
         } else if (buffers.vec3(*change).size() != document.element("accessors", *base).count("count", 0)) {
           target.fail("do not all have as many elements");
         }
@@ -125,7 +125,8 @@ void move_to_joints(const GltfObject& attributes, std::span<const Mat4> joints, 
         if (!(weight >= 0)) no_weight = true;
         if (!known && !(weight > 0)) no_joint = true;
         if (!(weight > 0)) continue;
-        if (!known) attributes.fail(fmt::format("name joint {}; there are {}", numbers[i][k], joints.size()));
+        if (!known)
+          attributes.fail(fmt::format("name joint {}, but there are {}", numbers[i][k], joints.size()));
         for (int j = 0; j < k; ++j) twice = twice || (numbers[i][j] == numbers[i][k] && weights[i][j] > 0);
         sums[i] += joints[static_cast<size_t>(numbers[i][k])] * weight;
         total[i] += weight;
@@ -133,7 +134,7 @@ void move_to_joints(const GltfObject& attributes, std::span<const Mat4> joints, 
     }
   }
 
-  if (no_weight) breaches.add("weights below 0 or not finite, taken as 0", attributes.place() + ".WEIGHTS_0");
+  if (no_weight) breaches.add("weights below 0 or not finite, set to 0", attributes.place() + ".WEIGHTS_0");
   if (no_joint)
     breaches.add("vertices that name joints beyond the skin's without weight, left out",
                  attributes.place() + ".JOINTS_0");

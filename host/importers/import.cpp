@@ -39,7 +39,7 @@ void drop_empty(ImportedScene& scene) {
 
 ImportedScene read_mesh_file(MeshFile& file) {
   const Reader read = find_reader(file.name);
-  if (!read) throw malformed(file.name, "a mesh file ends in .obj, .ply, .gltf or .glb");
+  if (!read) throw malformed(file.name, "a mesh file's name must end in .obj, .ply, .gltf or .glb");
   if (file.bytes.starts_with("\xff\xfe") || file.bytes.starts_with("\xfe\xff"))
     throw malformed(file.name, "it is text in UTF-16: save it as UTF-8");
   drop_byte_order_mark(file.bytes);
@@ -51,7 +51,7 @@ ImportedScene read_mesh_file(MeshFile& file) {
   }
   drop_empty(scene);
   if (scene.instances.empty() && !scene.played) {
-    std::string why = "it has no triangles that could be seen";
+    std::string why = "it has no visible triangles";
     for (const std::string& warning : scene.warnings) why += "; " + warning;
     throw malformed(file.name, why);
   }

@@ -54,7 +54,7 @@ void check_json_text(std::string_view text, const std::string& file) {
         if (open.empty() || !open.back().key_is_next) break;
         open.back().key_is_next = false;
         const auto [key, fresh] = open.back().keys.insert(value_of_string(text, first, i));
-        if (!fresh) fail(first, fmt::format("the key \"{}\" stands twice in an object", *key));
+        if (!fresh) fail(first, fmt::format("an object has the key \"{}\" twice", *key));
         break;
       }
       case '[':

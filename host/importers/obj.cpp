@@ -211,11 +211,12 @@ uint32_t ObjReader::read_index(size_t count, Highest& highest, const char* what)
   const size_t start = at_;
   int64_t written = 0;
   const auto [after, error] = std::from_chars(text_.data() + at_, text_.data() + end_, written);
-  if (error != std::errc()) fail(start, fmt::format("this is no index of a {}", what));
+  if (error != std::errc()) fail(start, fmt::format("this is not an index of a {}", what));
   at_ = static_cast<size_t>(after - text_.data());
   const int64_t index = written > 0 ? written - 1 : static_cast<int64_t>(count) + written;
-  if (written == 0) fail(start, "indices count from 1; 0 is none");
-  if (index < 0) fail(start, fmt::format("there is no {} {}: {} came so far", what, written, count));
+  if (written == 0) fail(start, "indices count from 1, so 0 is not allowed");
+  if (index < 0)
+    fail(start, fmt::format("there is no {} {}: the file has {} up to here", what, written, count));
   if (index >= no_index) fail(start, fmt::format("there is no {} {}", what, written));
   if (!highest.any || index > highest.index) highest = {static_cast<uint32_t>(index), start, true};
   return static_cast<uint32_t>(index);

@@ -114,7 +114,7 @@ void PlyReader<Values>::check_count(const PlyElement& element) const {
   const size_t least = element.least_bytes(header_.format);
   const size_t left = file_.bytes.size() - header_.size + 1;  // the last number of a text needs no space
   if (least > 0 && element.count > left / least) {
-    values_.fail(fmt::format("the header promises {} of `{}`, more than the file's {} bytes can hold",
+    values_.fail(fmt::format("the header declares {} of `{}`, more than the file's {} bytes can contain",
                              element.count, element.name, file_.bytes.size()));
   }
 }
@@ -128,7 +128,7 @@ void PlyReader<Values>::read_vertices(const PlyElement& element) {
     meaning.push_back(property.list ? none : slot_of(property.name));
     has[meaning.back()] = true;
   }
-  if (!has[x] || !has[y] || !has[z]) values_.fail("the vertices have no x, y and z");
+  if (!has[x] || !has[y] || !has[z]) values_.fail("the vertices must have x, y and z");
   const bool normals = has[nx] && has[ny] && has[nz];
   const bool uv = has[u] && has[v];
   const bool colors = has[red] && has[green] && has[blue];
@@ -266,7 +266,7 @@ uint32_t PlyReader<Values>::read_index(PlyType type) {
   const double index = values_.next(type);
   if (index == -1) return no_index;
   if (!(index >= 0 && index < no_index) || index != std::trunc(index))
-    values_.fail(fmt::format("{} is no index of a vertex", index));
+    values_.fail(fmt::format("{} is not an index of a vertex", index));
   return static_cast<uint32_t>(index);
 }
 
@@ -302,7 +302,7 @@ std::vector<int> show_pictures(const PlyHeader& header, MeshFile& file, size_t s
     scene.warnings.emplace_back(
         fmt::format("its {} (comment TextureFile) left out: {}; give the mesh a `material`",
                     pictures > 1 ? "pictures were" : "picture was",
-                    has_uv ? "no texnumber of its faces says which they show" : "it has no uv"));
+                    has_uv ? "no texnumber of its faces selects one" : "it has no uv"));
     return materials;
   }
   TextureFiles textures(file.assets, *file.pixels, scene.warnings);

@@ -36,7 +36,7 @@ class HeaderReader {
 
   PlyHeader read() {
     if (next_line() != std::vector<std::string_view>{"ply"})
-      fail("this is no PLY file: it does not start with `ply`");
+      fail("this is not a PLY file: it does not start with `ply`");
     for (;;) {
       const std::vector<std::string_view> words = next_line();
       if (words.size() > 2 && words[0] == "comment" && words[1] == "TextureFile") {
@@ -53,7 +53,7 @@ class HeaderReader {
       } else if (words[0] == "property") {
         read_property(words);
       } else {
-        fail(fmt::format("`{}` is no statement of a PLY header", words[0]));
+        fail(fmt::format("`{}` is not a statement of a PLY header", words[0]));
       }
     }
     if (!formatted_) fail("the header has no `format`");
@@ -94,18 +94,18 @@ class HeaderReader {
     const std::string_view number = words[2];
     const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), element.count);
     if (error != std::errc() || end != number.data() + number.size())
-      fail(fmt::format("`{}` is no count of elements", number));
+      fail(fmt::format("`{}` is not a number of elements", number));
     header_.elements.push_back(std::move(element));
   }
 
   void read_property(const std::vector<std::string_view>& words) {
-    if (header_.elements.empty()) fail("a property before the first element");
+    if (header_.elements.empty()) fail("a property must come after an element");
     std::vector<PlyProperty>& properties = header_.elements.back().properties;
     if (words.size() == 3) {
       properties.push_back({std::string(words[2]), type(words[1])});
     } else if (words.size() == 5 && words[1] == "list") {
       const PlyType length = type(words[2]);
-      if (length >= PlyType::float32) fail("the length of a list is an integer");
+      if (length >= PlyType::float32) fail("the length of a list must be an integer");
       properties.push_back({std::string(words[4]), type(words[3]), length});
     } else {
       fail("write property TYPE NAME, or property list TYPE TYPE NAME");
@@ -116,7 +116,7 @@ class HeaderReader {
     for (const auto& [known, type] : type_names) {
       if (known == name) return type;
     }
-    fail(fmt::format("`{}` is no type of PLY", name));
+    fail(fmt::format("`{}` is not a type of PLY", name));
   }
 
   std::string_view bytes_;

@@ -27,7 +27,7 @@ std::vector<RawTriangles> triangulate(const PlyPolygons& polygons, const VertexP
                                       const std::string& file) {
   const auto known = [&](uint32_t corner) { return corner < vertices.positions.size(); };
   if (const auto wrong = std::ranges::find_if_not(polygons.corners, known); wrong != polygons.corners.end()) {
-    throw malformed(file, fmt::format("a face refers to vertex {}; there are {}, counted from 0",
+    throw malformed(file, fmt::format("a face refers to vertex {}, but there are {}, counted from 0",
                                       *wrong == no_index ? -1 : int64_t{*wrong}, vertices.positions.size()));
   }
   const bool split = pictures > 1 && !polygons.pictures.empty();
@@ -44,8 +44,9 @@ std::vector<RawTriangles> triangulate(const PlyPolygons& polygons, const VertexP
   for (size_t i = 0; i < polygons.sizes.size(); ++i) {
     const uint32_t picture = split ? polygons.pictures[i] : 0;
     if (picture >= lists.size())
-      throw malformed(file, fmt::format("a face has the texnumber {}; there are {} pictures, counted from 0",
-                                        picture == no_index ? -1 : int64_t{picture}, lists.size()));
+      throw malformed(file,
+                      fmt::format("a face has the texnumber {}, but there are {} pictures, counted from 0",
+                                  picture == no_index ? -1 : int64_t{picture}, lists.size()));
     RawTriangles& raw = lists[picture];
     const uint32_t* const corner = polygons.corners.data() + first;
     const auto own = static_cast<uint32_t>(first);

@@ -79,10 +79,9 @@ void call_engine(const std::function<void()>& work, const std::atomic<bool>* sto
   try {
     speak_to_library();
     if (inside)
-      throw Error(
-          ExitCode::bad_input,
-          "eyeray is called from within `progress`, and would wait for itself: call it once this call "
-          "is done");
+      throw Error(ExitCode::bad_input,
+                  "eyeray was called from within `progress` and would wait for itself: call it after this "
+                  "call has returned");
     const InsideCall entered;
     const std::unique_lock lock = enter(stop);
     std::optional<Interruptible> interruptible;

@@ -30,12 +30,10 @@ void open_device(v0::Renderer::Data& renderer, const executors::GpuOptions& opti
   static std::atomic<pid_t> first_process = 0;
   pid_t process = 0;
   if (!first_process.compare_exchange_strong(process, ::getpid()) && process != ::getpid())
-    throw Error(
-        ExitCode::no_device,
-        "this process was forked from one that had opened a Vulkan device, whose driver's threads it has "
-        "not: "
-        "start it anew (in Python, multiprocessing's \"spawn\"), fork before the first picture, or use the "
-        "backend twin");
+    throw Error(ExitCode::no_device,
+                "this process was forked from one that had opened a Vulkan device, and lacks the driver's "
+                "threads: start a new process (in Python, multiprocessing's \"spawn\"), fork before the "
+                "first picture, or use the backend twin");
   if (renderer.device) return;
   std::shared_ptr<executors::OpenDevice> opened = executors::open_device(options);
   // A forked child cannot close it either: it is left to the end of the process.
@@ -100,7 +98,7 @@ bool Cancellation::requested() const noexcept {
 Renderer::Renderer(const RendererOptions& options) : data_(std::make_unique<Data>(Data{options})) {
   const double seconds = options.timeout_seconds;
   if (!(seconds >= 0.001 && seconds <= 1e6))
-    throw Error(ErrorKind::bad_input, "timeout_seconds is from 0.001 to 1000000");
+    throw Error(ErrorKind::bad_input, "timeout_seconds must be from 0.001 to 1000000");
   if (!options.shaders.empty() && !std::filesystem::is_directory(options.shaders))
     throw Error(ErrorKind::file_io, options.shaders.string() + ": no such folder of shaders");
 }

@@ -58,8 +58,9 @@ std::string Value::of_signed(int64_t value) {
 
 std::string Value::of_unsigned(uint64_t value) {
   if (value > uint64_t(std::numeric_limits<int64_t>::max()))
-    throw Error(ErrorKind::bad_input,
-                fmt::format("{} is no value of a scene: its integers end at 9223372036854775807", value));
+    throw Error(
+        ErrorKind::bad_input,
+        fmt::format("{} is too large for a scene: the largest integer is 9223372036854775807", value));
   return std::to_string(value);
 }
 

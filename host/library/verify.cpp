@@ -19,7 +19,7 @@ Report Renderer::verify(const Scene& scene, const VerifyOptions& options) {
       how.backends.push_back(engine::library::backend_of(backend));
     if (how.backends.empty() || std::ranges::count(how.backends, engine::executors::Backend::reference) > 0)
       throw engine::Error(engine::ExitCode::bad_input,
-                          "backends names what is compared with the reference: gpu, twin, or both");
+                          "backends must be gpu, twin, or both: the executors to compare with the reference");
     how.crop = engine::session::crop_within(engine::library::rect_of(options.crop), what.image);
     how.executor = engine::library::executor_options(
         *data_, std::ranges::count(how.backends, engine::executors::Backend::gpu) > 0);

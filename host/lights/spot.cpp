@@ -86,7 +86,7 @@ std::unique_ptr<Light> parse(TableReader& table) {
   if (table.valid("inner_angle") && table.valid("outer_angle") && !(outer - inner >= 0.001))
     table.error(
         table.has("outer_angle") ? "outer_angle" : "inner_angle",
-        fmt::format("`outer_angle` must be more than `inner_angle` by 0.001 at least; they are {:g} and {:g}",
+        fmt::format("`outer_angle` must exceed `inner_angle` by at least 0.001; they are {:g} and {:g}",
                     outer, inner));
   if (table.failed()) return nullptr;
   return make_light(SpotLight{table.vec3("position"), direction / length, table.color("intensity"),

@@ -81,9 +81,10 @@ class MovedValues {
       tracks_.emplace(place, Track{at});
     } else if (!std::exchange(earlier->second.undone, true)) {
       const SourcePosition& first = earlier->second.at;
-      track.error("target", fmt::format("the [[track]] at {}:{} moves this already: give one track all its "
-                                        "keyframes",
-                                        printable(first.file), first.line));
+      track.error(
+          "target",
+          fmt::format("the [[track]] at {}:{} moves this already: put all its keyframes into one track",
+                      printable(first.file), first.line));
     }
   }
 

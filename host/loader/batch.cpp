@@ -40,16 +40,17 @@ Batch read_batch(const Section& section, const toml::table& table, DiagnosticLog
       fail(key.source(), fmt::format("unknown key `{}` in the batch of {}{}", key.str(), section.title,
                                      nearest.empty() ? "" : fmt::format("; did you mean `{}`?", nearest)));
     } else if (table.contains(key.str())) {
-      fail(key.source(), fmt::format("`{}` stands in the table and in its batch", key.str()));
+      fail(key.source(), fmt::format("`{}` is given both in the table and in its batch", key.str()));
     } else if (!list.is_array()) {
-      fail(list.source(), fmt::format("`{}` in a batch must be a list, one value each", key.str()));
+      fail(list.source(),
+           fmt::format("`{}` in a batch must be a list of values, one for each object", key.str()));
     } else if (!first) {
       first = &key;
       batch.count = list.as_array()->size();
     } else if (list.as_array()->size() != batch.count) {
       fail(list.source(),
-           fmt::format("`{}` has {} values, `{}` has {}: the lists of a batch are equally long", key.str(),
-                       list.as_array()->size(), first->str(), batch.count));
+           fmt::format("`{}` has {} values, but `{}` has {}: the lists of a batch must be equally long",
+                       key.str(), list.as_array()->size(), first->str(), batch.count));
     }
   }
   return ok ? batch : Batch{nullptr, 0};

@@ -12,7 +12,7 @@ void check_view(reading::TableReader& table, const Camera& camera) {
   const double reach = std::max(glm::length(camera.eye), glm::length(camera.target));
   if (!(glm::length(view) > 1e-12 * reach)) {
     table.error(table.has("target") ? "target" : "eye",
-                "`eye` and `target` are the same point: the camera looks nowhere");
+                "`eye` and `target` are the same point: the camera needs a direction");
     return;
   }
   if (camera.up == Vec3(0)) {
@@ -22,9 +22,9 @@ void check_view(reading::TableReader& table, const Camera& camera) {
   // The sine of the angle between them must be a number that survives normalising.
   const double sine = glm::length(glm::cross(glm::normalize(view), glm::normalize(camera.up)));
   if (!(sine > 1e-9)) {
-    table.error(
-        table.has("up") ? "up" : "target",
-        "`up` is parallel to the way the camera looks (target − eye); choose another, such as [0, 0, 1]");
+    table.error(table.has("up") ? "up" : "target",
+                "`up` is parallel to the direction in which the camera looks (target − eye); choose another, "
+                "such as [0, 0, 1]");
   }
 }
 

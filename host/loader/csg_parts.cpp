@@ -9,10 +9,10 @@ namespace eyeray::engine::loader {
 std::string why_no_part(const Section& section) {
   switch (section.kind) {
     case Section::Kind::mesh:
-      return "a mesh cannot be part of a CSG object: nothing says that it encloses a volume";
+      return "a mesh cannot be part of a CSG object: it may not enclose a volume";
     case Section::Kind::group:
     case Section::Kind::instance:
-      return "a group cannot be part of a CSG object; what is to be moved as one is a [[csg.csg]]";
+      return "a group cannot be part of a CSG object; use a [[csg.csg]] to move several parts together";
     default:
       return "";
   }
@@ -34,8 +34,8 @@ std::string why_two_media(const Shape& csg, const std::vector<std::unique_ptr<Ma
     if (!materials[size_t(index)]->medium() || index == first) return;
     if (first >= 0 && why.empty())
       why = fmt::format(
-          "a CSG object is filled with one medium, and light passes through its surfaces of \"{}\" and of "
-          "\"{}\"",
+          "a CSG object can be filled with only one medium, but light passes through its surfaces of \"{}\" "
+          "and of \"{}\"",
           materials[size_t(first)]->name, materials[size_t(index)]->name);
     first = index;
   });

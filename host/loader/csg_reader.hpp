@@ -32,7 +32,7 @@ class CsgReader {
         for (const auto& [key, node] : *held) {
           if (std::ranges::find(placed_names(), key.str()) != placed_names().end()) continue;
           log_.error(reading::position_of(key.source()),
-                     fmt::format("unknown key `{}` in `minus`, which holds shapes alone", key.str()));
+                     fmt::format("unknown key `{}` in `minus`, which can contain only shapes", key.str()));
           ok = false;
         }
         ok = read_parts(*held, placing, material, removed) && ok;

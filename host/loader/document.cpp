@@ -40,7 +40,7 @@ void merge(toml::table& root, toml::table& file, DiagnosticLog& log) {
     toml::node* known = root.get(key.str());
     if (!section->many()) {
       if (!node.is_table()) {
-        log.error(at, fmt::format("write {}, in single brackets: a scene has one", section->title));
+        log.error(at, fmt::format("write {}, in single brackets: a scene can have only one", section->title));
         continue;
       }
       if (known) merge_settings(*node.as_table(), *known->as_table());
@@ -52,7 +52,7 @@ void merge(toml::table& root, toml::table& file, DiagnosticLog& log) {
     // A list of tables. One that lacks its second brackets is read on, for what else is wrong in it.
     if (!known) known = &root.insert_or_assign(key, toml::array()).first->second;
     if (node.is_table()) {
-      log.error(at, fmt::format("write {}, in double brackets: a scene may have many", section->title));
+      log.error(at, fmt::format("write {}, in double brackets: a scene can have many", section->title));
       known->as_array()->push_back(std::move(node));
       continue;
     }

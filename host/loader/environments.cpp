@@ -55,9 +55,8 @@ std::string fault_of(const image::Image& image) {
       }
   if (wrong == 0) return "";
   return fmt::format(
-      "{} value{} of the picture {} no light, which is from 0 to {:g}; the first is {:g}, in column {} of "
-      "row "
-      "{}",
+      "{} value{} of the picture {} out of range: light must be from 0 to {:g}; the first is {:g}, in column "
+      "{} of row {}",
       wrong, wrong == 1 ? "" : "s", wrong == 1 ? "is" : "are", brightest, value, x, y);
 }
 

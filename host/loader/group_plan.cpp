@@ -104,7 +104,7 @@ void GroupPlan::enter_names(const toml::table& root) {
       if (!fresh) shared_names_.insert(name->get());
     } else if (is_pattern(group)) {
       log_.error(reading::position_of(group.get("pattern")->source()),
-                 "a pattern needs a `name`, by which an [[instance]] shows it");
+                 "a pattern needs a `name`, by which an [[instance]] refers to it");
     }
   }
 }
@@ -157,7 +157,7 @@ void GroupPlan::visit(Node& node, std::vector<std::string_view>& chain) {
     std::vector<std::string_view> circle(std::ranges::find(chain, node.name), chain.end());
     std::erase(circle, "");
     fail(*node.table->get("name"),
-         fmt::format("group \"{}\" holds itself: {}", node.name, fmt::join(circle, " → ")));
+         fmt::format("group \"{}\" contains itself: {}", node.name, fmt::join(circle, " → ")));
   } else if (chain.size() > deepest) {
     fail(*node.table, fmt::format("groups are nested more than {} deep", deepest));
   } else {
@@ -203,11 +203,11 @@ void GroupPlan::check_counts(const Node& root) {
   for (const toml::table* group : idle()) kept += by_table_.at(group)->objects;
   if (root.items > most_shown) {
     sound_ = false;
-    log_.error({}, fmt::format("batches and groups show {:.0f} objects; at most {:.0f} can be told apart",
+    log_.error({}, fmt::format("batches and groups show {:.0f} objects; at most {:.0f} can have ids",
                                root.items, most_shown));
   } else if (kept > most_kept) {
     sound_ = false;
-    log_.error({}, fmt::format("batches and groups come to {:.0f} objects; at most {:.0f} are possible", kept,
+    log_.error({}, fmt::format("batches and groups make {:.0f} objects; at most {:.0f} are possible", kept,
                                most_kept));
   }
 }

@@ -43,8 +43,7 @@ std::optional<image::Image> ImageFiles::load_light(const std::string& name, cons
     const auto [path, whole] = find(name, position);
     if (image::image_format(path) == image::ImageFormat::png)
       throw Error(ExitCode::bad_input,
-                  "{}: a .png does not hold light, but what a screen shows; take a .hdr, "
-                  ".exr or .pfm",
+                  "{}: a .png stores colours for a screen, not light; use a .hdr, .exr or .pfm",
                   path.string());
     take_note(path);
     std::vector<std::string> warnings;

@@ -107,8 +107,8 @@ class Between {
   std::string unlike(const toml::node& node) {
     sound_ = false;
     log_.error(reading::position_of(node.source()),
-               "this is not of the form of the keyframe before it, so nothing is between them; curve = "
-               "\"step\" jumps");
+               "this value has another form than that of the keyframe before it, so the two cannot be "
+               "interpolated; curve = \"step\" jumps");
     return "0";
   }
 
@@ -208,14 +208,14 @@ std::optional<std::vector<Keyframe>> read(const toml::array& list, DiagnosticLog
       return std::nullopt;
     }
     if (!keyframes.empty() && !(frame > keyframes.back().frame)) {
-      log.error(
-          reading::position_of(pair->get(0)->source()),
-          fmt::format("keyframes must be in their order: {} is not after {}", frame, keyframes.back().frame));
+      log.error(reading::position_of(pair->get(0)->source()),
+                fmt::format("keyframes must be in order of their frames: {} is not after {}", frame,
+                            keyframes.back().frame));
       return std::nullopt;
     }
     if (const toml::node* fixed = immovable(*pair->get(1))) {
       log.error(reading::position_of(fixed->source()),
-                "what moves is made of numbers: true and false, lists and tables of them may be there too");
+                "an animated value can be a number, true or false, or a list or table of these");
       return std::nullopt;
     }
     keyframes.push_back({frame, pair->get(1)});

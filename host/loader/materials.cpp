@@ -19,7 +19,7 @@ void bend_normals(reading::TableReader& reader, Material& material) {
     material.bump_map = BumpMap{bump, reader.number("bump_height"), width};
   }
   for (const std::string_view key : {"bump_height", "bump_width"})
-    if (reader.has(key) && !reader.has("bump")) reader.error(key, "without `bump` there are no heights");
+    if (reader.has(key) && !reader.has("bump")) reader.error(key, "this key needs a `bump`");
 }
 
 }  // namespace
@@ -45,22 +45,24 @@ void Materials::add(const Section& section, const toml::table& table) {
   }
   if (reader.has("alpha")) {
     if (material->medium())
-      reader.error("alpha", "what light passes through fills its shape, which can have no cutouts");
+      reader.error("alpha",
+                   "a material that light passes through fills its shape, which cannot have cutouts");
     material->mask = AlphaMask{.alpha = reader.texture("alpha"),
                                .cutoff = reader.number("alpha_cutoff"),
                                .blends = reader.choice("alpha_mode") == 1};
     if (material->mask->alpha && material->mask->alpha->in_space())
-      reader.error("alpha", "a pattern in space can cut nothing out");
+      reader.error("alpha", "a pattern in space cannot be an `alpha`");
     if (material->mask->blends && reader.has("alpha_cutoff"))
-      reader.error("alpha_cutoff",
-                   "what blends is not cut off: leave out `alpha_cutoff`, or set `alpha_mode` to \"mask\"");
+      reader.error(
+          "alpha_cutoff",
+          "a material that blends has no cutoff: leave out `alpha_cutoff`, or set `alpha_mode` to \"mask\"");
   } else {
     for (const std::string_view key : {"alpha_cutoff", "alpha_mode"})
       if (reader.has(key)) reader.error(key, fmt::format("`{}` needs an `alpha`", key));
   }
   material->emits_in_front = reader.choice("emission_side") == 1;
   if (material->emits_in_front && !material->emits())
-    reader.error("emission_side", "without `emission` there is no light of its own");
+    reader.error("emission_side", "`emission_side` needs an `emission`");
   bend_normals(reader, *material);
   material->name = name;
   entry->second.index = static_cast<int>(scene_.materials.size());

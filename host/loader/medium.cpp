@@ -102,7 +102,8 @@ MediumExtent read_medium_extent(reading::TableReader& table) {
       table.error("max", "the medium's box has no volume: `max` must be above `min` in each coordinate");
   }
   if (table.has("top")) {
-    if (table.has("max")) table.error("top", "`top` is not for a box, which ends at the height of its `max`");
+    if (table.has("max"))
+      table.error("top", "`top` cannot be used with a box, which ends at the height of its `max`");
     extent.max.y = table.number("top");
   }
   if (table.has("scale_height"))
@@ -125,13 +126,12 @@ void warn_of_endless_medium(const Scene& scene, DiagnosticLog& log) {
   const bool any_lost = std::ranges::any_of(scene.lights, lost);
   if (extent.endless() && (any_lost || scene.environment || scene.render.background != Vec3(0)))
     log.warning({},
-                "[medium] has no end: light from infinitely far away, of an environment, a `background` or a "
-                "directional light, is lost in it; `min` and `max`, `top` or `scale_height` give it an end");
+                "[medium] is unbounded, so light from infinitely far away (an environment, a `background` or "
+                "a directional light) is lost in it; bound it with `min` and `max`, `top` or `scale_height`");
   else if (any_lost)
-    log.warning(
-        {},
-        "[medium] has no end in the direction of a directional light, whose light is lost in it; `min` and "
-        "`max` give it an end on all sides");
+    log.warning({},
+                "[medium] is unbounded towards a directional light, whose light is lost in it; `min` and "
+                "`max` bound it on all sides");
 }
 
 }  // namespace eyeray::engine::loader

@@ -24,7 +24,7 @@ std::vector<std::string> warnings_of(const importers::ImportedScene& scene, cons
   const size_t lights = scene.lights.size();
   if (lights > 0 || scene.camera) {
     all.push_back(
-        fmt::format("its {} not taken over: a scene says its own",
+        fmt::format("its {} not used: the scene sets its own",
                     lights == 0 ? "camera is" : (scene.camera ? "camera and lights are" : "lights are")));
   }
   for (std::string& warning : all) warning = fmt::format("{}: {}", file.string(), warning);
@@ -40,7 +40,7 @@ void MeshImports::add_file(const fs::path& file) {
 AllowedFolders::File MeshImports::find(const std::string& name, const std::string& from) const {
   if (memory_) {
     if (!memory_->contains(name))
-      throw Error(ExitCode::bad_input, "\"{}\" is none of the meshes that came with this scene", name);
+      throw Error(ExitCode::bad_input, "this scene came with no mesh \"{}\"", name);
     return {name, name};
   }
   return folders_->find("file", name, from, sources_);

@@ -47,7 +47,7 @@ int MeshPlacer::plain_material_index(const Mesh& mesh) {
 
 std::string MeshPlacer::check(size_t index, const Mat4& transform) const {
   if (const std::string why = why_singular(transform); !why.empty())
-    return fmt::format("with the transforms in the file, the map cannot be undone: {}", why);
+    return fmt::format("together with the transforms in the file, `transform` cannot be inverted: {}", why);
   const Affine map(transform);
   const auto& [bounds, thinnest] = extents_[index];
   for (int corner = 0; corner < 8; ++corner) {
@@ -63,7 +63,8 @@ std::string MeshPlacer::check(size_t index, const Mat4& transform) const {
   for (const auto& triangle : mesh.triangles) {
     Corners moved = corners(mesh, triangle);
     for (Vec3& corner : moved) corner = map.point(corner);
-    if (!(thickness(moved) >= least_thickness)) return "the map leaves some of the triangles no area";
+    if (!(thickness(moved) >= least_thickness))
+      return "the transform leaves some of the triangles without area";
   }
   return "";
 }

@@ -108,7 +108,7 @@ class Assignment {
   toml::node* enter_section() {
     const std::string_view name = path_[0].str();
     const Section* section = find_section(name);
-    if (name == include_key) return fail("`include` can stand in a file only"), nullptr;
+    if (name == include_key) return fail("`include` is allowed only in a file"), nullptr;
     if (!section) return fail(fmt::format("unknown table `{}`; {}", name, suggest_section(name))), nullptr;
     next_ = section->many() ? 2 : 1;
     if (path_.size() <= next_) {
@@ -165,7 +165,7 @@ class Assignment {
       } else if (toml::array* list = node->as_array()) {
         const auto index = as_index(part.str());
         if (!index || *index >= list->size()) {
-          return fail(fmt::format("`{}` has {} elements, counted from 0; `{}` is none of them",
+          return fail(fmt::format("`{}` has {} elements, counted from 0, so there is no element `{}`",
                                   path_[next_ - 1].str(), list->size(), part.str())),
                  false;
         }
@@ -175,7 +175,7 @@ class Assignment {
         }
         node = list->get(*index);
       } else {
-        return fail(fmt::format("`{}` holds a single value, so it has no `{}`", path_[next_ - 1].str(),
+        return fail(fmt::format("`{}` is a single value, so it has no `{}`", path_[next_ - 1].str(),
                                 part.str())),
                false;
       }

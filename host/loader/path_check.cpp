@@ -19,11 +19,11 @@ void warn_of_paths(const Scene& scene, DiagnosticLog& log) {
     const auto exceeds = [](const Vec3& share) { return glm::any(glm::greaterThan(share, Vec3(1 + 1e-9))); };
     if (exceeds(scattering.diffuse))
       log.warning(
-          {}, fmt::format("material \"{}\" would scatter more light than it gets: its `diffuse` counts as 1 "
-                          "where it is more",
-                          material->name));
+          {}, fmt::format(
+                  "material \"{}\" would scatter more light than it receives: its `diffuse` is clamped to 1",
+                  material->name));
     else if (exceeds(bsdf.diffuse + bsdf.mirror + bsdf.transmitted))
-      log.warning({}, fmt::format("material \"{}\" scatters more light than it gets: `diffuse` and "
+      log.warning({}, fmt::format("material \"{}\" scatters more light than it receives: `diffuse` and "
                                   "`reflectance` add up to more than 1",
                                   material->name));
   }
@@ -36,24 +36,23 @@ void warn_of_paths(const Scene& scene, DiagnosticLog& log) {
   const bool photons = sends_photons(scene.render.integrator);
   if (!photons && glass != scene.materials.end() && !scene.lights.empty() && !scene.environment &&
       lamps.sampled.empty() && unsampled.empty() && std::ranges::none_of(scene.lights, has_size))
-    log.warning({},
-                fmt::format("no path finds the light of points through glass (material \"{}\"): its shadow "
-                            "is black, without caustics; integrator = \"sppm\" shows them, and lamps with "
-                            "a size (`emission`, or the `angle` of a directional light) light through it",
-                            (*glass)->name));
+    log.warning({}, fmt::format("paths cannot find point lights through glass (material \"{}\"), so its "
+                                "shadow is black and has no caustics; use integrator = \"sppm\", or lights "
+                                "with a size (`emission`, or the `angle` of a directional light)",
+                                (*glass)->name));
   if (!photons && scene.lights.empty() && lamps.sampled.empty() && unsampled.empty() &&
       scene.render.background == Vec3(0) && !scene.environment)
     log.warning({},
-                "nothing shines: there is no [[light]], no `emission`, no `background` and no [environment]; "
-                "the picture will be black");
+                "the scene has no light: there is no [[light]], no `emission`, no `background` and no "
+                "[environment]; the picture will be black");
   warn_of_endless_medium(scene, log);
   if (!photons && !unsampled.empty())
     log.warning(
         unsampled.front(),
-        fmt::format("paths find the light of this{} by chance alone, which is noisy: they choose places on "
-                    "spheres, ellipsoids, boxes, cylinders, disks, triangles, parallelograms and meshes "
-                    "without cutouts",
-                    unsampled.size() == 1 ? "" : fmt::format(" and {} more", unsampled.size() - 1)));
+        fmt::format(
+            "paths find the light of this{} only by chance, which is noisy: they sample points on spheres, "
+            "ellipsoids, boxes, cylinders, disks, triangles, parallelograms and meshes without cutouts",
+            unsampled.size() == 1 ? "" : fmt::format(" and {} more", unsampled.size() - 1)));
 }
 
 }  // namespace eyeray::engine::loader

@@ -49,42 +49,39 @@ void check_surfaces(const Scene& scene, reading::TableReader& render) {
     if (scatters_widely(*scene.materials[i])) return;
     ++tried;
   }
-  render.error("integrator",
-               tried == 0
-                   ? fmt::format("`sppm` has no surface that could keep any of its {} photons: the scene "
-                                 "has no shapes",
-                                 scene.render.photons)
-                   : fmt::format("no surface keeps any of the {} photons of `sppm`: of {} materials none "
-                                 "scatters light widely, by a colour or a roughness of 0.32 or more; "
-                                 "`path` needs no such surface",
-                                 scene.render.photons, tried));
+  render.error(
+      "integrator",
+      tried == 0
+          ? fmt::format("`sppm` has no surface that could store its {} photons: the scene has no shapes",
+                        scene.render.photons)
+          : fmt::format("no surface stores any of the {} photons of `sppm`: none of {} materials has a wide "
+                        "lobe, by a colour or a roughness of 0.32 or more; `path` needs no such surface",
+                        scene.render.photons, tried));
 }
 
 void check_lights(const Scene& scene, reading::TableReader& render, std::span<const SourcePosition> lights,
                   DiagnosticLog& log) {
   const Emitters lamps = emitters(scene);
   if (scene.lights.empty() && lamps.sampled.empty() && lamps.unsampled.empty() && !scene.environment)
-    render.error("integrator",
-                 fmt::format("`sppm` has no light to send its {} photons out from: there is no [[light]], no "
-                             "`emission`, no `background` and no [environment]",
-                             scene.render.photons));
+    render.error("integrator", fmt::format("`sppm` has no light to emit its {} photons from: there is no "
+                                           "[[light]], no `emission`, no `background` and no [environment]",
+                                           scene.render.photons));
   if (!lamps.unsampled.empty())
     log.error(
         lamps.unsampled.front(),
         fmt::format(
-            "`sppm` cannot send photons out from this{}: it chooses places on spheres, ellipsoids, "
-            "boxes, cylinders, disks, triangles, parallelograms and meshes without cutouts",
+            "`sppm` cannot emit photons from this{}: it samples points on spheres, ellipsoids, boxes, "
+            "cylinders, disks, triangles, parallelograms and meshes without cutouts",
             lamps.unsampled.size() == 1 ? "" : fmt::format(" and {} more", lamps.unsampled.size() - 1)));
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     const LightForm form = scene.lights[i]->form();
     if (const auto* point = std::get_if<PointLight>(&form); point && point->falloff == Falloff::none)
       log.error(lights[i],
-                "`sppm` cannot send photons out from a point light with falloff = \"none\": whatever the "
-                "distance, as many would have to arrive");
+                "`sppm` cannot emit photons from a point light with falloff = \"none\": equally many would "
+                "have to arrive at any distance");
     else if (std::holds_alternative<std::monostate>(form))
-      log.error(lights[i],
-                fmt::format("`sppm` does not know how a light of the type \"{}\" sends photons out",
-                            scene.lights[i]->type));
+      log.error(lights[i], fmt::format("`sppm` does not support photons from a light of the type \"{}\"",
+                                       scene.lights[i]->type));
   }
 }
 
@@ -100,17 +97,17 @@ void check_radius(const Scene& scene, const PhotonSettings& settings, reading::T
                              "radius of {:.3g}: give a smaller `photon_radius`",
                              settings.radius, settings.reach));
   else if (settings.reach > 0 && gathered > most_gathered)
-    render.error(key,
-                 fmt::format("each sample would gather some {:.2g} of {} photons, within {:.3g} of a scene "
-                             "with a radius of {:.3g}, and {:.2g} are the most: give a smaller "
-                             "`photon_radius`, or fewer `photons`",
-                             gathered, settings.count, settings.radius, settings.reach, most_gathered));
+    render.error(
+        key,
+        fmt::format(
+            "each sample would gather some {:.2g} of {} photons, within {:.3g} of a scene with a radius of "
+            "{:.3g}, but at most {:.2g} are allowed: give a smaller `photon_radius`, or fewer `photons`",
+            gathered, settings.count, settings.radius, settings.reach, most_gathered));
   else if (!(reach <= most_cells * 2 * settings.radius))
-    render.error(key,
-                 fmt::format("photons would be gathered within {:.3g}, which float32 cannot tell apart in a "
-                             "scene that reaches {:.3g} from the eye: give a `photon_radius` of {:.2g} or "
-                             "more",
-                             settings.radius, reach, reach / most_cells));
+    render.error(
+        key, fmt::format("photons would be gathered within {:.3g}, which float32 cannot resolve in a scene "
+                         "that reaches {:.3g} from the eye: give a `photon_radius` of {:.2g} or more",
+                         settings.radius, reach, reach / most_cells));
 }
 
 }  // namespace
@@ -132,11 +129,11 @@ void prepare_for_photons(Scene& scene, reading::TableReader& render, std::span<c
                          });
   const auto endless = std::ranges::find_if(scene.shapes, [](const auto& shape) { return !has_end(*shape); });
   if (from_afar && endless != scene.shapes.end())
-    log.warning(
-        (*endless)->position,
-        fmt::format("light from afar sends photons to {:.3g} around the middle of what has an end alone: "
-                    "what this, which has none, throws on other surfaces from beyond is not seen",
-                    settings.reach));
+    log.warning((*endless)->position,
+                fmt::format("light from infinitely far away emits photons only within {:.3g} of the centre "
+                            "of the bounded shapes: this shape is unbounded, and the light that it scatters "
+                            "onto other surfaces from farther away is missing",
+                            settings.reach));
 }
 
 }  // namespace eyeray::engine::loader

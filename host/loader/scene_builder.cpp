@@ -308,8 +308,9 @@ size_t Builder::for_each_placed(const Section& section, const toml::table& table
       reader.error("name", "a name must not be empty; leave `name` out instead");
     placed.to_world = group.to_world * reader.transform("transform");
     if (const std::string why = why_singular(placed.to_world); !why.empty()) {
-      reader.error("transform",
-                   fmt::format("with the transforms of its groups, the map cannot be undone: {}", why));
+      reader.error(
+          "transform",
+          fmt::format("together with the transforms of its groups, `transform` cannot be inverted: {}", why));
       continue;
     }
     worst_condition_ = std::max(worst_condition_, condition(Mat3(placed.to_world)));
@@ -333,10 +334,9 @@ std::unique_ptr<Shape> Builder::parse_shape(const Section& section, reading::Tab
   if (!section.shape->flat && !scene_.materials.empty() && scene_.materials[size_t(material)]->mask)
     reader.error(
         "material",
-        fmt::format(
-            "a material with `alpha` has cutouts, and a ray may hit a {} again behind one; only planes, "
-            "triangles, polygons, parallelograms, disks and meshes can be of it",
-            section.shape->name));
+        fmt::format("a material with `alpha` has cutouts, and a ray may hit a {} again behind one; only "
+                    "planes, triangles, polygons, parallelograms, disks and meshes can have such a material",
+                    section.shape->name));
   shape->material = material;
   shape->type = section.shape->name;
   shape->name = placing.name;

@@ -24,7 +24,7 @@ std::string with_value(std::string text, const std::string& table, const std::st
   try {
     root = toml::parse(text);
   } catch (const toml::parse_error& error) {
-    throw Error(ExitCode::bad_input, "{} = {} cannot be written into what is no scene: {}", key, value,
+    throw Error(ExitCode::bad_input, "{} = {} cannot be written, as the file is not a scene: {}", key, value,
                 error.description());
   }
   const toml::table* const found = root[table].as_table();
@@ -36,7 +36,7 @@ std::string with_value(std::string text, const std::string& table, const std::st
   if (!old) {
     if (found->is_inline() || !text.substr(line_start(text, found->source().begin.line)).starts_with('['))
       throw Error(ExitCode::bad_input,
-                  "write {} = {} into `{}` by hand: it is no table with a line of its own", key, value,
+                  "write {} = {} into `{}` by hand: the table has no header on a line of its own", key, value,
                   table);
     const size_t header_end = text.find('\n', line_start(text, found->source().begin.line));
     const std::string line = fmt::format("\n{} = {}", key, value);

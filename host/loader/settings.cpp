@@ -216,14 +216,15 @@ RenderSettings read_render(reading::TableReader& table) {
   if (walks_at_random(render.integrator)) render.max_depth = 16;
   if (table.has("max_depth")) render.max_depth = static_cast<int>(table.integer("max_depth"));
   if (constexpr int most_waiting = 64; render.max_depth > most_waiting && !walks_at_random(render.integrator))
-    table.error("max_depth",
-                fmt::format("`max_depth` must be at most {}, but for the integrators \"path\" and \"sppm\"",
-                            most_waiting));
+    table.error(
+        "max_depth",
+        fmt::format("`max_depth` must be at most {}, except for the integrators \"path\" and \"sppm\"",
+                    most_waiting));
   render.min_throughput = table.number("min_throughput");
   render.seed = static_cast<uint32_t>(table.integer("seed"));
   render.light_sampler = static_cast<LightSampler>(table.choice("light_sampler"));
   if (sends_photons(render.integrator) && render.light_sampler == LightSampler::bvh)
-    table.error("light_sampler", "`sppm` chooses lights by power, as photons do: not by a BVH");
+    table.error("light_sampler", "`sppm` chooses lights by power, as its photons do, not by a BVH");
   render.photons = static_cast<int>(table.integer("photons"));
   if (table.has("photon_radius")) render.photon_radius = table.number("photon_radius");
   render.triangle_method = static_cast<TriangleMethod>(table.choice("triangle"));

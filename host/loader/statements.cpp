@@ -182,8 +182,8 @@ std::optional<Excess> find_excess(std::string_view text, TreeBudget& budget) {
       }
       case '.':
         if (++parts > most_key_parts)
-          return excess(
-              fmt::format("a key of more than {} parts; groups nest deeper by [[instance]]", most_key_parts));
+          return excess(fmt::format(
+              "a key can have at most {} parts; to nest groups deeper, use [[instance]]", most_key_parts));
         if (header) cost = of_key_part;
         break;
       case '=':
@@ -212,7 +212,8 @@ std::optional<Excess> find_excess(std::string_view text, TreeBudget& budget) {
     if (!is_space(c)) blank = false;
     if (cost > budget.left)
       return excess(
-          "the scene has more keys and values than eyeray reads; a batch takes less, a mesh file hardly any");
+          "the scene has more keys and values than eyeray reads; a batch needs fewer, a mesh file hardly "
+          "any");
     budget.left -= cost;
   }
   return std::nullopt;

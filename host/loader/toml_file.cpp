@@ -89,7 +89,7 @@ void report(const toml::parse_error& error, const std::string& text, const State
   // Blame an open value where it begins, not where the parser noticed.
   if (statement.line < at.line) {
     log.error({name, statement.line, statement.column},
-              fmt::format("syntax: this value has no end: {}, in line {}", message, at.line));
+              fmt::format("syntax: this value does not end: {}, in line {}", message, at.line));
     return;
   }
   log.error(at, "syntax: " + message);
@@ -100,11 +100,10 @@ void report(const toml::parse_error& error, const std::string& text, const State
 std::string read_scene_text(const std::filesystem::path& file) {
   std::string text = read_input_file(file, "the scene", most_bytes);
   if (file.extension() != ".toml" && text.find('\0') != std::string::npos)
-    throw Error(
-        ExitCode::bad_input,
-        "{} is no scene: it holds bytes that are no text; a scene is a .toml, a mesh an .obj, .ply, .gltf or "
-        ".glb",
-        file.string());
+    throw Error(ExitCode::bad_input,
+                "{} is not a scene: it contains bytes that are not text; a scene is a .toml, a mesh an .obj, "
+                ".ply, .gltf or .glb",
+                file.string());
   return text;
 }
 
@@ -118,7 +117,7 @@ std::string explain_syntax(std::string_view description, std::string_view statem
     where = description.substr(prefix.size(), colon - prefix.size());
     what = description.substr(colon + 2);
   }
-  if (what.find("invalid utf-8") != std::string::npos) return "what follows is not UTF-8 text";
+  if (what.find("invalid utf-8") != std::string::npos) return "the text from here on is not UTF-8";
 
   // Say what to do where it is known.
   const auto says = [&](std::string_view part) { return what.find(part) != std::string::npos; };
@@ -130,12 +129,12 @@ std::string explain_syntax(std::string_view description, std::string_view statem
   if (where == "floating-point" && !says("interpreted"))
     return what + "; write digits on both sides of the point: 0.5, 1.0";
   if (says("expected 'true'") || says("expected 'false'") || says("could not determine value type")) {
-    return "this is not a value; a text stands in quotes: \"…\"";
+    return "this is not a value; put a text in quotes: \"…\"";
   }
   if (where == "string" && says("unescaped control")) return "this text has no closing quote on its line";
   if (where == "key-value pair" && says("end-of-file")) return "a value is missing";
   if (says("maximum nested value depth")) return "lists and tables are nested too deep";
-  if (where == "inline table" && says("saw '\\n'")) return what + "; { … } must stand on one line";
+  if (where == "inline table" && says("saw '\\n'")) return what + "; { … } must be on one line";
   return what;
 }
 

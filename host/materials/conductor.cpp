@@ -100,7 +100,7 @@ class Conductor final : public Physical {
 std::unique_ptr<Material> parse(TableReader& table) {
   const bool index = table.has("n") || table.has("k");
   if (int(table.has("metal")) + int(index) + int(table.has("color")) != 1)
-    table.error("metal", "is a `metal`, or `n` and `k`, or a `color`: one of the three");
+    table.error("metal", "a conductor must have one of `metal`, `n` and `k`, or `color`");
   if (index && !(table.has("n") && table.has("k"))) table.error("n", "`n` and `k` belong together");
   if (table.has("n") && table.valid("n")) {
     const Vec3 n = table.color("n");

@@ -159,7 +159,7 @@ std::unique_ptr<Material> parse(TableReader& table) {
   if (table.boolean("thin"))
     for (const char* inside : {"absorption", "scattering"})
       if (table.has(inside))
-        table.error(inside, "a thin pane has no inside that absorbs; `principled` has panes of a colour");
+        table.error(inside, "a thin pane has no inside that absorbs; use `principled` for coloured panes");
   const Medium medium = read_medium(table, table.number("ior"));
   DielectricValues values{.ior = medium.ior,
                           .thin = table.boolean("thin"),

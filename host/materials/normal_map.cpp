@@ -13,7 +13,7 @@ TexturePtr as_data(const TexturePtr& texture) {
 
 std::optional<NormalMap> read_normal_map(TableReader& table, std::string_view key, std::string_view scale) {
   if (table.has(key)) return NormalMap{as_data(table.texture(key)), table.number(scale)};
-  if (table.has(scale)) table.error(scale, fmt::format("without `{}` there is nothing to scale", key));
+  if (table.has(scale)) table.error(scale, fmt::format("this key needs a `{}` to scale", key));
   return std::nullopt;
 }
 

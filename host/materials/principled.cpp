@@ -300,17 +300,17 @@ std::unique_ptr<Material> parse_principled(TableReader& table) {
   values.sheen = table.texture("sheen_color");
   values.sheen_roughness = table.texture("sheen_roughness");
   if (values.thin && table.has("absorption"))
-    table.error("absorption", "a thin pane has no inside that absorbs; its `color` tints");
+    table.error("absorption", "a thin pane has no inside that absorbs; tint it by its `color`");
   for (const char* key : {"thin", "absorption"})
     if (table.has(key) && !table.has("transmission"))
-      table.error(key, fmt::format("`{}` is about light that goes through, which takes `transmission`", key));
+      table.error(key, fmt::format("`{}` applies to transmitted light, so it needs `transmission`", key));
   if (table.failed()) return nullptr;
   values.coat = table.texture("coat");
   values.coat_roughness = table.texture("coat_roughness");
   std::unique_ptr<Material> material = make(values, nullptr, shader::MATERIAL_principled);
   material->coat_normal_map = read_normal_map(table, "coat_normal", "coat_normal_scale");
   if (material->coat_normal_map && !table.has("coat"))
-    table.error("coat_normal", "without `coat` there is no coat to bend");
+    table.error("coat_normal", "`coat_normal` needs a `coat`");
   return material;
 }
 

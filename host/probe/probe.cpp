@@ -55,14 +55,14 @@ class Pixel {
       const std::string name(backend_name(backend));
       findings.participants.push_back({backend, executors_[i]->facts().description, probed.sample});
       if (const Vec3 color = sample(i, index_).color; !same_bits(color, probed.sample.color))
-        findings.notes.push_back(fmt::format(
-            "the kernel that renders makes the pixel {:.9g} {:.9g} {:.9g} by {}, not what is seen "
-            "here: look into what makes it another",
-            color.x, color.y, color.z, name));
+        findings.notes.push_back(
+            fmt::format("the kernel that renders computes {:.9g} {:.9g} {:.9g} for this pixel with {}, which "
+                        "differs from the value here: find out why",
+                        color.x, color.y, color.z, name));
       if (probed.rays.lost > 0) {
         incomplete = true;
-        findings.notes.push_back(
-            fmt::format("{}: the tree is cut: {} more rays and values had no room", name, probed.rays.lost));
+        findings.notes.push_back(fmt::format("{}: the tree is truncated: {} more rays and values had no room",
+                                             name, probed.rays.lost));
       }
       FirstHit hit;
       executors_[i]->first_hits({options_.x, options_.y, 1, 1}, std::span(&hit, 1));
@@ -198,7 +198,7 @@ std::string describe(const Ray& ray) {
     case RayKind::pixel:
       return "pixel";
     case RayKind::eye:
-      return "eye ray";
+      return "camera ray";
     case RayKind::reflected:
       return "reflected ray";
     case RayKind::refracted:

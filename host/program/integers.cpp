@@ -21,7 +21,7 @@ bool parse_integers(std::string_view text, char separator, std::span<int> number
 std::pair<int, int> parse_size(const std::string& text) {
   int size[2];
   if (!parse_integers(text, 'x', size))
-    throw Error(ExitCode::bad_input, "--size wants WIDTHxHEIGHT, as 640x480, not '{}'", text);
+    throw Error(ExitCode::bad_input, "--size must be WIDTHxHEIGHT, such as 640x480, not '{}'", text);
   return {size[0], size[1]};
 }
 

@@ -15,7 +15,7 @@ CLI::Validator in_range(const char* kind, Number low, Number high) {
       [=](const std::string& text) {
         Number value{};
         const bool good = CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
-        return good ? std::string() : fmt::format("is {}, not '{}'", range, text);
+        return good ? std::string() : fmt::format("must be {}, not '{}'", range, text);
       },
       range);
 }
@@ -35,7 +35,7 @@ CLI::Validator one_of(const std::vector<std::string>& names) {
   return CLI::Validator(
       [=](const std::string& text) {
         const bool good = std::ranges::find(names, text) != names.end();
-        return good ? std::string() : fmt::format("is one of {}, not '{}'", list, text);
+        return good ? std::string() : fmt::format("must be one of {}, not '{}'", list, text);
       },
       list);
 }

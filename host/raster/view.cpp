@@ -42,7 +42,7 @@ View::View(const Camera& camera, const Vec2& size, const Rect& area)
   const bool lens = pinhole && pinhole->aperture.radius > 0;
   if (lens || (!pinhole && !parallel))
     throw Error(ExitCode::bad_input,
-                "--raster draws what a projection matrix describes, which is a perspective camera without an "
+                "--raster needs a camera that a projection matrix describes: a perspective camera without an "
                 "aperture, or an orthographic one; this {}: leave out --raster",
                 lens ? "camera has a lens" : "camera is another");
   perspective_ = pinhole != nullptr;

@@ -57,7 +57,7 @@ Seen Witness::traced_at(const compare::Frame& frame, size_t pixel) const {
 std::string Witness::misplaced(const FirstHit& hit, int x, int y) const {
   const Vec3 at = view().to_camera(hit.position);
   if (!(hit.t > 0) || !std::isfinite(hit.t) || !std::isfinite(magnitude(at)))
-    return "its t or its position is no number";
+    return "its t or its position is not a number";
   const Vec3 drawn = view().project(Vec4(at, 1.0));
   const Vec2 center(x + 0.5, y + 0.5);
   const double nearness = view().nearness(x, y, hit.t);
@@ -73,7 +73,7 @@ std::string Witness::misplaced(const FirstHit& hit, int x, int y) const {
     const double reach = list().reach(uint64_t(hit.primitive));
     if (within(error + 2 * coordinate_error * reach / std::max(std::fabs(hit.cosine), 0.01))) return "";
   }
-  return fmt::format("its position falls {:.2g} pixels aside of its pixel, and at t {:.9g}", aside,
+  return fmt::format("its position falls {:.2g} pixels away from its pixel, and at t {:.9g}", aside,
                      view().t(x, y, drawn.z));
 }
 
@@ -164,8 +164,8 @@ compare::RasterResult Witness::compare(const compare::Frame& frame, const std::s
         ++result.explained[size_t(judgement.cause)];
         break;
       case Judgement::unexplained:
-        fail(pixel, judgement.blames_ray ? "the ray hits what cannot be there"
-                                         : "the rasteriser draws what cannot be there");
+        fail(pixel, judgement.blames_ray ? "the ray hits a primitive that cannot be there"
+                                         : "the rasteriser draws a primitive that cannot be there");
     }
   }
   return result;

@@ -19,9 +19,9 @@ bool has_one_source(TableReader& table, std::initializer_list<std::string_view> 
   names.pop_back();
   for (const std::string_view key : sources)
     if (given == 0 || table.has(key)) {
-      table.error(key, given == 0 ? fmt::format("{} needs its function: one of {} and {}", owner,
+      table.error(key, given == 0 ? fmt::format("{} needs a function: give {} or {}", owner,
                                                 fmt::join(names, ", "), last)
-                                  : fmt::format("{} has one function: either {} or {}", owner,
+                                  : fmt::format("{} takes only one function: give either {} or {}", owner,
                                                 fmt::join(names, ", "), last));
       return false;
     }

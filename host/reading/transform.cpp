@@ -77,7 +77,7 @@ std::optional<Mat4> read_transform(const toml::array& steps, DiagnosticLog& log)
   }
   if (!ok) return std::nullopt;
   if (const std::string why = why_singular(map); !why.empty()) {
-    log.error(position_of(steps.source()), "`transform` cannot be undone: " + why);
+    log.error(position_of(steps.source()), "`transform` cannot be inverted: " + why);
     return std::nullopt;
   }
   return map;

@@ -169,10 +169,9 @@ std::vector<Vec4> Reader::color_map(const toml::node& node) {
     if (!pair || pair->size() != 2) return mismatch(element), colors;
     const double at = (*pair)[0].value<double>().value_or(-1);
     if (!(at >= (colors.empty() ? 0 : colors.back().w) && at <= 1))
-      return fail((*pair)[0],
-                  fmt::format(
-                      "where a color of `{}` is must be a number from 0 to 1, none less than that before it",
-                      key_.name)),
+      return fail((*pair)[0], fmt::format("the position of a color in `{}` must be a number from 0 to 1, not "
+                                          "less than the one before it",
+                                          key_.name)),
              colors;
     colors.emplace_back(vector<3>((*pair)[1], true), at);
   }

@@ -36,8 +36,8 @@ uint32_t Packer::add_formula(const std::shared_ptr<const formula::Formula>& form
   formula_instructions_ += formula->instructions();
   if (formula_instructions_ > most_formula_instructions)
     throw InputError({{Severity::error, formula->text().start,
-                       fmt::format("all functions up to {} have {} instructions, and may have {}: fewer of "
-                                   "them, or shorter ones",
+                       fmt::format("all functions up to {} have {} instructions; at most {} are allowed: use "
+                                   "fewer functions, or shorter ones",
                                    formula->title(), formula_instructions_, most_formula_instructions),
                        ""}});
   all.push_back({formula, by_bounds});

@@ -17,19 +17,20 @@ std::string describe_event(uint32_t event) {
       if (value == in_medium) return "is scattered by a medium";
       return value == 0 ? "hits nothing" : fmt::format("hits primitive {}", value - 1);
     case Event::light: {
-      if (value == 0) return "asks no light";
+      if (value == 0) return "samples no light";
       const std::string light = value / 2 == 1 ? "the environment" : fmt::format("light {}", value / 2 - 2);
       return light + (value % 2 == 1 ? " is seen" : " is hidden");
     }
     case Event::way: {
       if (value == 0) return "ends";
-      if (value == way_in_medium + 1) return "goes on through the medium";
-      return fmt::format("goes on by lobe {}{}", (value & ~through) - 1, value & through ? ", through" : "");
+      if (value == way_in_medium + 1) return "continues through the medium";
+      return fmt::format("continues by lobe {}{}", (value & ~through) - 1,
+                         value & through ? ", through" : "");
     }
     case Event::aim:
-      return fmt::format("heads for {} of {} targets", value % 32, value / 32);
+      return fmt::format("aims at {} of {} targets", value % 32, value / 32);
   }
-  return "does what is no event";
+  return "has an unknown event";
 }
 
 }  // namespace eyeray::engine::reference

@@ -61,7 +61,7 @@ Checkpoint Checkpoint::begin(std::filesystem::path file, std::vector<IdentityPar
   std::error_code ignored;
   if (std::filesystem::exists(file, ignored))
     throw Error(ExitCode::bad_input,
-                "the checkpoint {} is there already: --resume {} goes on from it, or remove it",
+                "the checkpoint {} exists already: continue from it with --resume {}, or remove it",
                 file.string(), shell_word(file.string()));
   check_writable(file);
   check_writable(rows_of(file));
@@ -99,7 +99,7 @@ void Checkpoint::read_header() {
   const auto begin = take<std::array<char, 8>>(checksum);
   if (std::string_view(begin.data(), begin.size()) != magic) damaged("it is not a checkpoint");
   if (const auto its = take<uint32_t>(checksum); its != version)
-    damaged(fmt::format("its layout is version {}, and this eyeray's is {}", its, version));
+    damaged(fmt::format("its layout has version {}, but this eyeray's has {}", its, version));
   const auto length = take<uint32_t>(checksum);
   if (length > longest_identity || length > input_bytes_) damaged("it is damaged");
   std::string text(length, '\0');
@@ -128,7 +128,7 @@ void Checkpoint::read_sums(film::Film& film) {
   uint64_t end = uint64_t(input_->tellg()) + sizeof(uint32_t);
   for (const std::span<std::byte> bytes : film.parts()) end += bytes.size();
   if (input_bytes_ < end) damaged("it ends too early");
-  if (input_bytes_ > end) damaged("it goes on after its end");
+  if (input_bytes_ > end) damaged("it has data after its end");
   uint32_t checksum = 0, ignored = 0;
   for (const std::span<std::byte> bytes : film.parts()) {
     if (!input_->read(reinterpret_cast<char*>(bytes.data()), std::streamsize(bytes.size())))

@@ -17,8 +17,7 @@ std::span<const FlagText> flag_texts() {
        "the driver's limit on loop iterations was near: lower render.max_depth or raise "
        "render.min_throughput; else show fewer shapes, or use --backend twin or a newer driver"},
       {iteration_limit, "iteration_limit",
-       "a shape that is searched for step by step was not found in the steps allowed; the AOV flags shows "
-       "where"},
+       "the search for a shape ran out of steps; the AOV flags shows where"},
   };
   return texts;
 }

@@ -32,8 +32,9 @@ void Legibility::see(const image::Image& rows) {
 
 std::string Legibility::warning() const {
   if (double(foreground_) < least_foreground * double(pixels_))
-    return "the model cannot be told from the background: smooth metal mirrors it, and a camera may miss the "
-           "model; give it surroundings, as with -D environment.image=studio.hdr, or another camera.eye";
+    return "the model cannot be distinguished from the background: smooth metal mirrors it, or the camera "
+           "misses the model; add an environment, such as -D environment.image=studio.hdr, or choose another "
+           "camera.eye";
   if (2 * bright_ > foreground_)
     return "more than half of the model is brighter than white: try --exposure -4, or --tone neutral";
   return "";

@@ -112,7 +112,7 @@ class Driver {
   bool take_up() {
     Checkpoint& checkpoint = *options_.checkpoint;
     const RenderPosition position = checkpoint.position();
-    const auto damaged = [&] { checkpoint.damaged("it stands nowhere in this picture"); };
+    const auto damaged = [&] { checkpoint.damaged("its position is outside the picture"); };
     if (position.finished_rows >= uint64_t(crop_.height) || position.samples > uint64_t(samples_) ||
         (position.samples == uint64_t(samples_) && position.extra_rows > 0))
       damaged();

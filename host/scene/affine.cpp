@@ -61,7 +61,7 @@ std::string why_singular(const Mat4& map) {
   if (!(size >= 1 / largest_number)) return "it shrinks everything to a point";
   if (determinant == 0) return "it flattens space (its determinant is 0)";
   if (const double stretch = condition(linear); !(stretch <= worst_condition))
-    return fmt::format("it all but flattens space (condition number {:.1e})", stretch);
+    return fmt::format("it nearly flattens space (condition number {:.1e})", stretch);
   if (!(glm::length(Vec3(map[3])) <= largest_number)) return "it moves things too far";
   return "";
 }

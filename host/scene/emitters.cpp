@@ -138,7 +138,8 @@ class Collector {
     emitter.area = area_of(emitter.form);
     if (emitter.area > 0) found_.sampled.push_back(std::move(emitter));
     if (found_.sampled.size() > most_emitters)
-      throw Error(ExitCode::bad_input, "more than {} surfaces emit light; light fewer of them, or none",
+      throw Error(ExitCode::bad_input,
+                  "more than {} surfaces emit light; give fewer of them an `emission`, or none",
                   most_emitters);
   }
 

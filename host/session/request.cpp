@@ -13,16 +13,15 @@ namespace {
 
 void check_noise(const Request& request, const Scene& scene) {
   if (!(request.noise >= 0 && request.noise <= 1) || !(request.clamp >= 0 && request.clamp <= 1e15))
-    throw Error(ExitCode::bad_input, "noise is from 0 to 1, and clamp from 0 to 1e15");
+    throw Error(ExitCode::bad_input, "noise must be from 0 to 1, and clamp from 0 to 1e15");
   if (request.noise == 0) return;
   if (request.shard)
-    throw Error(
-        ExitCode::bad_input,
-        "noise is measured from a pixel's neighbours, which other shards have: give all pixels the same "
-        "samples");
+    throw Error(ExitCode::bad_input,
+                "noise is measured from a pixel's neighbours, which are in other shards: leave out noise, so "
+                "that all pixels have the same number of samples");
   if (sample_count_of(scene.image.pattern) != SampleCount::any)
     throw Error(ExitCode::bad_input,
-                "noise stops after any number of samples, and the pattern '{}' needs all of them: set "
+                "noise stops after any number of samples, but the pattern '{}' needs all of them: set "
                 "image.pattern to \"sobol\" or \"random\"",
                 sample_patterns[uint32_t(scene.image.pattern)]);
 }
@@ -34,8 +33,7 @@ void check_classic(const Request& request) {
   std::ranges::copy_if(request.channels, std::back_inserter(lacks),
                        [&](film::Channel each) { return !film::contains(has, each); });
   if (!lacks.empty())
-    throw Error(ExitCode::bad_input,
-                "--classic samples the corners of pixels and so lacks the AOVs {}; it has {}",
+    throw Error(ExitCode::bad_input, "--classic samples pixel corners, so it lacks the AOVs {}; it has {}",
                 film::channel_names(lacks), film::channel_names(has));
 }
 
@@ -53,8 +51,8 @@ Rect crop_within(const Rect& crop, const ImageSettings& image) {
                       crop.x < image.width && crop.y < image.height && crop.width <= image.width - crop.x &&
                       crop.height <= image.height - crop.y;
   if (!inside)
-    throw Error(ExitCode::bad_input, "the crop {},{},{},{} leaves the picture, which is {}x{}", crop.x,
-                crop.y, crop.width, crop.height, image.width, image.height);
+    throw Error(ExitCode::bad_input, "the crop {},{},{},{} extends beyond the picture, which is {}x{}",
+                crop.x, crop.y, crop.width, crop.height, image.width, image.height);
   return crop;
 }
 

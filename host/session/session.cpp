@@ -22,7 +22,7 @@ void spare_sources(const std::vector<fs::path>& outputs, const Scene& scene) {
       std::error_code absent;
       if (fs::equivalent(output, source, absent))
         throw Error(ExitCode::bad_input,
-                    "{} would be overwritten, and the scene reads it{}: name another file", output.string(),
+                    "{} would be overwritten, but the scene reads it{}: name another file", output.string(),
                     output == source ? "" : " as " + source.string());
     }
   }

@@ -179,7 +179,7 @@ std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
   BezierNet net;
   std::copy(list.begin(), list.end(), net.begin());
   if (!(thickness(net) >= least_thickness)) {
-    table.error("points", "the patch has no area: its control points lie on one line or in one place");
+    table.error("points", "the patch has no area: its control points coincide or lie on one line");
     return nullptr;
   }
   const BezierNet world = transformed(net, Affine(transform));
@@ -189,7 +189,7 @@ std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
     return nullptr;
   }
   if (!(thickness(world) >= least_thickness)) {
-    table.error("transform", "the map leaves the patch without area");
+    table.error("transform", "the transform leaves the patch without area");
     return nullptr;
   }
   return make_bezier(net, transform);

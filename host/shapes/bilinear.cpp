@@ -156,7 +156,7 @@ std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
     return nullptr;
   }
   if (!(thickness(world) >= least_thickness)) {
-    table.error("transform", "the map leaves the patch flat");
+    table.error("transform", "the transform leaves the patch flat");
     return nullptr;
   }
   return make_bilinear(corners, transform);

@@ -308,7 +308,7 @@ constexpr Key keys[] = {
             "them. Parts below `minus` are subtracted.",
      .fallback = "\"union\"",
      .choices = operations,
-     .hint = "; what is taken away stands below `minus`, as [[csg.minus.sphere]]"},
+     .hint = "; write subtracted shapes below `minus`, as [[csg.minus.sphere]]"},
 };
 
 std::unique_ptr<Shape> combine(TableReader& table, ShapeType::Shapes operands, ShapeType::Shapes removed) {
@@ -316,7 +316,7 @@ std::unique_ptr<Shape> combine(TableReader& table, ShapeType::Shapes operands, S
   for (const auto* list : {&operands, &removed})
     for (const auto& shape : *list) for_each_leaf(*shape, [&](const Shape&) { ++leaves; });
   if (operands.empty()) {
-    table.error("operation", "an empty CSG object: no shape stands in it, such as [[csg.sphere]]");
+    table.error("operation", "the CSG object is empty: add a shape, such as [[csg.sphere]]");
   } else if (leaves > most_csg_leaves) {
     table.error("operation", fmt::format("the CSG object is made of {} shapes; at most {} are possible",
                                          leaves, most_csg_leaves));
@@ -326,7 +326,7 @@ std::unique_ptr<Shape> combine(TableReader& table, ShapeType::Shapes operands, S
   auto csg = std::make_unique<Csg>(all, std::move(operands), std::move(removed));
   if (all && csg->is_empty())
     table.warning("operation",
-                  "an empty CSG object: its parts lie beside each other, so nothing is within all of them");
+                  "the CSG object is empty: no point is within all of its parts, as they do not overlap");
   return csg;
 }
 

@@ -104,11 +104,11 @@ std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
   if (from == to) {
     table.error("to", "the axis has no length");
   } else if (waist > std::min(radius, to_radius)) {
-    table.error("waist", "the waist is the least radius: it must not be above those of the ends");
+    table.error("waist", "the waist is the smallest radius: it must not be above those of the ends");
   } else if (larger - waist < 1e-6 * larger) {
     table.error("waist", "equal radii make a cylinder: use [[cylinder]]");
   } else if (waist < 1e-6 * larger) {
-    table.error("waist", "so narrow a waist is a point: use two of [[cone]]");
+    table.error("waist", "the waist is so narrow that it is a point: use two of [[cone]]");
   } else {
     out_of_range(table, transform * placed(from, to, larger, Form(radius, to_radius, waist)));
   }

@@ -156,7 +156,7 @@ bool out_of_range(TableReader& table, const Mat4& to_world) {
     table.error("transform", "the shape is out of range (sizes 1e-12 to 1e12, coordinates up to 1e12)");
   } else if (const std::string why = why_singular(to_world); !why.empty()) {
     table.error("transform",
-                fmt::format("the shape is too thin for its size: as a map of a plain one, {}", why));
+                fmt::format("the shape is too thin for its size: as the transform of a unit shape, {}", why));
     fits = false;
   }
   return !fits;

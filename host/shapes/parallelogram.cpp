@@ -127,7 +127,7 @@ std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
     return nullptr;
   }
   if (thin(u, v)) {
-    table.error("transform", "the map leaves the parallelogram no area");
+    table.error("transform", "the transform leaves the parallelogram without area");
     return nullptr;
   }
   return make_parallelogram(origin, edge_u, edge_v, transform);

@@ -44,7 +44,7 @@ std::string why_out_of_range(const PlanarRegion& region) {
     size = std::max(size, magnitude(vertex - region.outer[0]));
   }
   if (size < min_radius) return "the transformed outline is too small (sizes from 1e-12)";
-  return region.normal() == Vec3(0) ? "the map leaves the outline no area" : "";
+  return region.normal() == Vec3(0) ? "the transform leaves the outline without area" : "";
 }
 
 double signed_area(std::span<const Vec2> outline) {

@@ -99,8 +99,8 @@ class RegionCheck {
         const bool closes = before == 0 && again + 1 == outline.size() && again > 2;
         return fail({k, again},
                     closes ? "the last vertex is the first one again: leave it out, outlines are closed"
-                           : fmt::format("vertex {} stands where vertex {} does: an outline passes a point "
-                                         "only once; holes are written as `holes`",
+                           : fmt::format("vertex {} is at the same point as vertex {}: an outline passes a "
+                                         "point only once; holes are written as `holes`",
                                          again + 1, before + 1));
       }
     }
@@ -141,11 +141,9 @@ class RegionCheck {
         if (off > most) most = off, worst = {k, i};
       }
     if (most > most_unevenness * size_)
-      return fail(
-          worst,
-          fmt::format("vertex {} of {} lies {:.3g} off the outline's plane, of an outline {:.3g} long: "
-                      "move it, or use triangles",
-                      worst.vertex + 1, name(worst.outline), most, size_));
+      return fail(worst, fmt::format("vertex {} of {} lies {:.3g} off the plane of the outline, which is "
+                                     "{:.3g} long: move it, or use triangles",
+                                     worst.vertex + 1, name(worst.outline), most, size_));
 
     // Lay it flat for what follows.
     const auto [u, v] = plane_axes(normal_);

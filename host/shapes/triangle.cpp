@@ -195,7 +195,7 @@ std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
     return nullptr;
   }
   if (!(thickness(world.vertices) >= thinnest_triangle)) {
-    table.error("transform", "the map leaves the triangle no area");
+    table.error("transform", "the transform leaves the triangle without area");
     return nullptr;
   }
   return std::make_unique<Triangle>(world);

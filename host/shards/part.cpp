@@ -97,7 +97,7 @@ std::string to_text(const PartHeader& header) {
 }
 
 PartHeader header_of(const std::string& text) {
-  return read_json(text, "its header makes no sense", [](const Json& json) {
+  return read_json(text, "its header is invalid", [](const Json& json) {
     PartHeader header;
     header.shard.count = whole_number<int>(json.at("shard").at(1), 1, render::most_shards);
     header.shard.index = whole_number<int>(json.at("shard").at(0), 0, header.shard.count - 1);
@@ -126,7 +126,7 @@ PartHeader header_of(const std::string& text) {
       header.identity.push_back(
           {part.at(0).get<std::string>(), part.at(1).get<std::string>(), part.at(2).get<bool>()});
 
-    if (header.area.pixels() > most_pixels_of_picture) nonsense("its header makes no sense");
+    if (header.area.pixels() > most_pixels_of_picture) nonsense("its header is invalid");
     return header;
   });
 }
@@ -147,7 +147,7 @@ std::string to_text(const PartTotals& totals) {
 }
 
 PartTotals totals_of(const std::string& text) {
-  return read_json(text, "its totals make no sense", [](const Json& json) {
+  return read_json(text, "its totals are invalid", [](const Json& json) {
     PartTotals totals;
     totals.rays = whole_number<uint64_t>(json.at("rays"));
     totals.flagged_pixels = whole_number<uint64_t>(json.at("flagged_pixels"));
@@ -200,7 +200,7 @@ render::Shard parse_shard(const std::string& text) {
   if (!slash || second.ec != std::errc() || second.ptr != end || number < 1 || number > count ||
       count > render::most_shards)
     throw Error(ExitCode::bad_input,
-                "--shard wants I/N, as 3/64: of N shares, at most {}, the I-th, not '{}'",
+                "--shard must be I/N, such as 3/64: the I-th of N shares, at most {}, not '{}'",
                 render::most_shards, text);
   return {number - 1, count};
 }

@@ -90,11 +90,11 @@ void PartReader::read_header() {
   const std::string prefix = text_at(0, std::min<uint64_t>(bytes_, part_prefix_bytes));
   const bool named = prefix.starts_with(part_magic);
   if (prefix.size() < part_prefix_bytes)
-    refuse(named ? "it is damaged: it ends too early" : "it is no part of a picture");
+    refuse(named ? "it is damaged: it ends too early" : "it is not a part of a picture");
   const bool sound = sum_of(std::string_view(prefix).substr(0, 16)) == word_at(prefix, 16);
-  if (!sound) refuse(named ? "it is damaged: its checksum is wrong" : "it is no part of a picture");
+  if (!sound) refuse(named ? "it is damaged: its checksum is wrong" : "it is not a part of a picture");
   if (const uint32_t version = word_at(prefix, 8); version != part_version)
-    refuse(fmt::format("its layout is version {}, and this eyeray's is {}", version, part_version));
+    refuse(fmt::format("its layout has version {}, but this eyeray's has {}", version, part_version));
   const uint32_t length = word_at(prefix, 12);
   if (length > longest_part_header) refuse("it is damaged: its header is too long");
   const std::string text = text_at(part_prefix_bytes, length);
@@ -114,12 +114,12 @@ void PartReader::read_header() {
            tile_pixels_.size() * sizeof(uint32_t);
   const uint32_t totals_length = word_at(text_at(end, 4), 0);
   const uint64_t whole = end + 4 + totals_length + 4;
-  if (bytes_ > whole) refuse("it is damaged: it goes on after its end");
+  if (bytes_ > whole) refuse("it is damaged: it has data after its end");
   const std::string totals = text_at(end, 4 + uint64_t{totals_length});
   if (word_at(text_at(whole - 4, 4), 0) != sum_of(totals)) refuse("it is damaged: its checksum is wrong");
   totals_ = totals.substr(4);
   if (totals_of(totals_).legends.size() != header_.aovs.size())
-    refuse("it is damaged: its totals make no sense");
+    refuse("it is damaged: its totals are invalid");
 }
 
 void PartReader::begin_planes() {

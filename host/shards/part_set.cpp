@@ -86,7 +86,7 @@ std::string PartFaults::text() const {
 void PartFaults::refuse() const {
   if (any())
     throw Error(damaged.empty() ? ExitCode::bad_input : ExitCode::file_io,
-                "these parts do not make a picture: {}", text());
+                "these parts do not make a whole picture: {}", text());
 }
 
 PartSet::PartSet(const std::vector<std::filesystem::path>& files) {

@@ -25,7 +25,7 @@ PartWriter::PartWriter(std::filesystem::path file, const PartHeader& header, con
     : tiles_(tiles), file_(std::move(file)) {
   const std::string text = to_text(header);
   if (text.size() > longest_part_header)
-    throw Error(ExitCode::bad_input, "what is to be said of this part takes {} bytes, and {} are the most",
+    throw Error(ExitCode::bad_input, "the header of this part has {} bytes; at most {} are allowed",
                 text.size(), longest_part_header);
   std::string begin(part_magic);
   begin += raw_bytes(part_version);

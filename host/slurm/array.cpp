@@ -31,7 +31,8 @@ std::vector<std::string> ask(const std::vector<std::string>& words) {
     answer = run_process(words, {}, patience);
   } catch (const Error&) {
     throw Error(ExitCode::file_io,
-                "there is no {} here: is this a machine that Slurm's jobs are submitted from?", words[0]);
+                "{} is not installed here: run this on a machine from which Slurm jobs are submitted",
+                words[0]);
   }
   if (answer.code != 0)
     throw Error(ExitCode::file_io, "Slurm's {} {}", words[0],
@@ -96,7 +97,7 @@ void prepare(Array& array) {
   const std::string folder = array.folder.string();
   if (folder.find('\\') != std::string::npos)
     throw Error(ExitCode::bad_input,
-                "the folder {} has a backslash in its path, where Slurm writes no output: choose another",
+                "the folder {} has a backslash in its path, where Slurm cannot write output: choose another",
                 folder);
   std::error_code error;
   fs::create_directories(array.folder, error);
@@ -107,12 +108,13 @@ void prepare(Array& array) {
   const std::string identity = ContentHash().add(array.contents).add(share).add(merge).hex();
   if (!is_there(array.file("identity"))) {
     if (!fs::is_empty(array.folder))
-      throw Error(ExitCode::bad_input, "{} holds other files: --folder names one of its own", folder);
+      throw Error(ExitCode::bad_input,
+                  "{} contains other files: name a folder for this picture alone with --folder", folder);
     write_file_atomically(array.file("identity"), identity);
   } else if (read_file(array.file("identity")) != identity) {
     throw Error(ExitCode::bad_input,
-                "{} holds another picture: the scene, an option, an output, --shards or eyeray has changed; "
-                "remove it, or name another --folder",
+                "{} contains another picture: the scene, an option, an output, --shards or eyeray has "
+                "changed; remove it, or name another --folder",
                 folder);
   }
   if (!is_there(array.file("share.sh"))) write_file_atomically(array.file("share.sh"), share);

@@ -50,10 +50,10 @@ Json origin(const Golden& golden, const Scene& scene, const compare::Report& rep
 // Which of these are not what they were.
 std::vector<std::string> changes(const Golden& golden, const Json& now) {
   const fs::path file = sidecar(golden.picture);
-  if (!fs::exists(file)) return {"whatever it was made of: it has no " + file.filename().string()};
+  if (!fs::exists(file)) return {"unknown, as it has no " + file.filename().string()};
   const std::string text = read_file(file);
   const Json then = Json::parse(unless_too_deep(text), nullptr, false);
-  if (!then.is_object()) return {"whatever it was made of: " + file.string() + " is not JSON"};
+  if (!then.is_object()) return {"unknown, as " + file.string() + " is not JSON"};
   std::vector<std::string> changed;
   for (const auto& [name, value] : now.items())
     if (name != "scene" && then.value(name, Json()) != value) changed.push_back(name);
@@ -87,8 +87,8 @@ compare::GoldenResult compare_with_golden(const Golden& golden, const Scene& sce
   }
   image::Image picture = image::read_image(golden.picture);
   if (picture.width() != report.width || picture.height() != report.height) {
-    result.incomparable = fmt::format("it is {}×{}, and the scene's picture {}×{}", picture.width(),
-                                      picture.height(), report.width, report.height);
+    result.incomparable = fmt::format("it has {}×{} pixels, but the scene's picture has {}×{}",
+                                      picture.width(), picture.height(), report.width, report.height);
     return result;
   }
   // A golden picture has colours alone: all else is the frame's.

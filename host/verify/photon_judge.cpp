@@ -45,7 +45,7 @@ bool explained(const Apart& photon, const reference::PhotonTraces& traces, uint3
 
 std::string describe(const Apart& photon, const reference::PhotonTraces& traces, uint32_t index) {
   if (!photon.parted())
-    return fmt::format("photon {} of sample {}, which lies {:.3g} aside", photon.number, index,
+    return fmt::format("photon {} of sample {}, which is displaced by {:.3g}", photon.number, index,
                        photon.aside());
   std::string way;
   for (const uint32_t event : traces.trace(index, photon.number, {}).events)

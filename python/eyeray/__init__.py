@@ -43,21 +43,21 @@ def _scene_of(scene, size, spp):
     """A Scene as it is, or that of a file or of dicts, with `size` and `spp` laid over it."""
     if isinstance(scene, Scene):
         if size is not None or spp is not None:
-            raise TypeError("size and spp go with a file or a dict; a Scene has its own")
+            raise TypeError("size and spp need a file or a dict: a Scene has its own")
         return scene
     defines = {}
     if size is not None:
         if isinstance(size, (str, bytes)) or not hasattr(size, "__len__") or len(size) != 2:
-            raise TypeError(f"size is (width, height), not {size!r}")
+            raise TypeError(f"size must be (width, height), not {size!r}")
         for key, value in zip(("image.width", "image.height"), size):
-            defines[key] = _whole(value, "size: width and height are whole numbers")
+            defines[key] = _whole(value, "size: width and height must be whole numbers")
     if spp is not None:
-        defines["image.samples"] = _whole(spp, "spp: the samples a pixel are a whole number")
+        defines["image.samples"] = _whole(spp, "spp: the samples a pixel must be a whole number")
     if isinstance(scene, dict):
         return Scene.build(scene, defines=defines)
     if isinstance(scene, (str, os.PathLike)):
         return Scene.read(scene, defines=defines)
-    raise TypeError(f"a scene is an eyeray.Scene, the name of a file, or a dict, not {type(scene).__name__}")
+    raise TypeError(f"a scene must be an eyeray.Scene, the name of a file, or a dict, not {type(scene).__name__}")
 
 
 def render(scene, *, size=None, spp=None, backend="gpu", aovs=(), crop=None, noise=0.0, clamp=0.0, progress=None,

@@ -270,7 +270,7 @@ TEST_CASE("each way to trace incoherent rays races by itself; an unknown one is 
 
   const ProcessResult refused = race("wider");
   CHECK(refused.code == 2);
-  CHECK(refused.err.find("--incoherent is one of cooperative, lanes, packets, not 'wider'") !=
+  CHECK(refused.err.find("--incoherent must be one of cooperative, lanes, packets, not 'wider'") !=
         std::string::npos);
 }
 

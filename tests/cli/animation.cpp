@@ -54,7 +54,7 @@ TEST_CASE("frames that are there are kept, but for --overwrite") {
                                             "0:1",    "-o",           folder / "f%d.png"};
   const ProcessResult first = run_eyeray(command);
   CHECK(first.code == 0);
-  CHECK(first.err.find("1 of 2 frames were there and are kept") != std::string::npos);
+  CHECK(first.err.find("1 of 2 frames existed and are kept") != std::string::npos);
   CHECK(read_text(folder / "f1.png") == "mine");
   std::vector<std::string> again = command;
   again.push_back("--overwrite");

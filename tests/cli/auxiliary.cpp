@@ -94,10 +94,9 @@ TEST_CASE("they are layers of an .exr as denoisers name them, and of paths alone
   const ProcessResult refused =
       run_eyeray({"render", "scenes/whitted.toml", "--aov", "albedo", "-o", folder / "no.pfm"});
   CHECK(refused.code == 2);
-  CHECK(
-      refused.err ==
-      "eyeray: error: only paths have the AOVs albedo and shading_normal: -D render.integrator=path follows "
-      "them, and every integrator has the AOV normal\n");
+  CHECK(refused.err ==
+        "eyeray: error: only paths have the AOVs albedo and shading_normal: use -D render.integrator=path, "
+        "or the AOV normal, which every integrator has\n");
 }
 
 TEST_CASE("samples that stand out are counted; --clamp cuts them, and says that the picture is biased") {

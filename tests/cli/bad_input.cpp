@@ -35,7 +35,7 @@ TEST_CASE("a scene that cannot be read") {
   CHECK(slash.err.find("it is a folder; name a scene or a mesh in it\n") != std::string::npos);
   const ProcessResult picture = run_eyeray({"check", "tests/image/pictures/rgb.png"});
   CHECK(picture.code == 2);
-  CHECK(picture.err.starts_with("eyeray: error: tests/image/pictures/rgb.png is no scene: "));
+  CHECK(picture.err.starts_with("eyeray: error: tests/image/pictures/rgb.png is not a scene: "));
   CHECK(folder.names() == only_the_scene);
 }
 
@@ -56,10 +56,9 @@ material = "matte"
   const ProcessResult result = run_eyeray({"check", folder.scene()});
   CHECK(result.code == 2);
   CAPTURE(result.err);
-  CHECK(result.err.find(
-            "error: this loop goes round more than 1000 times, or as often as p says; so no interval "
-            "can be computed for it: declare a `lipschitz`\n    while (x > 1.0) x *= 0.5;") !=
-        std::string::npos);
+  CHECK(result.err.find("error: this loop has more than 1000 iterations, or a number of them that depends on "
+                        "p; so no interval can be computed for it: declare a `lipschitz`\n"
+                        "    while (x > 1.0) x *= 0.5;") != std::string::npos);
   // With a constant nothing need be derived.
   replace_in_file(folder.scene(), "max = [1, 1, 1]", "max = [1, 1, 1]\nlipschitz = 1");
   CHECK(run_eyeray({"check", folder.scene()}).code == 0);
@@ -161,7 +160,7 @@ TEST_CASE("what a render reads it does not overwrite, by whatever name") {
     const ProcessResult result = render(output);
     CAPTURE(result.err);
     CHECK(result.code == 2);
-    CHECK(result.err.find("would be overwritten, and the scene reads it") != std::string::npos);
+    CHECK(result.err.find("would be overwritten, but the scene reads it") != std::string::npos);
     CHECK(kept() == before);
   }
   // The name that is taken by default is no better.
@@ -183,7 +182,7 @@ TEST_CASE("a scene out of a file that says it is empty") {
   const ProcessResult result = run_eyeray({"check", "/proc/self/environ", "--json"}, {{"A", "\xff"}});
   CAPTURE(result.err);
   CHECK(result.code == 2);
-  CHECK(result.err.find("/proc/self/environ is no scene: it holds bytes that are no text") !=
+  CHECK(result.err.find("/proc/self/environ is not a scene: it contains bytes that are not text") !=
         std::string::npos);
 }
 
@@ -237,9 +236,8 @@ TEST_CASE("a shader of --shaders that lies where none is read is told, with its 
   const ProcessResult result =
       run_eyeray({"render", folder.scene(), "-o", folder / "a.png", "--shaders", shaders});
   CHECK(result.code == 0);
-  CHECK(result.err.find("eyeray: warning: " + shaders +
-                        "/sphere.glsl takes no shader's place; did you mean " + shaders +
-                        "/shapes/sphere.glsl?\n") == 0);
+  CHECK(result.err.find("eyeray: warning: " + shaders + "/sphere.glsl replaces no shader; did you mean " +
+                        shaders + "/shapes/sphere.glsl?\n") == 0);
   CHECK(result.err.find("own.glsl") == std::string::npos);
 }
 
@@ -262,7 +260,7 @@ TEST_CASE("a kernel of the user's that reads no push constants runs; one that wa
   CAPTURE(other.err);
   CHECK(other.code == 2);
   CHECK(other.err.find(
-            "kernel 'kernels/render.comp.glsl' declares 4 bytes of push constants, and is given 32") !=
+            "kernel 'kernels/render.comp.glsl' declares 4 bytes of push constants, but eyeray sets 32") !=
         std::string::npos);
   const ProcessResult unknown = render(
       "layout(std430, binding = 99) buffer More { uint more[]; };\nvoid main() { words[0] = more[0]; }\n");

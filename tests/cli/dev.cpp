@@ -45,13 +45,13 @@ TEST_CASE("dev renders on every save, and outlives what it renders") {
   const std::string picture = read_text(folder / "a.pfm");
   replace_in_file(folder.scene(), "radius = 1", "radius = 0");
   REQUIRE(dev.says(folder.scene() + ":26:10: error: "));
-  REQUIRE(dev.says("stays as it was"));
+  REQUIRE(dev.says("is unchanged"));
   replace_in_file(folder.scene(), "radius = 0", "radius = 1");
   REQUIRE(dev.says("rendered "));
   write_text(pixel, with_pixel_code(good_shader, "  color = nonsense;\n"));
   REQUIRE(dev.says(pixel + ":"));
   REQUIRE(dev.says(": error: "));
-  REQUIRE(dev.says("stays as it was"));
+  REQUIRE(dev.says("is unchanged"));
   CHECK(read_text(folder / "a.pfm") == picture);
 
   // A shader that is changed; all so far was done by one process, which kept its caches.
@@ -137,7 +137,7 @@ TEST_CASE("the page of dev does what the manual says, in a browser" * doctest::t
   const SceneFolder folder;
   REQUIRE(run_eyeray({"shaders", "--export", folder / "shaders"}).code == 0);
   Dev dev(folder, "60");
-  REQUIRE(dev.says("look at "));
+  REQUIRE(dev.says("open "));
   const std::string words = dev.process().err();
   const size_t from = words.find("http://");
   const std::string address = words.substr(from, words.find('\n', from) - from);
@@ -196,8 +196,8 @@ TEST_CASE("dev outlives hostile shaders, and keeps the last good picture") {
     REQUIRE(dev.says("rendered "));
     write_text(records, replaced(text, "  uint sample_index;\n", "  uint sample_number;\n"));
     REQUIRE(dev.says("records.h:"));
-    REQUIRE(dev.says("the program was compiled with another records.h"));
-    REQUIRE(dev.says("stays as it was"));
+    REQUIRE(dev.says("eyeray packs scenes by the records.h that it was compiled with"));
+    REQUIRE(dev.says("is unchanged"));
     write_text(records, text);
     REQUIRE(dev.says("rendered "));
   }
@@ -230,7 +230,7 @@ TEST_CASE("dev says in a sentence that its port is in use, and Ctrl-C ends it as
   const std::string port = std::to_string(ntohs(address.sin_port));
   Dev dev(folder, "60", {"--port", port});
   CHECK(dev.says("port " + port + " is in use; the page is on port "));
-  CHECK(dev.says("look at "));
+  CHECK(dev.says("open "));
   dev.process().send_signal(SIGINT);
   CHECK(dev.process().wait(600));
   CHECK(dev.process().code() == 130);

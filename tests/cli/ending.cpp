@@ -90,7 +90,7 @@ TEST_CASE("each signal that ends a render keeps its checkpoint, and is told by t
     REQUIRE(render.wait(600));
     CAPTURE(render.err());
     CHECK(render.code() == 128 + signal);
-    CHECK(render.err().find(" of the work: to go on, give the same options and --resume ") !=
+    CHECK(render.err().find(" of the work: to continue, give the same options and --resume ") !=
           std::string::npos);
     std::set<std::string> left = folder.names();
     left.erase("a.pfm");  // there if every pixel has a sample
@@ -123,7 +123,7 @@ TEST_CASE("a pixel whose rays have no end ends by one signal, and keeps the chec
     REQUIRE(render.wait(60));
     CAPTURE(render.err());
     CHECK(render.code() == 143);
-    CHECK(render.err().find("to go on, give the same options and --resume ") != std::string::npos);
+    CHECK(render.err().find("to continue, give the same options and --resume ") != std::string::npos);
     CHECK(folder.names().count("work") == 1);
   }
 }

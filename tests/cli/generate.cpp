@@ -67,18 +67,18 @@ TEST_CASE("what cannot be generated is refused in one line, and leaves no file")
   const Refusal refusals[] = {
       {{"sphereflake", "-o", scene},
        4,
-       scene + " is there and was not made by eyeray generate; --force overwrites it"},
+       scene + " exists and was not made by eyeray generate; --force overwrites it"},
       {{"sphereflake", "-o", folder / "a.tml"}, 2, folder / "a.tml" + ": a scene's name must end in .toml"},
       {{"sphereflake", "-o", fresh, "--size-factor", "7"},
        2,
-       "size factor 7 has 5380840 spheres, more than a scene file holds; the largest as spheres is 6, "
-       "--tessellate makes a mesh"},
+       "size factor 7 makes 5380840 spheres, too many for a scene file; the largest size factor is 6, or let "
+       "--tessellate make a mesh"},
       {{"sphereflake", "-o", fresh, "--size-factor", "8", "--tessellate", "2"},
        2,
-       "that would be 1549681952 triangles; the most is 536870912"},
+       "the mesh would have 1549681952 triangles; at most 536870912"},
       {{"terrain", "-o", fresh, "--triangles", "600000000"},
        2,
-       "--triangles is a whole number from 1 to 536870912, not '600000000' (see eyeray generate terrain "
+       "--triangles must be a whole number from 1 to 536870912, not '600000000' (see eyeray generate terrain "
        "--help)"},
       {{"terrain", "-o", fresh, "--trangles", "6"},
        2,

@@ -59,7 +59,7 @@ TEST_CASE("a golden picture is made on request, compared with, and replaced wher
 
   // Of another size nothing can be compared.
   CHECK(verify({"-s", "32x24"})
-            .out.find("gate G: " + golden + ": it is 64×48, and the scene's picture 32×24") !=
+            .out.find("gate G: " + golden + ": it has 64×48 pixels, but the scene's picture has 32×24") !=
         std::string::npos);
 }
 

@@ -77,8 +77,8 @@ TEST_CASE("interrupted at any time and resumed, all files are those of an uninte
       REQUIRE((result.code == 0 || result.code == 130));
       // Before the first pixels there is nothing to keep.
       if (result.code == 130 && result.err != "eyeray: error: interrupted\n") {
-        REQUIRE(result.err.find(" of the work: to go on, give the same options and --resume " + checkpoint +
-                                "\n") != std::string::npos);
+        REQUIRE(result.err.find(" of the work: to continue, give the same options and --resume " +
+                                checkpoint + "\n") != std::string::npos);
       }
       ++runs;
     } while (result.code == 130);
@@ -173,8 +173,9 @@ TEST_CASE("another scene, size, sampling or backend does not resume, and is told
   // A new render does not trample on it.
   const ProcessResult again = run_eyeray(with(command, {"--checkpoint", checkpoint}));
   CHECK(again.code == 2);
-  CHECK(again.err == "eyeray: error: the checkpoint " + checkpoint + " is there already: --resume " +
-                         checkpoint + " goes on from it, or remove it\n");
+  CHECK(again.err == "eyeray: error: the checkpoint " + checkpoint +
+                         " exists already: continue from it with --resume " + checkpoint +
+                         " , or remove it\n");
   CHECK(read_text(checkpoint) == kept);
   CHECK(run_eyeray(with(command, {"--resume", checkpoint})).code == 0);
 }
@@ -199,7 +200,7 @@ TEST_CASE("what is no checkpoint is an error of that file") {
   const ProcessResult itself = run_eyeray({"render", folder.scene(), "-o", folder / "a.png", "--checkpoint",
                                            folder / "../" + folder.path().filename().string() + "/a.png"});
   CHECK(itself.code == 2);
-  CHECK(itself.err.find(" cannot be the picture and its checkpoint\n") != std::string::npos);
+  CHECK(itself.err.find(" cannot be both the picture and its checkpoint\n") != std::string::npos);
   CHECK(folder.names() == std::set<std::string>{"scene.toml", "empty"});
 }
 
@@ -210,10 +211,8 @@ TEST_CASE("Ctrl-C in a picture of several bands keeps nothing, and says what wou
   const ProcessResult result = run_eyeray(command, {}, 120, 300);
   CHECK(result.code == 130);
   // Early on, or with pixels to lose.
-  CHECK(
-      (result.err == "eyeray: error: interrupted\n" ||
-       result.err ==
-           "eyeray: error: interrupted, and a picture of 3 bands is whole only at its end; nothing was kept "
-           "(--checkpoint FILE would)\n"));
+  CHECK((result.err == "eyeray: error: interrupted\n" ||
+         result.err == "eyeray: error: interrupted; a picture of 3 bands is complete only at its end, so "
+                       "nothing was kept (--checkpoint FILE would keep the work)\n"));
   CHECK(folder.names() == std::set<std::string>{"scene.toml"});
 }

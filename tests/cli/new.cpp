@@ -52,7 +52,7 @@ TEST_CASE("a project is written whole or not at all, and over nothing") {
   write_text(folder / "scene.toml", "mine");
   const ProcessResult refused = run_eyeray({"new", folder.path()});
   CHECK(refused.code == 4);
-  CHECK(refused.err.find("scene.toml is there already; nothing was written") != std::string::npos);
+  CHECK(refused.err.find("scene.toml exists already; nothing was written") != std::string::npos);
   CHECK(read_text(folder / "scene.toml") == "mine");
   CHECK(folder.names() == std::set<std::string>{"scene.toml"});
   CHECK(run_eyeray({"new", folder / "scene.toml"}).code == 4);

@@ -53,15 +53,14 @@ TEST_CASE("--noise that cannot be reached is told, and what makes none is refuse
     CHECK(result.code == 2);
     return result.err;
   };
-  CHECK(
-      refusal({"--noise", "0.1"}) ==
-      "eyeray: error: noise stops after any number of samples, and the pattern 'regular' needs all of them: "
-      "set image.pattern to \"sobol\" or \"random\"\n");
+  CHECK(refusal({"--noise", "0.1"}) ==
+        "eyeray: error: noise stops after any number of samples, but the pattern 'regular' needs all of "
+        "them: set image.pattern to \"sobol\" or \"random\"\n");
   for (const std::string wrong : {"nan", "0", "-1", "2", "x"})
-    CHECK(refusal({"--noise", wrong}).find("is a number from 0.0001 to 1, not") != std::string::npos);
+    CHECK(refusal({"--noise", wrong}).find("must be a number from 0.0001 to 1, not") != std::string::npos);
   refusal({"--noise", "0.1", "--classic"});
   CHECK(refusal({"--classic", "--aov", "noise"}) ==
-        "eyeray: error: --classic samples the corners of pixels and so lacks the AOVs noise; it has hits, "
-        "bounces, rays, ray_kinds, samples, flags\n");
+        "eyeray: error: --classic samples pixel corners, so it lacks the AOVs noise; it has hits, bounces, "
+        "rays, ray_kinds, samples, flags\n");
   CHECK(folder.names() == std::set<std::string>{"a.png", "scene.toml"});
 }

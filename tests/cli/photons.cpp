@@ -119,8 +119,8 @@ TEST_CASE("more photons than a device has room for: an error with the numbers, a
   };
   const std::string results = refusal("16777216", {});
   CAPTURE(results);
-  CHECK(results.find("error: `photons` in [render] is 16777216, and ") != std::string::npos);
-  CHECK(results.find(" has room for what becomes of ") != std::string::npos);
+  CHECK(results.find("error: `photons` in [render] is 16777216, but ") != std::string::npos);
+  CHECK(results.find(" has memory for the results of ") != std::string::npos);
 
   // In a ball of white, surfaces stop each photon some forty times.
   write_text(folder.scene(), R"(
@@ -146,7 +146,7 @@ material = "white"
 )");
   const std::string stopped = refusal("65536", {});
   CAPTURE(stopped);
-  CHECK(stopped.find("error: of 65536 photons surfaces stop ") != std::string::npos);
-  CHECK(stopped.find(" (64 bytes each, a shader sees ") != std::string::npos);
+  CHECK(stopped.find("error: of 65536 photons, surfaces store ") != std::string::npos);
+  CHECK(stopped.find(" (64 bytes each; a shader sees ") != std::string::npos);
   CHECK(stopped.find(" of one buffer): lower `photons` in [render] to ") != std::string::npos);
 }

@@ -85,7 +85,7 @@ TEST_CASE("the text has a line a value and a column an executor, the verdict fir
   CHECK(result.code == 0);
   CHECK(result.out.starts_with("pixel 32,24 of " + folder.scene() +
                                " (64×48), sample 0 of 1: nothing differs\n"));
-  CHECK(result.out.find("  eye ray → sphere, " + folder.scene() + ":24\n") != std::string::npos);
+  CHECK(result.out.find("  camera ray → sphere, " + folder.scene() + ":24\n") != std::string::npos);
   CHECK(result.out.find("\n    shadow ray to light 0\n") != std::string::npos);
   CHECK(result.out.find("\n    origin ") != std::string::npos);
   CHECK(result.out.find("≠") == std::string::npos);
@@ -94,7 +94,7 @@ TEST_CASE("the text has a line a value and a column an executor, the verdict fir
   // A pixel beside the ball; by the reference alone there is nothing to differ from.
   const ProcessResult sky = run_eyeray({"probe", folder.scene(), "0,0", "--backends", "reference"});
   CHECK(sky.code == 0);
-  CHECK(sky.out.find("  eye ray → nothing\n") != std::string::npos);
+  CHECK(sky.out.find("  camera ray → nothing\n") != std::string::npos);
   CHECK(sky.out.find("0.25 0.5 0.75\n") != std::string::npos);
 }
 
@@ -119,7 +119,7 @@ TEST_CASE("a PROBE in a user's shader is a line, and what the shader breaks is f
   CHECK(probed.code == 1);
   const Json& first = probed.json.at("first_difference");
   CAPTURE(first.dump());
-  CHECK(first.at("way") == "eye ray");
+  CHECK(first.at("way") == "camera ray");
   CHECK(first.at("name") == "reflected");
   CHECK(first.at("difference").get<std::string>().find(" ULP; gpu and reference: ") != std::string::npos);
   REQUIRE(probed.json.at("notes").size() == 1);
@@ -150,10 +150,11 @@ TEST_CASE("what cannot be probed is told in one line") {
                       "pixel 0,0\n",
                       outside));
   for (const char* wrong : {"3", "3,4,5", "a,b", "1.5,2", "99999999999,1"})
-    CHECK(error({wrong}) == fmt::format("eyeray: error: a pixel is X,Y, as 320,240, not '{}'\n", wrong));
+    CHECK(error({wrong}) ==
+          fmt::format("eyeray: error: a pixel must be X,Y, such as 320,240, not '{}'\n", wrong));
   CHECK(error({"1,1", "--sample", "1"}) ==
         "eyeray: error: --sample 1: a pixel has 1 sample, the first is 0\n");
   CHECK(error({"1,1", "--backends", "gpu,cpu"}) ==
-        "eyeray: error: no backend 'cpu': there are gpu, twin and reference\n");
+        "eyeray: error: no backend 'cpu': choose gpu, twin or reference\n");
   CHECK(error({}).find("PIXEL is required") != std::string::npos);
 }

@@ -32,7 +32,7 @@ TEST_CASE("the report says how many pixels are equal, and what was not drawn") {
   CHECK(has(result.out, " triangles; not drawn: 7 csg\n"));
   CHECK(has(result.out, "  gate R passed gpu = the rasteriser: "));
   CHECK(has(result.out, "  gate R passed reference = the rasteriser: "));
-  CHECK(has(result.out, " behind what is not drawn\n"));
+  CHECK(has(result.out, " behind shapes that are not drawn\n"));
 }
 
 TEST_CASE("a pixel that gate R fails is looked at with --raster, and JUnit's XML has the gate") {
@@ -43,7 +43,7 @@ TEST_CASE("a pixel that gate R fails is looked at with --raster, and JUnit's XML
        "--junit", folder / "report.xml", "--report", folder / "page", "--shaders", shaders});
   CHECK(result.code == 1);
   CHECK(has(result.out, "gate R: gpu against the rasteriser: "));
-  CHECK(has(result.out, " pixels aside of its pixel, and at t "));
+  CHECK(has(result.out, " pixels away from its pixel, and at t "));
   CHECK(has(result.out, "look closer: eyeray verify scenes/whitted.toml -s 96x72 --shaders " + shaders +
                             " --raster --crop "));
   CHECK(has(read_text(folder / "report.xml"), "gate R FAILED gpu = the rasteriser"));
@@ -55,7 +55,7 @@ TEST_CASE("a camera that no projection matrix describes is one sentence and exit
     CAPTURE(camera);
     const ProcessResult result = verify({fmt::format("scenes/cameras/{}.toml", camera), "-s", "8x6"});
     CHECK(result.code == 2);
-    CHECK(has(result.err, "eyeray: error: --raster draws what a projection matrix describes"));
+    CHECK(has(result.err, "eyeray: error: --raster needs a camera that a projection matrix describes"));
     CHECK(result.out == "");
   }
 }
@@ -76,5 +76,5 @@ TEST_CASE("a device that does not draw, or has no memory for it, is one sentence
   // Wider than any device draws; the crop is what is drawn.
   const ProcessResult too_wide = verify({"scenes/whitted.toml", "-s", "60000x1"});
   CHECK(too_wide.code == 3);
-  CHECK(has(too_wide.err, " pixels a side at most, and this one has 60000×1: leave out --raster"));
+  CHECK(has(too_wide.err, " pixels a side, but this one has 60000×1: leave out --raster"));
 }

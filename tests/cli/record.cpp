@@ -17,7 +17,7 @@ TEST_CASE("verify records what a healthy scene needs, and nothing of one that fa
 
   // Of another picture than the file's, or with a fault, nothing is written.
   CHECK(verify({"--record", "-s", "8x6"}).err ==
-        "eyeray: error: --record takes scenes as their files say: leave out -s 8x6\n");
+        "eyeray: error: --record verifies scenes as their files define them: leave out -s 8x6\n");
   CHECK(verify({"--record", "--crop", "0,0,8,6"}).code == 2);
   CHECK(verify({"--record", "--shaders", lay_fault(folder, "light")}).code == 1);
   CHECK(read_text(folder.scene()) == before);

@@ -157,7 +157,8 @@ TEST_CASE(
     CHECK(wrong > 100);
     CHECK(silent == 0);
     CHECK(flagged < 2 * wrong);
-    const std::string warning = std::to_string(flagged) + " pixels may be wrong: a shape that is searched";
+    const std::string warning =
+        std::to_string(flagged) + " pixels may be wrong: the search for a shape ran out of";
     CHECK(result.err.find(warning) != std::string::npos);
     const auto report = nlohmann::json::parse(result.out);
     CHECK(report.at("flagged_pixels") == flagged);
@@ -231,9 +232,8 @@ TEST_CASE("check prints of each kind of camera what is sharp") {
   const SceneFolder folder;
   write_text(folder.scene(), "[camera]\neye = [1, 2, 3]\ntarget = [1, 5, -1]\naperture = 0.1\nfocus = 10\n");
   CHECK(run_eyeray({"check", folder.scene()})
-            .out.find("  focus      (1, 8, -5), 10 in front of the eye: the plane through this point, "
-                      "perpendicular to w, is "
-                      "sharp\n") != std::string::npos);
+            .out.find("  focus      (1, 8, -5), 10 in front of the eye: the plane of focus passes through "
+                      "this point, perpendicular to w\n") != std::string::npos);
   const auto camera = nlohmann::json::parse(run_eyeray({"check", folder.scene(), "--json"}).out).at("camera");
   CHECK(camera.at("focus") == 10);
   CHECK(camera.at("focus_point")[1].get<double>() == doctest::Approx(8));

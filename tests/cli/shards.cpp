@@ -115,7 +115,7 @@ TEST_CASE("a set that makes no picture is refused, and names what is wrong") {
     CHECK_FALSE(std::filesystem::exists(folder / "merged.pfm"));
     return result.err;
   };
-  const std::string begin = "eyeray: error: these parts do not make a picture: ";
+  const std::string begin = "eyeray: error: these parts do not make a whole picture: ";
 
   CHECK(refusal(Words(parts.begin() + 1, parts.end()), 2) == begin + "missing: 4/4\n");
   CHECK(refusal(parts + Words{parts[1]}, 2) == begin + parts[1] + " and " + parts[1] + " are both 3/4\n");
@@ -160,13 +160,13 @@ TEST_CASE("what cannot be shared is refused before it is rendered") {
     return result.err;
   };
   CHECK(refusal({"--noise", "0.1"}).find("noise is measured from a pixel's neighbours") != std::string::npos);
-  CHECK(refusal({"--classic"}).find("--classic makes pixels of corners") != std::string::npos);
+  CHECK(refusal({"--classic"}).find("--classic computes pixels from their corners") != std::string::npos);
   CHECK(refusal({"--half"}).find("eyeray merge") != std::string::npos);
   CHECK(refusal({"-o", folder / "a.png"}).find("--shard writes one part") != std::string::npos);
   for (const char* shard : {"0/2", "3/2", "1", "1/0"}) {
     const ProcessResult result = run_eyeray({"render", folder.scene(), "--shard", shard});
     CHECK(result.code == 2);
-    CHECK(result.err.find("--shard wants I/N, as 3/64") != std::string::npos);
+    CHECK(result.err.find("--shard must be I/N, such as 3/64") != std::string::npos);
   }
 }
 
@@ -205,6 +205,6 @@ TEST_CASE("a suite's shares report as the suite does") {
     if (count == 1) continue;
     const ProcessResult fewer = run_eyeray(Words{"merge"} + Words(reports.begin() + 1, reports.end()));
     CHECK(fewer.code == 2);
-    CHECK(fewer.err == fmt::format("eyeray: error: these reports do not make one: missing: 1/{}\n", count));
+    CHECK(fewer.err == fmt::format("eyeray: error: these reports cannot be merged: missing: 1/{}\n", count));
   }
 }

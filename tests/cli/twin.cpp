@@ -90,12 +90,12 @@ TEST_CASE("what of a user's shaders is no C++ is told as compilers tell it, and 
     CHECK(contains(result.err, "vec3 turned = f.zyx;\n"));
   }
   const Environment no_compiler{{"PATH", "/nowhere"}, {"CXX", ""}};
-  CHECK(contains(users.render("twin", "a.pfm", {}, no_compiler).err, "wants a C++ compiler"));
+  CHECK(contains(users.render("twin", "a.pfm", {}, no_compiler).err, "needs a C++ compiler"));
   const ProcessResult dev = users.run({"dev", users.scene(), "--backend", "twin", "--once"}, no_compiler);
   CHECK(dev.code == 0);
   CHECK(contains(dev.err, "twin: the shaders as C++"));
-  CHECK(
-      contains(dev.err, "warning: this is the twin of eyeray's own shaders: for those of " + users.shaders));
+  CHECK(contains(dev.err,
+                 "warning: this is the twin of eyeray's own shaders: to compile those of " + users.shaders));
 }
 
 TEST_CASE("the twin of eyeray's own shaders is compiled, too") {
@@ -156,7 +156,8 @@ TEST_CASE("sanitizers find a user's shader's fault, at its line") {
   CHECK(contains(dev.err, place + ":"));
   CHECK_FALSE(std::filesystem::exists(users / "a.pfm"));
 
-  CHECK(contains(users.render("twin", "a.pfm", {"--sanitize", "thread"}).err, "--sanitize is address, "));
+  CHECK(
+      contains(users.render("twin", "a.pfm", {"--sanitize", "thread"}).err, "--sanitize must be address, "));
 }
 
 TEST_CASE("a debugger stops in a user's shader, which may print") {

@@ -67,21 +67,23 @@ TEST_CASE("a wrong command line is one line that says what was meant, and code 2
       {{"render", scene, "--sp=4"},
        "unknown option '--sp'; did you mean '--spp'? (see eyeray render --help)"},
       {{"render", scene, "second.toml"}, "unexpected argument 'second.toml' (see eyeray render --help)"},
-      {{"render", scene, "-s", "640"}, "--size wants WIDTHxHEIGHT, as 640x480, not '640'"},
-      {{"render", scene, "-s", "4x4x4"}, "--size wants WIDTHxHEIGHT, as 640x480, not '4x4x4'"},
+      {{"render", scene, "-s", "640"}, "--size must be WIDTHxHEIGHT, such as 640x480, not '640'"},
+      {{"render", scene, "-s", "4x4x4"}, "--size must be WIDTHxHEIGHT, such as 640x480, not '4x4x4'"},
       {{"render", scene, "-s", "99999999999x1"},
-       "--size wants WIDTHxHEIGHT, as 640x480, not '99999999999x1'"},
-      {{"render", scene, "--crop", "1,2,3"}, "--crop wants X,Y,W,H in pixels, as 0,0,64,64, not '1,2,3'"},
-      {{"render", scene, "--crop", "60,40,5,5"}, "the crop 60,40,5,5 leaves the picture, which is 64x48"},
+       "--size must be WIDTHxHEIGHT, such as 640x480, not '99999999999x1'"},
+      {{"render", scene, "--crop", "1,2,3"},
+       "--crop must be X,Y,W,H in pixels, such as 0,0,64,64, not '1,2,3'"},
+      {{"render", scene, "--crop", "60,40,5,5"},
+       "the crop 60,40,5,5 extends beyond the picture, which is 64x48"},
       {{"render", scene, "--crop", "0,0,0,0"},
-       "--crop 0,0,0,0 has no pixels: width and height are at least 1"},
+       "--crop 0,0,0,0 has no pixels: width and height must be at least 1"},
       {{"verify", scene, "--crop", "0,0,0,5"},
-       "--crop 0,0,0,5 has no pixels: width and height are at least 1"},
+       "--crop 0,0,0,5 has no pixels: width and height must be at least 1"},
       {{"render", scene, "--crop", "1,1,2147483647,2147483647"},
-       "the crop 1,1,2147483647,2147483647 leaves the picture, which is 64x48"},
-      {{"render", scene, "--backend", "cpu"}, "no backend 'cpu': there are gpu, twin and reference"},
+       "the crop 1,1,2147483647,2147483647 extends beyond the picture, which is 64x48"},
+      {{"render", scene, "--backend", "cpu"}, "no backend 'cpu': choose gpu, twin or reference"},
       {{"render", scene, "--timeout", "nan"},
-       "--timeout is a number from 0.001 to 1000000, not 'nan' (see eyeray render --help)"},
+       "--timeout must be a number from 0.001 to 1000000, not 'nan' (see eyeray render --help)"},
       {{"render", scene, "--aov", "dept"},
        "no AOV 'dept'; did you mean 'depth'? There are depth, position, normal, normal_geometric, front, "
        "uv, shape, primitive, material, hits, bounces, rays, ray_kinds, samples, noise, brightest, albedo, "
@@ -91,7 +93,7 @@ TEST_CASE("a wrong command line is one line that says what was meant, and code 2
        folder / "x.gif" + ": a picture's name must end in .png, .pfm, .hdr or .exr"},
       {{"shaders", "--print", "sphere.glsl"}, "no shader 'sphere.glsl' (see eyeray shaders --list)"},
       {{"check"}, "no scene given (see eyeray check --help)"},
-      {{"render", ""}, "SCENE wants the name of a file (see eyeray render --help)"},
+      {{"render", ""}, "SCENE must be the name of a file (see eyeray render --help)"},
       {{"render", scene, "-o"}, "--output needs a value (see eyeray render --help)"},
       {{"render", scene, "--samples", "4"},
        "unknown option '--samples'; did you mean '--spp'? (see eyeray render --help)"},
@@ -103,14 +105,14 @@ TEST_CASE("a wrong command line is one line that says what was meant, and code 2
        "unknown option '-seed'; did you mean '--seed'? (see eyeray render --help)"},
       {{"verify", scene, "-samples=4"},
        "unknown option '-samples'; did you mean '--spp'? (see eyeray verify --help)"},
-      {{"render", scene, "--tune", "rays"}, "--tune wants KEY=VALUE, as rays=lanes, not 'rays'"},
+      {{"render", scene, "--tune", "rays"}, "--tune must be KEY=VALUE, such as rays=lanes, not 'rays'"},
       {{"verify", scene, "--tune", "ray=lanes"},
        "--tune has no key 'ray'; did you mean 'rays'? There are acceleration, splits, profile, loads, rays, "
        "incoherent, stack, constants, optimiser"},
       {{"probe", scene, "1,1", "--tune", "rays=packets", "--tune", "constants=no"},
-       "--tune constants is one of on, off, not 'no'"},
+       "--tune constants must be one of on, off, not 'no'"},
       {{"render", scene, "--band-memory", "0"},
-       "--band-memory is a whole number from 1 to 1048576, not '0' (see eyeray render --help)"},
+       "--band-memory must be a whole number from 1 to 1048576, not '0' (see eyeray render --help)"},
       {{"render", scene, "--half=x"}, "--half takes no value (see eyeray render --help)"},
       {{"render", scene, "--json=3"}, "--json takes no value (see eyeray render --help)"},
       {{"render", scene, "--no-formulas=true"}, "--no-formulas takes no value (see eyeray render --help)"},
@@ -118,14 +120,15 @@ TEST_CASE("a wrong command line is one line that says what was meant, and code 2
       {{"render", scene, "--classic", "--spp", "4"},
        "--spp and --classic exclude each other (see eyeray render --help)"},
       {{"verify", scene, "--update=x"},
-       "--update is one of failing, force, not 'x' (see eyeray verify --help)"},
+       "--update must be one of failing, force, not 'x' (see eyeray verify --help)"},
       {{"compare", "a.pfm", "b.pfm", "--max-different", "1.5"},
-       "--max-different is a whole number from 0 to 268435456, not '1.5' (see eyeray compare --help)"},
+       "--max-different must be a whole number from 0 to 268435456, not '1.5' (see eyeray compare --help)"},
       {{"probe", scene, "1,1", "--sample", "-1"},
-       "--sample is a whole number from 0 to 65535, not '-1' (see eyeray probe --help)"},
+       "--sample must be a whole number from 0 to 65535, not '-1' (see eyeray probe --help)"},
       {{"generate", "terrain", "-o", "x.toml", "--seed", "x"},
-       "--seed is a whole number from 0 to 4294967295, not 'x' (see eyeray generate terrain --help)"},
-      {{"completion", "bsh"}, "SHELL is one of bash, zsh, fish, not 'bsh' (see eyeray completion --help)"},
+       "--seed must be a whole number from 0 to 4294967295, not 'x' (see eyeray generate terrain --help)"},
+      {{"completion", "bsh"},
+       "SHELL must be one of bash, zsh, fish, not 'bsh' (see eyeray completion --help)"},
   };
   for (const Mistake& mistake : mistakes) {
     const ProcessResult result = run_eyeray(mistake.arguments);
@@ -142,8 +145,8 @@ TEST_CASE("who still types eyeray bench learns its new name") {
     const ProcessResult result = run_eyeray(words);
     CHECK(result.code == 2);
     CHECK(result.err ==
-          "eyeray: error: what was eyeray bench is a program of its own, eyeray-bench, which is not "
-          "installed: build it from the source by scripts/build release eyeray-bench\n");
+          "eyeray: error: eyeray bench is now a separate program, eyeray-bench, which is not installed: "
+          "build it from source with scripts/build release eyeray-bench\n");
   }
 }
 

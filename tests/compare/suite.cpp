@@ -65,27 +65,31 @@ TEST_CASE("a diagnosis names the first value that differs") {
   const auto of = [&](const auto& change) { return diagnosis(changed(change), honest); };
   const auto hit = [](Frame& frame) -> FirstHit& { return frame.first_hits[30 * picture_width + 50]; };
   CHECK(diagnosis(honest, honest).empty());
-  CHECK(of([&](Frame& f) { hit(f).primitive = 0; }).starts_with("eye rays hit something else"));
-  CHECK(of([&](Frame& f) { hit(f).t *= 1.1; }).starts_with("eye rays hit the right primitive at the wrong "));
-  CHECK(of([&](Frame& f) { hit(f).uv.x += 0.1; }).starts_with("eye rays hit the right place, and its uv is"));
+  CHECK(of([&](Frame& f) { hit(f).primitive = 0; }).starts_with("camera rays hit another primitive"));
+  CHECK(of([&](Frame& f) {
+          hit(f).t *= 1.1;
+        }).starts_with("camera rays hit the right primitive at the wrong "));
+  CHECK(of([&](Frame& f) {
+          hit(f).uv.x += 0.1;
+        }).starts_with("camera rays hit the right point, but its uv is"));
   CHECK(of([&](Frame& f) {
           hit(f).material = 0;
-        }).starts_with("eye rays hit the right place, with the wrong "));
-  CHECK(of([](Frame& f) { *f.hits.pixel(50, 30) += 1; }).starts_with("first hits agree, and reflected"));
-  CHECK(of(red).starts_with("all rays hit the same, and the colours differ, in direct light"));
+        }).starts_with("camera rays hit the right point, but with the wrong "));
+  CHECK(of([](Frame& f) { *f.hits.pixel(50, 30) += 1; }).starts_with("first hits agree, but reflected"));
+  CHECK(of(red).starts_with("all rays have the same hits, but colours differ in direct light"));
   CHECK(of([](Frame& f) {
           f.color.pixel(6, 8)[0] += 0.25f;
-        }).starts_with("all rays hit the same, and the colours differ, where light is reflected"));
+        }).starts_with("all rays have the same hits, but colours differ where light is reflected"));
 }
 
 TEST_CASE("a diagnosis names the side") {
   const Frame honest = picture_frame(), wrong = changed(red);
-  CHECK(tells(diagnosis(wrong, honest), "; twin agrees with the reference: look into gpu's data"));
-  CHECK(tells(diagnosis(wrong, wrong), "; gpu and twin agree with each other and not with the reference"));
-  CHECK(tells(diagnosis(honest, wrong), "; gpu agrees with the reference: look into twin's data"));
+  CHECK(tells(diagnosis(wrong, honest), "; twin agrees with the reference: check gpu's data"));
+  CHECK(tells(diagnosis(wrong, wrong), "; gpu and twin agree with each other, but not with the reference"));
+  CHECK(tells(diagnosis(honest, wrong), "; gpu agrees with the reference: check twin's data"));
   CHECK(tells(diagnosis(changed([](Frame& f) { f.color.pixel(9, 9)[0] += 1; }), wrong), "neither"));
   const Frame one_bit = changed([](Frame& f) { f.color.pixel(50, 30)[0] += 1e-7f; });
-  CHECK(diagnosis(one_bit, honest).starts_with("gpu and twin agree with the reference, and not bit by bit"));
+  CHECK(diagnosis(one_bit, honest).starts_with("gpu and twin agree with the reference, but not bit by bit"));
 }
 
 TEST_CASE("a scene that cannot be rendered fails among others, unless it may") {
@@ -112,7 +116,7 @@ TEST_CASE("JUnit's XML has a case a scene, with the numbers in the failure's tex
   CHECK(tells(text, R"(name="a.toml" file="a.toml" time="1.500">)"));
   CHECK(tells(text, R"(name="b&lt;&amp;&gt;.toml")"));
   CHECK(tells(text, "<failure message=\"gate A: gpu and twin: 1 of 6912 pixels differ in their bits"));
-  CHECK(tells(text, "  diagnosis: all rays hit the same"));
+  CHECK(tells(text, "  diagnosis: all rays have the same"));
   CHECK(tells(text, "<skipped message=\"it has &lt;no&gt; &quot;camera&quot;\"/>"));
   CHECK(text.find('\x01') == std::string::npos);
   CHECK(text.find('\xff') == std::string::npos);

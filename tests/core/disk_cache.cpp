@@ -70,7 +70,7 @@ TEST_CASE("a cache that is not used says why, and one that is used or not there 
   const TemporaryFolder folder;
   const DiskCache cache(folder.path() / "cache");
   const std::string name = cache.folder().string();
-  const std::string not_used = " is not used, so that each start compiles anew: ";
+  const std::string not_used = " is not used, so each start compiles again: ";
   using Warnings = std::vector<std::string>;
   CHECK(cache.warnings().empty());
   CHECK(DiskCache({}).warnings().empty());
@@ -92,7 +92,8 @@ TEST_CASE("a cache that is not used says why, and one that is used or not there 
   CHECK(DiskCache(folder / "link").warnings() ==
         Warnings{"the cache " + folder / "link" + not_used +
                  "it is a symbolic link; name the folder that it leads to"});
-  CHECK(DiskCache("/dev/null").warnings() == Warnings{"the cache /dev/null" + not_used + "it is no folder"});
+  CHECK(DiskCache("/dev/null").warnings() ==
+        Warnings{"the cache /dev/null" + not_used + "it is not a folder"});
   if (::geteuid() != 0) return;
   REQUIRE(::chown(cache.folder().c_str(), 12345, 12345) == 0);
   CHECK(cache.warnings() ==

@@ -118,7 +118,7 @@ TEST_CASE(
     check_right_or_flagged(large, *capless, *make_executor(Backend::twin, large, one_by_one()));
   } catch (const Error& error) {
     CHECK(error.code() == ExitCode::no_device);
-    CHECK(std::string(error.what()).find("10 primitives (32008 iterations round their outlines)") !=
+    CHECK(std::string(error.what()).find("10 primitives (32008 iterations around their outlines)") !=
           std::string::npos);
   }
 }

@@ -123,7 +123,7 @@ TEST_CASE("loops, calls and branches come down to what they compute") {
 
 TEST_CASE("what cannot be straight-line code is refused, at its line") {
   CHECK(refusal("float f(vec3 p) {\n  while (p.x > 1.0) p.x *= 0.5;\n  return p.x;\n}") ==
-        "f.glsl:11: this loop goes round more than 1000 times, or as often as p says");
+        "f.glsl:11: this loop has more than 1000 iterations, or a number of them that depends on p");
   CHECK(refusal("float f(vec3 p) {\n  int i = int(p.x);\n  return p[i];\n}") ==
         "f.glsl:11: a whole number is computed from p");
   CHECK(refusal("float f(vec3 p) {\n  int i = p.x < 0.0 ? 1 : 2;\n\n  return p[i];\n}") ==
@@ -131,7 +131,7 @@ TEST_CASE("what cannot be straight-line code is refused, at its line") {
   CHECK(refusal("float f(vec3 p) {\n  float x = p.x;\n  for (int i = 0; i < 99; ++i)\n    for (int k = 0; k "
                 "< 999; ++k) "
                 "x = sin(x) + p.y;\n  return x;\n}") ==
-        "f.glsl:13: with all turns of its loops the function is too long");
+        "f.glsl:13: with all iterations of its loops the function is too long");
 
   CHECK(refusal("float f(vec3 p) {\n  return length(q);\n}")
             .starts_with("f.glsl:11: 'q': undeclared identifier"));

@@ -32,7 +32,7 @@ TEST_CASE("a colour is a function of uv") {
   CHECK(fault_of("vec3 color(vec2 uv) {\n  return vec3(missing);\n}") ==
         "11:15: 'missing': undeclared identifier");
   CHECK(fault_of("vec3 color(vec2 uv) { return vec3(0.0); }", {{"color", {1}}}) ==
-        "10:1: no parameter can be called `color`: that is the function");
+        "10:1: no parameter can be named `color`: that is the function's name");
 }
 
 TEST_CASE("a colour's bits in float32, and float64 beside them") {

@@ -40,7 +40,7 @@ bool is_endless(const std::string& body) {
   return false;
 }
 
-const std::string too_long_a_chain = "a statement chains at most 500 operators: split it";
+const std::string too_long_a_chain = "a statement can have at most 500 operators: split it";
 const std::string odd_size = "the size of an array must be a decimal number from 1 to 1024, written out";
 
 }  // namespace
@@ -52,7 +52,7 @@ TEST_CASE("an array has the size that everybody reads, or none") {
     CHECK(refusal_of_f("const int n = 4; int a[" + size + "]; return p.x;") == odd_size);
   }
   CHECK(refusal_of_f("int a[64]; return p.x;") == "");
-  CHECK(refusal_of_f("float a[2][2]; return p.x;") == "arrays of arrays are not known here");
+  CHECK(refusal_of_f("float a[2][2]; return p.x;") == "arrays of arrays are not supported");
 }
 
 TEST_CASE("a loop whose counter is written to in any way ends, by the count of its turns") {
@@ -72,12 +72,12 @@ TEST_CASE("calls are counted as what they come to") {
     chain += fmt::format(
         "float g{0}(float x) {{ return g{1}(x) + g{1}(x + 1.0) + g{1}(x + 2.0) + g{1}(x + 3.0); }}\n", i,
         i - 1);
-  CHECK(refusal(chain + "float f(vec3 p) { return g39(p.x); }\n").find("instructions, and may have 16384") !=
+  CHECK(refusal(chain + "float f(vec3 p) { return g39(p.x); }\n").find("instructions; at most 16384") !=
         std::string::npos);
   CHECK(refusal("float g(float x);\nfloat h(float x) { return g(x); }\nfloat g(float x) { return h(x); "
                 "}\nfloat f(vec3 p) { return g(p.x); }\n") != "");
   CHECK(refusal(times(300, "float g(float x);\n") + "float f(vec3 p) { return p.x; }\n") ==
-        "a formula has at most 256 functions");
+        "a formula can have at most 256 functions");
 }
 
 TEST_CASE("what is too long or too deep is refused before a compiler sees it") {
@@ -90,18 +90,18 @@ TEST_CASE("what is too long or too deep is refused before a compiler sees it") {
   CHECK(refusal_of_f(times(4000, "if(p.x>.0);else ") + ";return 0.;") == too_long_a_chain);
   CHECK(refusal_of_f(times(3500, "if(p.x>.0){}else ") + ";return 0.;") == too_long_a_chain);
   CHECK(refusal_of_f("return " + times(20000, "(") + "p.x" + times(20000, ")") + ";") ==
-        "brackets nest at most 64 deep: name a part of it");
+        "brackets can be nested at most 64 deep: give a part of the expression a name");
   CHECK(refusal_of_f(times(20000, "{") + times(20000, "}") + "return p.x;") ==
-        "brackets nest at most 64 deep: name a part of it");
+        "brackets can be nested at most 64 deep: give a part of the expression a name");
   CHECK(refusal_of_f(times(1500, "for(int i=0;i<2;i++)p.x+=1.;\n") + "return p.x;")
-            .find("branches and loops, and may have 256") != std::string::npos);
+            .find("branches and loops; at most 256") != std::string::npos);
   CHECK(refusal_of_f(times(1000, "if(p.x>1.)p.x-=.5;\n") + "return p.x;")
-            .find("branches and loops, and may have 256") != std::string::npos);
+            .find("branches and loops; at most 256") != std::string::npos);
   CHECK(refusal_of_f(times(60, "vec4 a[1024];a[int(p.x)]=vec4(1.);p.x+=a[int(p.y)].x;{") + times(60, "}") +
                      "return p.x;")
-            .find("numbers in arrays, and may have 8192") != std::string::npos);
+            .find("numbers in arrays; at most 8192") != std::string::npos);
   CHECK(refusal_of_f("vec4 a[1024], b[1024];" + times(3000, "a==b;") + "return p.x;")
-            .find("arrays of 1024 and 3000 comparisons are too much together") != std::string::npos);
+            .find("comparing arrays of 1024 elements in 3000 places is too much") != std::string::npos);
   // What a person writes is far from that.
   CHECK(refusal_of_f("float s = 0.0;\n" + times(200, "s += sin(p.x * 3.0) * (p.y - 2.0) + s / 3.0;\n") +
                      "return s;") == "");
@@ -112,9 +112,9 @@ TEST_CASE("what is too long or too deep is refused before a compiler sees it") {
 
 TEST_CASE("nobody can read two functions out of one text") {
   CHECK(refusal_of_f("// \\\nreturn 1.0;\nreturn dot(p, p) - 0.64;") ==
-        "a comment must not end in a backslash: to GLSL the next line would be part of it");
+        "a comment must not end in a backslash: in GLSL the next line would be part of it");
   CHECK(refusal_of_f("// \\\r\nreturn 1.0;") ==
-        "a comment must not end in a backslash: to GLSL the next line would be part of it");
+        "a comment must not end in a backslash: in GLSL the next line would be part of it");
   CHECK(refusal_of_f("return p.x; // \\\n#define p q\n;") != "");
   CHECK(refusal_of_f("ret\\\nurn p.x;") == "'\\' has no meaning in a formula");
   CHECK(refusal_of_f("/* \\\n*/ return p.x; // a \\ b") == "");
@@ -164,8 +164,9 @@ TEST_CASE("what is bounded is no longer than drivers compile in seconds") {
     }
   };
   CHECK(why(200) == "");
-  CHECK(why(400).starts_with("without loops, calls and branches the function has 80"));
-  CHECK(why(400).ends_with("and may have 512; so no interval can be computed for it: declare a `lipschitz`"));
+  CHECK(why(400).starts_with("with loops, calls and branches expanded, the function has 80"));
+  CHECK(why(400).ends_with(
+      "; at most 512 are allowed; so no interval can be computed for it: declare a `lipschitz`"));
 }
 
 TEST_CASE("an array is held to its size wherever it is declared") {

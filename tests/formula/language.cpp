@@ -31,14 +31,14 @@ TEST_CASE("what is no formula is refused at its place") {
   CHECK(faults_of("#define X 1\nfloat f(vec3 p) { return X; }") ==
         "10:1: a formula has no preprocessor: write a const or a function\n");
   CHECK(faults_of("float f(vec3 p) { return p.x; ") == "10:17: this '{' is never closed\n");
-  CHECK(faults_of("float f(vec3 p) { return p.x); }") == "10:29: this ')' closes nothing\n");
+  CHECK(faults_of("float f(vec3 p) { return p.x); }") == "10:29: this ')' has no opening bracket\n");
   CHECK(faults_of("float f(vec3 p) { mat3 m; return p.x; }") ==
         "10:19: 'mat3' cannot be used in a formula\n");
   CHECK(faults_of("float f(vec3 p) {\n  PROBE(x, p.x);\n  return p.x;\n}") ==
         "11:3: PROBE is for shaders: to see a value of a formula, return it\n");
-  CHECK(faults_of("float f(vec3 p) { return p.foo; }") == "10:28: '.foo' is no part of a vector\n");
+  CHECK(faults_of("float f(vec3 p) { return p.foo; }") == "10:28: '.foo' is not a component of a vector\n");
   CHECK(faults_of("float f(vec3 p) { return 1.0lf * p.x; }") ==
-        "10:26: '1.0lf' is no number that is known here\n");
+        "10:26: '1.0lf' is not a number that a formula can have\n");
   CHECK(faults_of("float f(vec3 p) { return p.x; } \"") == "10:33: '\"' has no meaning in a formula\n");
   CHECK(faults_of("/* no end\nfloat f(vec3 p) { return p.x; }") ==
         "10:1: this comment has no end\n10:1: the text must have a function `float f(vec3 p)`\n");
@@ -53,7 +53,7 @@ TEST_CASE("what would be undefined, or depend on what was asked before, is refus
         "10:19: 'do' cannot be used in a formula\n");
   CHECK(faults_of("float f(vec3 p) { return system(p); }").find("there is no function 'system' here") !=
         std::string::npos);
-  CHECK(faults_of(std::string(70000, ' ')) == "10:1: a formula has at most 65536 bytes\n");
+  CHECK(faults_of(std::string(70000, ' ')) == "10:1: a formula can have at most 65536 bytes\n");
 }
 
 TEST_CASE("a kernel has operations on numbers, names of its own, and nothing to fold") {

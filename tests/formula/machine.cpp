@@ -118,7 +118,7 @@ TEST_CASE("a loop that does not end is an error, and the program goes on") {
       FAIL("it came to an end");
     } catch (const Error& error) {
       CHECK(error.code() == ExitCode::timed_out);
-      CHECK(std::string(error.what()).starts_with("the formula did not come to an end"));
+      CHECK(std::string(error.what()).starts_with("the formula did not end"));
     }
   }
 }

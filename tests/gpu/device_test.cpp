@@ -21,7 +21,7 @@ DeviceInfo made_up(int index, const std::string& name, DeviceType type, const st
 const std::vector<DeviceInfo> machine = {
     made_up(0, "llvmpipe (LLVM 15)", DeviceType::cpu),
     made_up(1, "Intel UHD", DeviceType::integrated),
-    made_up(2, "Old GeForce", DeviceType::discrete, "it speaks Vulkan 1.0.3, eyeray needs 1.1"),
+    made_up(2, "Old GeForce", DeviceType::discrete, "it supports Vulkan 1.0.3, but eyeray needs 1.1"),
     made_up(3, "Radeon RX", DeviceType::discrete),
 };
 
@@ -39,9 +39,9 @@ TEST_CASE("the device is chosen by sort, index or part of its name") {
 TEST_CASE("a device that will not do is named with its reasons, and the others are listed") {
   const auto [unusable, code] = error_of([] { gpu::choose_device(machine, "geforce"); });
   CHECK(code == ExitCode::no_device);
-  CHECK(contains(unusable, "2  Old GeForce: not usable: it speaks Vulkan 1.0.3, eyeray needs 1.1"));
+  CHECK(contains(unusable, "2  Old GeForce: not usable: it supports Vulkan 1.0.3, but eyeray needs 1.1"));
   CHECK(contains(error_of([] { gpu::choose_device(machine, "2"); }).first,
-                 "no device that --device 2 means is usable"));
+                 "no device that matches --device 2 is usable"));
   const std::string unknown = error_of([] { gpu::choose_device(machine, "7"); }).first;
   CHECK(contains(unknown, "no Vulkan device matches --device 7"));
   CHECK(contains(unknown, "3  Radeon RX"));

@@ -43,9 +43,9 @@ TEST_CASE("a driver that computes wrong is refused") {
   const auto [text, code] = refusal("hash(i ^ inputs[i])", "hash(i + inputs[i])");
   CHECK(code == ExitCode::no_device);
   CHECK(contains(text, device().info().name));
-  CHECK(contains(text, "computes wrong: an integer hash"));
+  CHECK(contains(text, "computes wrong results: an integer hash"));
   CHECK(contains(refusal("inputs[count - 1u - i]", "inputs[count - 1u]").first,
-                 "computes wrong: an indexed load"));
+                 "computes wrong results: an indexed load"));
   CHECK(contains(refusal("state * 1664525u", "state * 1664527u").first, "computes wrong: a loop's result"));
 }
 

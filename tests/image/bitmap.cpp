@@ -145,9 +145,9 @@ TEST_CASE("TGA with a palette, grey, and a run that is longer than a row") {
   for (const size_t i : {0, 1, 2, 3, 4}) palette += tga_color(bitmap_colors[i], 24);
   check_colors(palette + "\2\3\4\5\6\2");
   CHECK(decode_bitmap(palette + "\2\3\4\5\6\7").refused ==
-        "cannot read a: a pixel has colour 7, its palette those from 2 on, 5");
+        "cannot read a: a pixel has colour number 7, but the palette begins at 2 and has 5 colours");
   CHECK(decode_bitmap(palette + "\2\3\4\5\6\1").refused ==
-        "cannot read a: a pixel has colour 1, its palette those from 2 on, 5");
+        "cannot read a: a pixel has colour number 1, but the palette begins at 2 and has 5 colours");
 
   const Bitmap grey = decode_bitmap(tga_header(11, 8, 32) + "\x84\x40" + std::string("\0\x80", 2));
   CHECK(grey.pixels == std::vector<BitmapPixel>{{64, 64, 64, 255},
@@ -223,7 +223,7 @@ TEST_CASE("BMP with a palette of 1, 4 or 8 bits") {
   check_colors(with_colors(8, 5, std::string("\3\4\0\0\0\1\2\0", 8)));
   check_colors(with_colors(4, 5, std::string("\x34\0\0\0\1\x20\0\0", 8)));
   CHECK(decode_bitmap(with_colors(8, 5, std::string("\3\4\5\0\0\1\2\0", 8))).refused ==
-        "cannot read a: a pixel has colour 5, its palette 5");
+        "cannot read a: a pixel has colour number 5, but the palette has 5 colours");
   CHECK(decode_bitmap(with_colors(1, 2, std::string("\x40\0\0\0\xa0\0\0\0", 8))).pixels ==
         std::vector<BitmapPixel>{bitmap_colors[1], bitmap_colors[0], bitmap_colors[1], bitmap_colors[0],
                                  bitmap_colors[1], bitmap_colors[0]});

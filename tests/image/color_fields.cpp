@@ -67,7 +67,7 @@ std::string jpeg_with(uint8_t marker, const std::string& content) {
 }  // namespace
 
 TEST_CASE("PNG: of cICP, iCCP, sRGB, gAMA and cHRM the first that stands there counts") {
-  const std::string not_srgb = " is not honoured: its colours are taken for sRGB";
+  const std::string not_srgb = " is ignored: its colours are read as sRGB";
   CHECK(said_of_png({}) == "");
   CHECK(said_of_png({{"gAMA", big(45455)}, {"cHRM", primaries(64000)}}) == "");
   CHECK(said_of_png({{"gAMA", big(100000)}}) == "a: its gamma (gAMA) of 1" + not_srgb);
@@ -87,20 +87,20 @@ TEST_CASE("PNG: of cICP, iCCP, sRGB, gAMA and cHRM the first that stands there c
 TEST_CASE("PNG: pixels that are no squares, an orientation") {
   CHECK(said_of_png({{"pHYs", big(2835) + big(2835) + "\1"}}) == "");
   CHECK(said_of_png({{"pHYs", big(1) + big(2) + std::string(1, '\0')}}) ==
-        "a: its pixels are no squares (pHYs), which is not honoured");
+        "a: its pixels are not square (pHYs), which is ignored");
   const auto oriented = [](char orientation) {
     return "MM" + big(42, 2) + big(8) + big(1, 2) + big(0x0112, 2) + big(3, 2) + big(1) +
            std::string{'\0', orientation, '\0', '\0'};
   };
   CHECK(said_of_png({{"eXIf", oriented(1)}}) == "");
-  CHECK(said_of_png({{"eXIf", oriented(6)}}) == "a: its EXIF orientation (eXIf) of 6 is not honoured");
+  CHECK(said_of_png({{"eXIf", oriented(6)}}) == "a: its EXIF orientation (eXIf) of 6 is ignored");
 }
 
 TEST_CASE("JPEG: profiles and densities") {
   const std::string icc = std::string("ICC_PROFILE\0\1\1", 14);
   CHECK(warnings_of(jpeg_with(0xe2, icc + "desc sRGB IEC61966-2.1")).empty());
   CHECK(warnings_of(jpeg_with(0xe2, icc + "desc Adobe RGB (1998)")) ==
-        std::vector<std::string>{"a: its colour profile is not honoured: its colours are taken for sRGB"});
+        std::vector<std::string>{"a: its colour profile is ignored: its colours are read as sRGB"});
   const auto density = [](uint32_t across, uint32_t down) {
     return std::string("JFIF\0\1\2\1", 8) + big(across, 2) + big(down, 2) + std::string(2, '\0');
   };

@@ -147,13 +147,13 @@ TEST_CASE("layers are chosen by name, and parts are layers") {
 
 TEST_CASE("what is no picture is refused, each with its own words") {
   CHECK(refusal_of(corpus + "layers.exr", "nrmal") ==
-        "it has no layer 'nrmal'; there are depth, id, normal, uv");
+        "it has no layer 'nrmal', but there are depth, id, normal, uv");
   CHECK(refusal_of(corpus + "grey.exr", "id") == "it has no layer 'id'");
-  CHECK(refusal_of(corpus + "only_layers.exr") == "which of its layers? There are depth, id");
+  CHECK(refusal_of(corpus + "only_layers.exr") == "it has several layers; name one of depth, id");
   CHECK(refusal_of(corpus + "lacks_green.exr") == "it lacks the channel G");
-  CHECK(refusal_of(corpus + "many.exr") == "a picture has one to three channels, and this 4");
-  CHECK(refusal_of(corpus + "deep.exr") == "it holds deep data");
-  CHECK(refusal_of(corpus + "chroma.exr") == "it holds luminance and chroma, not red, green and blue");
+  CHECK(refusal_of(corpus + "many.exr") == "a picture must have one to three channels, not 4");
+  CHECK(refusal_of(corpus + "deep.exr") == "it contains deep data");
+  CHECK(refusal_of(corpus + "chroma.exr") == "it contains luminance and chroma, not red, green and blue");
   CHECK(refusal_of(corpus + "subsampled.exr") == "its channel B is subsampled");
 }
 

@@ -192,8 +192,7 @@ TEST_CASE("weights of morph targets: of each node that moves its own") {
   CHECK(near(first(at(file, 1), 0), Vec3(0.1, 0, 0.5)));
   file.json["animations"] = Json::array();
   animate(file, {"weights", "", {0, 2}, {0, 1, 2, 3, 4, 5}});
-  CHECK(contains(refusal(file.gltf(), "a.gltf"),
-                 "meshes[0].primitives[0] has 2 targets, for which there are 3 weights"));
+  CHECK(contains(refusal(file.gltf(), "a.gltf"), "meshes[0].primitives[0] has 2 targets, but 3 weights"));
 }
 
 TEST_CASE("joints that move hold the skin") {
@@ -259,11 +258,11 @@ TEST_CASE("animations that break rules, a row a rule") {
       {plain, none, "accepted"},
       {{"translation", "", {1, 1}, plain.values},
        none,
-       "accessors[2] holds the time 1 after 1: times must increase"},
-      {{"translation", "", {nan, 1}, plain.values}, none, "accessors[2] holds a time that is not finite"},
+       "accessors[2] contains the time 1 after 1: times must increase"},
+      {{"translation", "", {nan, 1}, plain.values}, none, "accessors[2] contains a time that is not finite"},
       {{"translation", "", {0, 1}, {0, 0, 0, 0, nan, 0}},
        none,
-       "accessors[3] holds a translation that is not finite"},
+       "accessors[3] contains a translation that is not finite"},
       {{"translation", "", {0, 1}, {0, 0, 0}}, none, sampler + " has 1 outputs for 2 times"},
       {{"translation", "CUBICSPLINE", {0, 1}, plain.values}, none, sampler + " has 2 outputs for 2 times"},
       {{"weights", "", {0, 1, 2}, {1, 2}},
@@ -271,14 +270,14 @@ TEST_CASE("animations that break rules, a row a rule") {
        sampler + " has 2 outputs for 3 times"},
       {{"translation", "CUBIC", {0, 1}, plain.values},
        none,
-       sampler + " has an interpolation that glTF does not know"},
-      {{"rotation", "", {0}, {0, 0, 0, 0}}, none, "accessors[3] holds a rotation without length"},
+       sampler + " has an interpolation that glTF does not define"},
+      {{"rotation", "", {0}, {0, 0, 0, 0}}, none, "accessors[3] contains a rotation of length 0"},
       {{"rotation",
         "CUBICSPLINE",
         {0, 1},
         joined({{0, 0, 0, 0}, turn(0), {0, 0, 0, 0}, {0, 0, 0, 0}, turn(360), {0, 0, 0, 0}})},
        none,
-       "animations[0] leaves nodes[0] a rotation without length"},
+       "animations[0] gives nodes[0] a rotation of length 0"},
       {{"rotation", "", {0}, {0, 0, 0, 1}, 5121},
        none,
        "accessors[3] holds rotation, which cannot be componentType 5121"},
@@ -300,7 +299,7 @@ TEST_CASE("animations that break rules, a row a rule") {
       {plain, set("/animations/0/channels/0/target/node", 1),
        channel + ".target.node must be an index below 1"},
       {plain, set("/animations/0/channels/0/target/path", "colour"),
-       channel + ".target has a path that glTF does not know"},
+       channel + ".target has a path that glTF does not define"},
       {plain, set("/nodes/0/matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}),
        channel + ".target moves the translation of nodes[0], which has a matrix"},
       {plain,
@@ -327,7 +326,7 @@ TEST_CASE("animations that break rules, a row a rule") {
   // What is no node's is left out.
   GltfFile pointer = animated_square(plain);
   pointer.json["animations"][0]["channels"][0]["target"] = {{"path", "pointer"}};
-  CHECK(warns(at(pointer, 0), "left out: animated values that are no node's (1)"));
+  CHECK(warns(at(pointer, 0), "left out: animated values that belong to no node (1)"));
   // What is not played is not looked at.
   GltfFile second = animated_square(plain);
   animate(second, {"translation", "CUBICSPLINE", {1, 1}, {0, 0, 0}});

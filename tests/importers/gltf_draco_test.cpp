@@ -184,11 +184,12 @@ TEST_CASE("draco: what disagrees with the data is refused, with its place") {
       {"/accessors/2/count", 1e9, "accessors[2] has 1000000000 elements of type VEC2, but the Draco data"},
       {"/accessors/0/type", "VEC4", "accessors[0] has 144 elements of type VEC4, but the Draco data"},
       {"/accessors/0/type", "MAT4", "accessors[0] has 144 elements of type MAT4, but the Draco data"},
-      {"/accessors/0/componentType", 5124, "accessors[0] has a componentType that glTF does not know"},
+      {"/accessors/0/componentType", 5124, "accessors[0] has a componentType that glTF does not define"},
       {"/accessors/1/componentType", 5121,
-       "accessors[1] cannot hold what the Draco data of meshes[0].primitives[0] have"},
+       "accessors[1] cannot store the values of the Draco data of meshes[0].primitives[0]"},
       {"/accessors/3/count", 723,
-       "accessors[3] has a count of 723, but the Draco data of meshes[0].primitives[0] have 242 triangles"},
+       "accessors[3] has a count of 723, but the Draco data of meshes[0].primitives[0] contain 242 "
+       "triangles"},
       {"/meshes/0/primitives/0/extensions/KHR_draco_mesh_compression/attributes/NORMAL", 7,
        "takes NORMAL from attribute 7, which its data lack"},
       {"/meshes/0/primitives/0/extensions/KHR_draco_mesh_compression/attributes/NORMAL", 4294967297,
@@ -214,8 +215,8 @@ TEST_CASE("draco: what disagrees with the data is refused, with its place") {
 
 TEST_CASE("draco: data that are none, of another kind, cut short, or damaged") {
   const std::string where = "meshes[0].primitives[0].extensions.KHR_draco_mesh_compression has data that ";
-  CHECK(contains(refusal_of_data(""), where + "are not Draco's"));
-  CHECK(contains(refusal_of_data("DRAGO\x02\x02\x01\x01"), where + "are not Draco's"));
+  CHECK(contains(refusal_of_data(""), where + "are not Draco data"));
+  CHECK(contains(refusal_of_data("DRAGO\x02\x02\x01\x01"), where + "are not Draco data"));
   CHECK(
       contains(refusal_of_data(std::string("DRACO\x02\x03\x00\x01\x00\x00", 11)), where + "are not a mesh"));
   CHECK(contains(refusal_of_data(std::string("DRACO\x02\x02\x01\x07\x00\x00", 11)),
@@ -240,7 +241,7 @@ TEST_CASE("draco: data that are none, of another kind, cut short, or damaged") {
 }
 
 TEST_CASE("draco: absurd sizes take no memory, in its header, its attributes or its metadata") {
-  const std::string too_much = "have more faces or vertices than data of this size can mean";
+  const std::string too_much = "have more faces or vertices than data of this size can encode";
   const std::string billion = varint(1000000000);
   CHECK(contains(refusal_of_data(edgebreaker_head + billion + billion + '\0' + billion + '\0'), too_much));
   // Twelve million corners may be, not 255 tables of them.
@@ -287,8 +288,8 @@ TEST_CASE("draco: one attribute of a large mesh is not copied into accessors wit
     file.json["accessors"].push_back(Json(file.json["accessors"][0]));
     coding_of(file)["attributes"][name] = 0;
   }
-  CHECK(
-      contains(refusal(file.glb(), "a.glb"), "takes the elements beyond what a file of this size can mean"));
+  CHECK(contains(refusal(file.glb(), "a.glb"),
+                 "makes the number of elements larger than a file of this size may have"));
 }
 
 // Draco 1.5.5 takes 7 s for what they claim, in a few bytes; the count lies where only decoding finds it.

@@ -13,11 +13,10 @@ TEST_CASE("a key that stands twice in an object is refused, with its place") {
     return refusal("{\n\"extras\": " + extras + "," + plain.substr(1), "a.gltf");
   };
   CHECK(with("{\"a\": {\"a\": 1}, \"b\": [{\"a\": \"a\"}, {\"a\": \"\\\"b\"}]}") == "accepted");
-  CHECK(with("{\"a\": 1, \"b\": {}, \"a\": 1}") ==
-        "a.gltf:2:29: error: the key \"a\" stands twice in an object");
+  CHECK(with("{\"a\": 1, \"b\": {}, \"a\": 1}") == "a.gltf:2:29: error: an object has the key \"a\" twice");
   CHECK(with("[{\"a\": [1, \"a\"], \"\\u0061\": 1}]") ==
-        "a.gltf:2:28: error: the key \"a\" stands twice in an object");
-  CHECK(with("1, \"extras\": 2") == "a.gltf:2:14: error: the key \"extras\" stands twice in an object");
+        "a.gltf:2:28: error: an object has the key \"a\" twice");
+  CHECK(with("1, \"extras\": 2") == "a.gltf:2:14: error: an object has the key \"extras\" twice");
 }
 
 TEST_CASE("JSON is read in time that grows with its length, and to a bound") {

@@ -34,9 +34,9 @@ std::function<void(GltfFile&)> animate(const char* path, const char* interpolati
 
 const std::string said_empty = "lists and objects that are empty, which glTF does not allow: 1, the first ";
 const std::string said_missing = "properties that glTF requires and the file lacks: 1, the first ";
-const std::string said_mismatch = "values of another type than glTF gives their property: 1, the first ";
-const std::string said_out_of_range = "values that glTF does not give their property: 1, the first ";
-const std::string said_twice = "lists that hold the same element twice: 1, the first ";
+const std::string said_mismatch = "values of another type than that of their property in glTF: 1, the first ";
+const std::string said_out_of_range = "values that glTF does not allow for their property: 1, the first ";
+const std::string said_twice = "lists that contain the same element twice: 1, the first ";
 const std::string said_nowhere = "indices of objects that the file does not have: 1, the first ";
 const std::string said_undefined = "properties that glTF does not define, left out: 1, the first ";
 const std::string said_hidden =
@@ -109,10 +109,10 @@ TEST_CASE("rules of glTF: properties, their types, ranges and lists") {
        set("/materials/0/extensions/KHR_materials_clearcoat", {{"clearCoatFactor", 1}}),
        said_undefined + "materials[0].extensions.KHR_materials_clearcoat.clearCoatFactor"},
       {"an extension of materials in a node", set("/nodes/1/extensions/KHR_materials_unlit", Json::object()),
-       "extensions of objects that they are not for, left out: 1, the first "
+       "extensions of objects to which they do not apply, left out: 1, the first "
        "nodes[1].extensions.KHR_materials_unlit"},
       {"an extension that is in no object", set("/nodes/1/extensions/KHR_mesh_quantization", Json::object()),
-       "extensions of objects that they are not for, left out: 1, the first "
+       "extensions of objects to which they do not apply, left out: 1, the first "
        "nodes[1].extensions.KHR_mesh_quantization"},
       {"an unknown extension holds what it likes", set("/nodes/1/extensions/ABC_future", {{"mesh", "x"}}),
        "left out: the extension ABC_future (1)"},
@@ -138,7 +138,7 @@ TEST_CASE("rules of glTF: properties, their types, ranges and lists") {
              {{"type", "point"}, {"spot", Json::object()}}};
          file.json["nodes"][1]["extensions"]["KHR_lights_punctual"]["light"] = 0;
        },
-       "cones of lights that are no spot lights, left out: 1, the first "
+       "cones of lights that are not spot lights, left out: 1, the first "
        "extensions.KHR_lights_punctual.lights[0]"},
       {"a joint that there is not, without weight",
        attribute("JOINTS_0", {0, 9, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, 5121, "VEC4", 4),
@@ -146,7 +146,7 @@ TEST_CASE("rules of glTF: properties, their types, ranges and lists") {
            ".JOINTS_0"},
       {"a weight that is no number",
        attribute("WEIGHTS_0", {1, double(NAN), 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, 5126, "VEC4", 4),
-       "weights below 0 or not finite, taken as 0: 1, the first " + attributes_at + ".WEIGHTS_0"},
+       "weights below 0 or not finite, set to 0: 1, the first " + attributes_at + ".WEIGHTS_0"},
       {"a morph target of fewer vertices, without weight", hidden_target("/accessors/7/count", 3),
        said_hidden},
       {"a morph target beyond its view, without weight", hidden_target("/accessors/7/byteOffset", 400),
@@ -158,7 +158,7 @@ TEST_CASE("rules of glTF: properties, their types, ranges and lists") {
        "animated weights of nodes without morph targets, left out: 1, the first "
        "animations[0].channels[0].target"},
       {"a spline of one key", animate("translation", "CUBICSPLINE", 3),
-       "animations along splines of one key, which do not move: 1, the first animations[0].samplers[0]"},
+       "animations along splines with one key, which do not move: 1, the first animations[0].samplers[0]"},
   };
   check_rules(table);
 }
@@ -191,9 +191,9 @@ TEST_CASE("rules of glTF: nodes, skins, and what accessors and views hold") {
        },
        "nodes below themselves: 2, the first nodes[2]"},
       {"a skin without a mesh", set("/nodes/1/skin", 0),
-       "nodes with a skin, weights or instances but no mesh, which count for nothing: 1, the first nodes[1]"},
+       "nodes with a skin, weights or instances but no mesh, which have no effect: 1, the first nodes[1]"},
       {"weights without a mesh", set("/nodes/1/weights", {1}),
-       "nodes with a skin, weights or instances but no mesh, which count for nothing: 1, the first nodes[1]"},
+       "nodes with a skin, weights or instances but no mesh, which have no effect: 1, the first nodes[1]"},
       {"primitives of one and of no morph target",
        add_object("meshes",
                   {{"primitives",
@@ -203,7 +203,7 @@ TEST_CASE("rules of glTF: nodes, skins, and what accessors and views hold") {
        add_object("meshes", {{"primitives", {{{"attributes", position}}, {{"attributes", skinned}}}}}),
        "meshes whose primitives differ in their number of sets of joints: 1, the first meshes[1]"},
       {"joints of two trees", two_joints(nullptr, {1}, {0, 2}),
-       "skins whose joints have no common root, taken where they stand: 1, the first skins[0]"},
+       "skins whose joints have no common root, used where they are: 1, the first skins[0]"},
       {"joints of one tree", two_joints(nullptr, {1, 2}, {0}), ""},
       {"a skeleton above all joints", two_joints(0, {1, 2}, {0}), ""},
       {"a skeleton that is one of two joints", two_joints(1, {1, 2}, {0}), skeleton},
@@ -212,8 +212,7 @@ TEST_CASE("rules of glTF: nodes, skins, and what accessors and views hold") {
       {"matrices as an attribute",
        [](GltfFile& file) { file.primitive()["attributes"]["_X"] = bind_matrices; },
        "accessors that are more than one of attributes, indices and other data: 1, the first accessors[6]; "
-       "views "
-       "that hold more than one of attributes, indices and other data: 1, the first bufferViews[6]"},
+       "views that contain more than one of attributes, indices and other data: 1, the first bufferViews[6]"},
       {"positions without min", erase("/accessors/0", "min"),
        "accessors of positions or times without min and max: 1, the first accessors[0]"},
       {"a morph target without max", erase("/accessors/7", "max"),
@@ -256,7 +255,7 @@ TEST_CASE("rules of glTF: nodes, skins, and what accessors and views hold") {
          file.json["accessors"].push_back(file.json["accessors"][uv]);
          file.primitive()["attributes"]["TEXCOORD_1"] = 8;
        },
-       "views of several attributes without a byteStride, taken as packed: 1, the first bufferViews[3]"},
+       "views of several attributes without a byteStride, read as packed: 1, the first bufferViews[3]"},
       {"two attributes in a view with a stride",
        [](GltfFile& file) {
          file.json["accessors"].push_back(file.json["accessors"][uv]);
@@ -276,7 +275,7 @@ TEST_CASE("rules of glTF: indices that begin a strip anew, and data of another t
   file.add_positions(many);
   file.primitive()["indices"] = file.add({0, 1, 255}, 5121, "SCALAR", 1);
   CHECK(said_of(file) ==
-        "indices that begin a strip anew in other readers, taken as those of vertices: 1, the first "
+        "indices that begin a new strip in other readers, read as those of vertices: 1, the first "
         "accessors[1]");
   file.primitive()["indices"] = file.add({0, 1, 255}, 5123, "SCALAR", 1);
   CHECK(said_of(file) == "");
@@ -314,5 +313,5 @@ TEST_CASE("rules of glTF: chunks of .glb") {
   glb += Bytes().add(uint32_t(json.size())).add(uint32_t(0x4e4f534a)).text() + json;
   CHECK(said(glb) == Said{});
   CHECK(said(with_chunk(glb, glb.size(), binary, "abcd")) ==
-        Said{"binary chunks of .glb that no buffer takes, left out: 1, the first the file"});
+        Said{"binary chunks of .glb that no buffer uses, left out: 1, the first the file"});
 }

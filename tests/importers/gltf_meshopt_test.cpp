@@ -146,13 +146,13 @@ TEST_CASE("meshopt: what is against the specification is refused, with its place
     Json changes;
     std::string why;
   } cases[] = {
-      {0, {{"mode", "STRIPS"}}, "has the mode \"STRIPS\", which eyeray does not know"},
-      {0, {{"filter", "COLOR"}}, "has the filter \"COLOR\", which eyeray does not know"},
+      {0, {{"mode", "STRIPS"}}, "has the mode \"STRIPS\", which eyeray does not support"},
+      {0, {{"filter", "COLOR"}}, "has the filter \"COLOR\", which eyeray does not support"},
       {0, {{"byteStride", 6}, {"count", 288}}, "has a byteStride of 6, which ATTRIBUTES cannot have"},
       {0, {{"byteStride", 0}}, "has a byteStride of 0, which ATTRIBUTES cannot have"},
       {0, {{"byteStride", 576}, {"count", 3}}, "has a byteStride of 576, which ATTRIBUTES cannot have"},
       {3, {{"byteStride", 12}}, "has a byteStride of 12, which TRIANGLES cannot have"},
-      {3, {{"count", 725}}, "has a count of 725, which is not three a triangle"},
+      {3, {{"count", 725}}, "has a count of 725, which must be a multiple of three"},
       {0,
        {{"filter", "OCTAHEDRAL"}},
        "has the filter OCTAHEDRAL, which ATTRIBUTES with a byteStride of 12 cannot have"},
@@ -162,8 +162,8 @@ TEST_CASE("meshopt: what is against the specification is refused, with its place
       {3,
        {{"filter", "EXPONENTIAL"}},
        "has the filter EXPONENTIAL, which TRIANGLES with a byteStride of 2 cannot have"},
-      {0, {{"count", 143}}, "is to have 1728 bytes, but is decoded to 143 elements of 12"},
-      {0, {{"count", 1e15}}, "is to have 1728 bytes, but is decoded to 1000000000000000 elements of 12"},
+      {0, {{"count", 143}}, "should have 1728 bytes, but is decoded to 143 elements of 12"},
+      {0, {{"count", 1e15}}, "should have 1728 bytes, but is decoded to 1000000000000000 elements of 12"},
       {0,
        {{"mode", "INDICES"}, {"byteStride", 4}, {"count", 432}},
        "has data that are damaged: they are no INDICES"},
@@ -197,7 +197,7 @@ TEST_CASE("meshopt: data cut short at every byte, or of another version") {
       coding_of(file, view)["byteLength"] = length;
       const std::string why = refusal(file.glb(), "a.glb");
       CAPTURE(why);
-      REQUIRE((contains(why, "cannot stand for") || contains(why, "are damaged")));
+      REQUIRE((contains(why, "cannot encode") || contains(why, "are damaged")));
     }
   }
   GltfFile file = meshopt_grid();
@@ -205,9 +205,9 @@ TEST_CASE("meshopt: data cut short at every byte, or of another version") {
   std::string later = file.data().substr(coding["byteOffset"], coding["byteLength"]);
   later[0] = char(0xa1);
   coding["byteOffset"] = file.json["bufferViews"][size_t(file.add_view(later))]["byteOffset"];
-  CHECK(contains(
-      refusal(file.gltf(), "a.gltf"),
-      "[0].extensions.EXT_meshopt_compression has data of version 1 of ATTRIBUTES; eyeray knows up to 0"));
+  CHECK(contains(refusal(file.gltf(), "a.gltf"),
+                 "[0].extensions.EXT_meshopt_compression has data of version 1 of ATTRIBUTES; eyeray reads "
+                 "versions up to 0"));
 }
 
 TEST_CASE("meshopt: absurd counts take no memory, alone or many of them together") {
@@ -216,7 +216,7 @@ TEST_CASE("meshopt: absurd counts take no memory, alone or many of them together
     GltfFile file = meshopt_grid();
     coding_of(file, view)["count"] = 999999999;
     file.json["bufferViews"][view]["byteLength"] = 999999999ll * stride;
-    CHECK(contains(refusal(file.gltf(), "a.gltf"), "bytes, which cannot stand for 999999999 elements"));
+    CHECK(contains(refusal(file.gltf(), "a.gltf"), "bytes, which cannot encode 999999999 elements"));
   }
 
   // Nothing but zeros: blocks of 256 elements of 32 bytes, each in 128.
@@ -236,5 +236,5 @@ TEST_CASE("meshopt: absurd counts take no memory, alone or many of them together
     file.json["meshes"][0]["primitives"][size_t(i)] = {{"attributes", {{"POSITION", accessor}}}};
   }
   CHECK(contains(refusal(file.glb(), "a.glb"),
-                 "takes what is decoded beyond what a file of this size can mean"));
+                 "makes the decoded data larger than a file of this size may have"));
 }

@@ -41,7 +41,7 @@ const std::string light_at = "extensions.KHR_lights_punctual.lights[0]";
 const std::string wrong_cone =
     "spot lights whose angles do not grow from 0 to a quarter turn, clamped: 1, the first " + light_at;
 const std::string out_of_range =
-    "cameras whose aspectRatio, ymag, znear or zfar is out of range, which does not count: 1, the first "
+    "cameras whose aspectRatio, ymag, znear or zfar is out of range, which is ignored: 1, the first "
     "cameras[0].";
 
 }  // namespace
@@ -53,7 +53,7 @@ TEST_CASE("rules of glTF: what is said when each is broken") {
   const Rule table[] = {
       // Nodes.
       {"matrix and TRS", set("/nodes/1/matrix", identity),
-       error + "nodes[1] has a matrix, and a translation, rotation or scale beside it"},
+       error + "nodes[1] has both a matrix and a translation, rotation or scale"},
       {"rotation of length 2", set("/nodes/1/rotation", {0, 0, 0, 2}),
        "rotations that are not of unit length, normalised: 1, the first nodes[1].rotation"},
       {"rotation nearly of length 1", set("/nodes/1/rotation", {0, 0, 0, 1.005}), ""},
@@ -98,7 +98,7 @@ TEST_CASE("rules of glTF: what is said when each is broken") {
        },
        error + attributes_at + " have no JOINTS_0, but the mesh is shown with a skin"},
       {"joints without a skin", erase("/nodes/0", "skin"),
-       "meshes with joints that are shown without a skin, as they are: 1, the first " + attributes_at},
+       "meshes with joints that are shown without a skin, undeformed: 1, the first " + attributes_at},
       // Skins and morph targets.
       {"joints without weights", erase("/meshes/0/primitives/0/attributes", "WEIGHTS_0"),
        error + attributes_at + " have one of JOINTS_0 and WEIGHTS_0 without the other"},
@@ -106,21 +106,21 @@ TEST_CASE("rules of glTF: what is said when each is broken") {
        [](GltfFile& file) {
          file.json["skins"][0]["inverseBindMatrices"] = file.add(with(identity, 3, 0.5), 5126, "MAT4", 16);
        },
-       error + "accessors[8] holds inverseBindMatrices, whose last rows must be 0, 0, 0, 1"},
+       error + "accessors[8] contains inverseBindMatrices, whose last rows must be 0, 0, 0, 1"},
       {"inverse bind matrices in bytes",
        [](GltfFile& file) {
          file.json["skins"][0]["inverseBindMatrices"] = file.add(identity, 5120, "MAT4", 16);
        },
-       error + "accessors[8] holds inverseBindMatrices, which must be floats"},
+       error + "accessors[8] contains inverseBindMatrices, which must be floats"},
       {"weights that sum to 4", attribute("WEIGHTS_0", ones, 5126, "VEC4", 4),
        "vertices that name a joint twice, whose weights are added: 1, the first " + attributes_at +
            ".JOINTS_0; weights of joints that do not sum to 1, divided by their sum: 1, the first " +
            attributes_at + ".WEIGHTS_0"},
       {"a negative weight",
        attribute("WEIGHTS_0", {1, -1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, 5126, "VEC4", 4),
-       "weights below 0 or not finite, taken as 0: 1, the first " + attributes_at + ".WEIGHTS_0"},
+       "weights below 0 or not finite, set to 0: 1, the first " + attributes_at + ".WEIGHTS_0"},
       {"more weights than targets", set("/meshes/0/weights", {1, 1}),
-       error + "meshes[0].primitives[0] has 1 targets, for which there are 2 weights"},
+       error + "meshes[0].primitives[0] has 1 targets, but 2 weights"},
       // Accessors and views.
       {"no elements", set("/accessors/0/count", 0), error + "accessors[0] has no elements"},
       {"misaligned accessor",
@@ -143,26 +143,26 @@ TEST_CASE("rules of glTF: what is said when each is broken") {
        "strides that are no multiple of 4 from 4 to 252: 1, the first bufferViews[8].byteStride"},
       {"stride of indices", set("/bufferViews/1/byteStride", 4),
        error +
-           "accessors[1] is in bufferViews[1], which has a byteStride: that is for attributes of vertices"},
+           "accessors[1] is in bufferViews[1], which has a byteStride: only attributes of vertices may have one"},
       {"stride of inverse bind matrices", set("/bufferViews/6/byteStride", 64),
        error +
-           "accessors[6] is in bufferViews[6], which has a byteStride: that is for attributes of vertices"},
+           "accessors[6] is in bufferViews[6], which has a byteStride: only attributes of vertices may have one"},
       {"normalized indices", set("/accessors/1/normalized", true),
-       error + "accessors[1] holds indices, which cannot be normalized"},
+       error + "accessors[1] contains indices, which cannot be normalized"},
       {"min of other data", set("/accessors/0/min", {0, -5, 0}),
-       "accessors whose min or max is not that of their data, which count: 1, the first accessors[0]"},
+       "accessors whose min or max is not that of their data, which are used: 1, the first accessors[0]"},
       {"max of two numbers", set("/accessors/0/max", {1, 1}), error + "accessors[0] has a max of 2 numbers"},
       {"max, rounded", set("/accessors/0/max", {1.0001, 1, 0}), ""},
-      {"max of normalized numbers, as they are stored",
+      {"max of normalized numbers, undeformed stored",
        [](GltfFile& file) {
          attribute("TEXCOORD_0", {0, 0, 255, 0, 255, 255, 0, 255}, 5121, "VEC2", 2, true)(file);
          file.json["accessors"][8]["max"] = {255, 255};
        },
        ""},
       {"sparse of nothing", sparse({0}, 0),
-       error + "accessors[0].sparse has a count of 0: it is from 1 to that of its accessor, 4"},
+       error + "accessors[0].sparse has a count of 0: it must be from 1 to that of its accessor, 4"},
       {"sparse of more than there are", sparse({0, 1, 2, 3, 3}, 5),
-       error + "accessors[0].sparse has a count of 5: it is from 1 to that of its accessor, 4"},
+       error + "accessors[0].sparse has a count of 5: it must be from 1 to that of its accessor, 4"},
       {"sparse, not in order", sparse({2, 1}, 2),
        error + "accessors[0].sparse.indices have 1 after 2: they must increase"},
       {"sparse, one twice", sparse({1, 1}, 2),
@@ -171,18 +171,17 @@ TEST_CASE("rules of glTF: what is said when each is broken") {
       {"normals of length 3", attribute("NORMAL", with(with(flat_normals, 2, 3), 5, 3), 5126, "VEC3", 3),
        "normals that are not of unit length, normalised: 1, the first " + attributes_at + ".NORMAL"},
       {"positions in shorts, undeclared", attribute("POSITION", square_positions, 5122, "VEC3", 3),
-       "attributes of component types that glTF does not give them, read as they say: 1, the first "
-       "accessors[8]"},
+       "attributes of component types that glTF does not allow for them, read by their componentType: 1, the first accessors[8]"},
       {"positions in 32 bits", attribute("POSITION", square_positions, 5125, "VEC3", 3),
        error + "accessors[8] holds POSITION, which cannot be componentType 5125"},
-      {"weights in bytes that are no shares",
+      {"weights in bytes that are not shares",
        attribute("WEIGHTS_0", {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, 5121, "VEC4", 4),
        error + "accessors[8] holds WEIGHTS_0, which cannot be componentType 5121"},
       {"joints as floats", attribute("JOINTS_0", std::vector<double>(16, 0), 5126, "VEC4", 4),
        error + "accessors[8] holds JOINTS_0, which cannot be componentType 5126"},
       {"normalized joints", attribute("JOINTS_0", std::vector<double>(16, 0), 5121, "VEC4", 4, true),
        error + "accessors[8] holds JOINTS_0, which cannot be normalized componentType 5121"},
-      {"colours in bytes that are no shares", attribute("COLOR_0", ones, 5121, "VEC4", 4),
+      {"colours in bytes that are not shares", attribute("COLOR_0", ones, 5121, "VEC4", 4),
        error + "accessors[8] holds COLOR_0, which cannot be componentType 5121"},
       {"corners that make no triangle",
        [](GltfFile& file) {
@@ -200,11 +199,11 @@ TEST_CASE("rules of glTF: what is said when each is broken") {
       // Lights.
       {"a light as it should be", light({{"type", "point"}, {"color", {0.5, 0, 1}}, {"intensity", 0}}), ""},
       {"an intensity below 0", light({{"type", "point"}, {"intensity", -1}}),
-       error + light_at + " has an intensity that no light has"},
+       error + light_at + " has an intensity that is out of range"},
       {"intensity and colour below 0", light({{"type", "point"}, {"intensity", -1}, {"color", {-1, -1, -1}}}),
-       error + light_at + " has an intensity that no light has"},
+       error + light_at + " has an intensity that is out of range"},
       {"a colour above 1", light({{"type", "point"}, {"color", {2, 1, 1}}}),
-       "colours of lights above 1, taken as they are: 1, the first " + light_at},
+       "colours of lights above 1, used unchanged: 1, the first " + light_at},
       {"a range of 0", light({{"type", "point"}, {"range", 0}}),
        "left out: ranges of lights (1); ranges of lights that are not above 0: 1, the first " + light_at},
       {"a spot as wide as can be",
@@ -219,7 +218,7 @@ TEST_CASE("rules of glTF: what is said when each is broken") {
       {"a cone below 0", light({{"type", "spot"}, {"spot", {{"innerConeAngle", -0.1}}}}), wrong_cone},
       // Names, types and sizes.
       {"an attribute of an unknown name", attribute("TEXCOORD0", std::vector<double>(8, 0), 5126, "VEC2", 2),
-       "attributes whose names glTF does not know, left out: 1, the first " + attributes_at + ".TEXCOORD0"},
+       "attributes whose names glTF does not define, left out: 1, the first " + attributes_at + ".TEXCOORD0"},
       {"attributes of an application and of an extension",
        [](GltfFile& file) {
          for (const char* name : {"_HEAT", "KHR_x:SIZE"}) file.primitive()["attributes"][name] = positions;
@@ -232,21 +231,20 @@ TEST_CASE("rules of glTF: what is said when each is broken") {
          attribute("TANGENT", ones, 5126, "VEC4", 4)(file);
          file.primitive()["attributes"].erase("NORMAL");
        },
-       "meshes with tangents and without normals, made of their uv instead: 1, the first " + attributes_at},
+       "meshes with tangents but without normals; their tangents are computed from uv instead: 1, the first " + attributes_at},
       {"a morph target of normals that are not there",
        [](GltfFile& file) {
          file.primitive()["targets"][0]["NORMAL"] = normals;
          file.primitive()["attributes"].erase("NORMAL");
        },
-       "morph targets of attributes that the mesh has not, left out: 1, the first "
-       "meshes[0].primitives[0].targets[0]"},
+       "morph targets of attributes that the mesh lacks, left out: 1, the first meshes[0].primitives[0].targets[0]"},
       {"normalized floats", set("/accessors/3/normalized", true),
        "accessors of floats or of 32 bits that are normalized: 1, the first accessors[3]"},
       {"colours above 1", attribute("COLOR_0", std::vector<double>(16, 2), 5126, "VEC4", 4),
        "colours of vertices below 0 or above 1, clamped: 1, the first " + attributes_at + ".COLOR_0"},
       {"a matrix that shears",
        [](GltfFile& file) { file.json["nodes"][1] = {{"matrix", with(identity, 4, 0.5)}}; },
-       "matrices of nodes that shear, taken as they are: 1, the first nodes[1].matrix"},
+       "matrices of nodes that shear, used unchanged: 1, the first nodes[1].matrix"},
       {"a camera without znear", camera({{"type", "perspective"}, {"perspective", {{"yfov", 1}}}}),
        out_of_range + "perspective"},
       {"a camera whose zfar is not beyond znear",
@@ -261,7 +259,7 @@ TEST_CASE("rules of glTF: what is said when each is broken") {
       {"a sound orthographic camera",
        camera({{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0}}}}), ""},
       {"a camera without a type", camera({{"perspective", {{"yfov", 1}, {"znear", 1}}}}),
-       "cameras whose type is not that of their values, which count: 1, the first cameras[0]"},
+       "cameras whose type is not that of their values, which are used: 1, the first cameras[0]"},
       // Properties of other names, or in other places.
       {"a property in another case", set("/materials/0/alphamode", "BLEND"),
        "properties that glTF does not define, left out: 1, the first materials[0].alphamode"},
@@ -290,15 +288,13 @@ TEST_CASE("rules of glTF: what is said when each is broken") {
          file.json["extensionsUsed"] = {"KHR_materials_volume"};
          file.json["materials"][0]["extensions"]["KHR_materials_volume"] = {{"thicknessFactor", 1}};
        },
-       "volumes of materials that let no light through, left out: 1, the first "
-       "materials[0].extensions.KHR_materials_volume"},
+       "volumes of materials that transmit no light, left out: 1, the first materials[0].extensions.KHR_materials_volume"},
       {"a strength of nothing",
        [](GltfFile& file) {
          file.json["extensionsUsed"] = {"KHR_materials_emissive_strength"};
          file.json["materials"][0]["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", 5}};
        },
-       "emissive strengths of materials without an emissiveFactor, which do not shine: 1, the first "
-       "materials[0].extensions.KHR_materials_emissive_strength"},
+       "emissive strengths of materials without an emissiveFactor, which emit no light: 1, the first materials[0].extensions.KHR_materials_emissive_strength"},
       {"a joint twice at a vertex",
        attribute("WEIGHTS_0", {0.5, 0.5, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, 5126, "VEC4", 4),
        "vertices that name a joint twice, whose weights are added: 1, the first " + attributes_at + ".JOINTS_0"},
@@ -307,29 +303,28 @@ TEST_CASE("rules of glTF: what is said when each is broken") {
          file.json["nodes"][1]["camera"] = 0;
          file.json["cameras"] = {{{"type", "orthographic"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}}};
        },
-       "cameras whose type is not that of their values, which count: 1, the first cameras[0]"},
+       "cameras whose type is not that of their values, which are used: 1, the first cameras[0]"},
       {"a later version", set("/asset/version", "2.1"),
        "versions of glTF above 2.0, read as 2.0: 1, the first asset.version"},
       {"a cutoff below 0",
        [](GltfFile& file) { file.json["materials"][0] = {{"alphaMode", "MASK"}, {"alphaCutoff", -1}}; },
-       "values of materials below 0, taken as 0: 1, the first materials[0].alphaCutoff"},
+       "values of materials below 0, set to 0: 1, the first materials[0].alphaCutoff"},
       {"a strength below 0",
        [](GltfFile& file) {
          Json& material = file.json["materials"][0];
          material["emissiveFactor"] = {1, 1, 1};
          material["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = -1;
        },
-       "values of materials below 0, taken as 0: 1, the first "
-       "materials[0].extensions.KHR_materials_emissive_strength.emissiveStrength"},
+       "values of materials below 0, set to 0: 1, the first materials[0].extensions.KHR_materials_emissive_strength.emissiveStrength"},
       // The asset.
       {"a minVersion that is read", set("/asset/minVersion", "2.0"), ""},
       {"a minVersion beyond", set("/asset/minVersion", "2.1"),
-       error + "it asks for readers of glTF 2.1, and this is one of 2.0 (asset.minVersion)"},
+       error + "it requires glTF 2.1 (asset.minVersion), but eyeray reads 2.0"},
       // Materials.
       {"a factor above 1", set("/materials/0/pbrMetallicRoughness/roughnessFactor", 7),
        "factors below 0 or above 1, clamped: 1, the first materials[0].pbrMetallicRoughness.roughnessFactor"},
       {"an alphaMode that there is not", set("/materials/0/alphaMode", "GLASS"),
-       error + "materials[0] has an alphaMode that glTF does not know"},
+       error + "materials[0] has an alphaMode that glTF does not define"},
       {"a required extension that is not declared", set("/extensionsRequired", {"KHR_materials_ior"}),
        "extensions that extensionsUsed does not name: 1, the first KHR_materials_ior"},
       {"an extension of an object that is not declared",
@@ -345,8 +340,7 @@ TEST_CASE("rules of glTF: what is said when each is broken") {
          for (const char* list : {"extensionsUsed", "extensionsRequired"})
            file.json[list] = {"ABC_future", "KHR_x", "KHR_materials_ior"};
        },
-       "the picture is not what the file means: it requires ABC_future, KHR_x, which eyeray does not know "
-       "(extensionsRequired)"},
+       "the picture is not as the file intends: it requires ABC_future, KHR_x, which eyeray does not support (extensionsRequired)"},
   };
   check_rules(table);
 }
@@ -364,5 +358,5 @@ TEST_CASE("rules of glTF: a kind is said once, with its count and first place") 
   GltfFile many = square_file();
   for (int i = 0; i < 70'000; ++i) many.json["nodes"].push_back({{"name", i}});
   CHECK(said_of(many) ==
-        "values of another type than glTF gives their property: 70000, the first nodes[1].name");
+        "values of another type than that of their property in glTF: 70000, the first nodes[1].name");
 }

@@ -150,7 +150,7 @@ TEST_CASE("nodes that are their own ancestors, or have two parents, are refused"
   GltfFile file = square_file();
   file.json["nodes"] = {{{"children", {1}}}, {{"mesh", 0}, {"children", {0}}}};
   CHECK(refusal(file.gltf(), "a.gltf") ==
-        "a.gltf: error: nodes[0] is reached twice: a node has one parent, and is not below itself");
+        "a.gltf: error: nodes[0] is reached twice: a node can have one parent, and cannot be below itself");
   file.json["nodes"] = {{{"children", {1, 2}}}, {{"children", {2}}}, {{"mesh", 0}}};
   CHECK(contains(refusal(file.gltf(), "a.gltf"), "nodes[2] is reached twice"));
   Json chain = Json::array();
@@ -173,20 +173,20 @@ TEST_CASE("wrong glTF is refused, and the place named") {
   CHECK(said("/nodes/0/mesh", 0.5) == "a.gltf: error: nodes[0].mesh must be an index below 1");
   CHECK(said("/nodes/0/scale", {1, 2}) == "a.gltf: error: nodes[0].scale must be a list of 3 numbers");
   CHECK(said("/nodes/0/scale", {1, "a", 2}) == "a.gltf: error: nodes[0].scale must be a list of 3 numbers");
-  CHECK(said("/nodes/0/rotation", {0, 0, 0, 0}) == "a.gltf: error: nodes[0] has a rotation without length");
+  CHECK(said("/nodes/0/rotation", {0, 0, 0, 0}) == "a.gltf: error: nodes[0] has a rotation of length 0");
   CHECK(said("/nodes/0/matrix", {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}) ==
         "a.gltf: error: nodes[0] has a matrix that is not affine");
   CHECK(said("/nodes", 7) == "a.gltf: error: nodes must be a list");
   CHECK(said("/scene", 5) == "a.gltf: error: scene must be an index below 1");
   CHECK(said("/meshes/0/primitives/0/mode", 9) ==
-        "a.gltf: error: meshes[0].primitives[0] has a mode that glTF does not know");
+        "a.gltf: error: meshes[0].primitives[0] has a mode that glTF does not define");
   CHECK(said("/meshes/0/primitives/0/indices", 0) ==
-        "a.gltf: error: accessors[0] holds indices, which must be unsigned integers");
+        "a.gltf: error: accessors[0] contains indices, which must be unsigned integers");
   CHECK(said("/meshes/0/primitives/0/attributes/NORMAL", 1) ==
         "a.gltf: error: accessors[1] holds NORMAL, which cannot be componentType 5123");
   CHECK(said("/accessors/0/type", "VEC2") == "a.gltf: error: accessors[0] must be of type VEC3");
   CHECK(said("/accessors/0/count", 3) ==
-        "a.gltf: error: meshes[0].primitives[0] refers to vertex 3; there are 3, counted from 0");
+        "a.gltf: error: meshes[0].primitives[0] refers to vertex 3, but there are 3, counted from 0");
   CHECK(said("/accessors/0/count", 5) ==
         "a.gltf: error: accessors[0] reaches beyond the end of its bufferView");
   CHECK(said("/accessors/0/count", 9007199254740992) ==
@@ -194,11 +194,11 @@ TEST_CASE("wrong glTF is refused, and the place named") {
   CHECK(said("/accessors/0/byteOffset", 9007199254740992) ==
         "a.gltf: error: accessors[0] reaches beyond the end of its bufferView");
   CHECK(said("/accessors/0/componentType", 5124) ==
-        "a.gltf: error: accessors[0] has a componentType that glTF does not know");
+        "a.gltf: error: accessors[0] has a componentType that glTF does not define");
   CHECK(said("/bufferViews/0/byteStride", 4) ==
         "a.gltf: error: accessors[0] has elements of 12 bytes, 4 apart");
   CHECK(said("/bufferViews/0/byteLength", 1000) ==
-        "a.gltf: error: bufferViews[0] reaches to byte 1000 of a buffer that has 60");
+        "a.gltf: error: bufferViews[0] extends to byte 1000 of a buffer that has 60");
   CHECK(said("/bufferViews/0/buffer", 3) == "a.gltf: error: bufferViews[0].buffer must be an index below 1");
 }
 
@@ -206,23 +206,23 @@ TEST_CASE("damaged files are refused") {
   CHECK(refusal("{\"asset\":\n  x}", "a.gltf") == "a.gltf:2:3: error: this is not JSON");
   CHECK(refusal("", "a.gltf") == "a.gltf:1:1: error: this is not JSON");
   CHECK(refusal("[]", "a.gltf") == "a.gltf: error: the document must be an object");
-  CHECK(contains(refusal("{\"asset\": 1e999}", "a.gltf"), "a number that no computer holds"));
+  CHECK(contains(refusal("{\"asset\": 1e999}", "a.gltf"), "a number that is out of range"));
   CHECK(contains(refusal("{\"asset\":" + std::string(1000000, '['), "a.gltf"), "nested more than 64 deep"));
   const GltfFile file = square_file();
   CHECK(contains(refusal(file.gltf("data:;base64,####"), "a.gltf"), "has a data URI that is not base64"));
   CHECK(contains(refusal(file.gltf("data:text/plain,abc"), "a.gltf"), "has a data URI that is not base64"));
   CHECK(contains(refusal(file.gltf("data:;base64,AAAA"), "a.gltf"),
-                 "buffers[0] is to have 60 bytes, but there are only 3"));
+                 "buffers[0] should have 60 bytes, but there are only 3"));
   std::string glb = file.glb();
   glb[4] = 1;
-  CHECK(contains(refusal(glb, "a.glb"), "it is not glTF 2 but 1"));
+  CHECK(contains(refusal(glb, "a.glb"), "it must be glTF 2, not 1"));
 }
 
 TEST_CASE("few bytes cannot stand for much memory") {
   GltfFile file = square_file();
   file.json["accessors"][0] = {{"componentType", 5126}, {"type", "VEC3"}, {"count", 1000000000}};
   CHECK(contains(refusal(file.gltf(), "a.gltf"),
-                 "takes the elements beyond what a file of this size can mean"));
+                 "makes the number of elements larger than a file of this size may have"));
 
   // A mesh of many primitives, shown by many nodes.
   file = square_file();
@@ -230,7 +230,8 @@ TEST_CASE("few bytes cannot stand for much memory") {
   file.json["nodes"] = Json::array();
   for (int i = 0; i < 1000; ++i) file.json["nodes"].push_back({{"mesh", 0}});
   file.json.erase("scenes");
-  CHECK(contains(refusal(file.gltf(), "a.gltf"), "is beyond the 1048576 instances that a file may have"));
+  CHECK(contains(refusal(file.gltf(), "a.gltf"),
+                 "is one of more than 1048576 instances, the most that a file may have"));
 }
 
 TEST_CASE("buffers outside the folder tree are refused") {

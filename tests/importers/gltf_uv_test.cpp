@@ -101,7 +101,7 @@ TEST_CASE("tangents are along the uv of the normal map") {
 
   file.primitive()["attributes"].erase("TEXCOORD_1");
   const ImportedScene without = import_sound(file.gltf(), "a.gltf");
-  CHECK(warns(without, "meshes without the uv that their material's picture takes: 1"));
+  CHECK(warns(without, "meshes without the uv that their material's picture needs: 1"));
   CHECK(without.meshes[0].second_uv.empty());
   CHECK(without.meshes[0].tangents.empty());
 }

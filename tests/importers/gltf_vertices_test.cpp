@@ -106,7 +106,7 @@ TEST_CASE("a skin puts vertices where its joints are, wherever its node is") {
   skinned({0, 1, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, {1, 1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
   CHECK(import_sound(file.gltf(), "a.gltf").meshes[0].positions[0] == Vec3(5, 1, 0));
   skinned({0, 2, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, {1, 1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
-  CHECK(contains(refusal(file.gltf(), "a.gltf"), "name joint 2; there are 2"));
+  CHECK(contains(refusal(file.gltf(), "a.gltf"), "name joint 2, but there are 2"));
   file.json["scenes"] = {{{"nodes", {0}}}};
   file.json["nodes"][0]["scale"] = {1, 1, 1};
   CHECK(warns(import_sound(file.gltf(), "a.gltf"), "left out: skins whose joints are not in the scene (1)"));

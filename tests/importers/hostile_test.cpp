@@ -133,7 +133,7 @@ TEST_CASE("files with random damage") {
 }
 
 TEST_CASE("what is no mesh file") {
-  CHECK(refusal("", "a.stl") == "a.stl: error: a mesh file ends in .obj, .ply, .gltf or .glb");
+  CHECK(refusal("", "a.stl") == "a.stl: error: a mesh file's name must end in .obj, .ply, .gltf or .glb");
   CHECK_FALSE(is_mesh_file("a.toml"));
   CHECK_FALSE(is_mesh_file("obj"));
   CHECK(is_mesh_file("x/A.GLB"));

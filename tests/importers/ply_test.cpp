@@ -155,24 +155,24 @@ TEST_CASE("wrong PLY is refused, with its place in a text") {
   const auto said = [](const std::string& bytes) { return refusal(bytes, "a.ply"); };
   const std::string good = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
   CHECK(said("") == "a.ply:1:1: error: the header ends without `end_header`");
-  CHECK(said("plx\n") == "a.ply:1:1: error: this is no PLY file: it does not start with `ply`");
+  CHECK(said("plx\n") == "a.ply:1:1: error: this is not a PLY file: it does not start with `ply`");
   CHECK(said("ply\nformat ascii 2.0\n") ==
         "a.ply:2:1: error: write format ascii, binary_little_endian or binary_big_endian, and 1.0");
   CHECK(said("ply\nend_header\n") == "a.ply:2:1: error: the header has no `format`");
-  CHECK(said("ply\nproperty int x\n") == "a.ply:2:1: error: a property before the first element");
-  CHECK(said("ply\nelement vertex -1\n") == "a.ply:2:1: error: `-1` is no count of elements");
-  CHECK(said("ply\nelement vertex 1\nproperty quad x\n") == "a.ply:3:1: error: `quad` is no type of PLY");
-  CHECK(contains(said(header("ascii", "element vertex 1\nproperty int x\n") + "1\n"), "no x, y and z"));
+  CHECK(said("ply\nproperty int x\n") == "a.ply:2:1: error: a property must come after an element");
+  CHECK(said("ply\nelement vertex -1\n") == "a.ply:2:1: error: `-1` is not a number of elements");
+  CHECK(said("ply\nelement vertex 1\nproperty quad x\n") == "a.ply:3:1: error: `quad` is not a type of PLY");
+  CHECK(contains(said(header("ascii", "element vertex 1\nproperty int x\n") + "1\n"), "x, y and z"));
   CHECK(contains(said(header("ascii", "element face 1\nproperty int x\n") + "1\n"),
                  "no list of vertex_indices"));
   CHECK(contains(
       said(header("ascii", "element vertex 1\nproperty int x\nproperty int y\nproperty int z\n") + "1 2 3\n"),
       "it has no faces: points alone cannot be seen"));
   CHECK(said(ascii(good, "4 0 1 2 9")) ==
-        "a.ply: error: a face refers to vertex 9; there are 4, counted from 0");
+        "a.ply: error: a face refers to vertex 9, but there are 4, counted from 0");
   CHECK(said(ascii(good, "4 0 1 2 -1")) ==
-        "a.ply: error: a face refers to vertex -1; there are 4, counted from 0");
-  CHECK(said(ascii(good, "4 0 1 2 1.5")) == "a.ply:15:12: error: 1.5 is no index of a vertex");
+        "a.ply: error: a face refers to vertex -1, but there are 4, counted from 0");
+  CHECK(said(ascii(good, "4 0 1 2 1.5")) == "a.ply:15:12: error: 1.5 is not the index of a vertex");
   CHECK(said(ascii(good, "4 0 1 x 3")) == "a.ply:15:7: error: this is not a number");
   CHECK(said(ascii(good, "4 0 1 2")) == "a.ply:15:2: error: a list of 4 is longer than the rest of the file");
   CHECK(said(ascii(good, "9 0 1 2 3")) ==
@@ -285,7 +285,8 @@ TEST_CASE("a picture is shown by the uv of faces, and each of several by its num
   };
   CHECK(contains(refused("3 0 1 2 4 0 0 1 0 0"), "a face of 3 corners has 2 pairs of texcoord"));
   CHECK(contains(refused("3 0 1 2 5 0 0 1 0 1 0"), "a texcoord of 5 numbers has no pair for each corner"));
-  CHECK(contains(refused("3 0 1 2 0 2"), "a face has the texnumber 2; there are 2 pictures, counted from 0"));
+  CHECK(contains(refused("3 0 1 2 0 2"),
+                 "a face has the texnumber 2, but there are 2 pictures, counted from 0"));
   CHECK(warns(scene_of(two_faces("comment TextureFile a.png\n", face_corners, "3 0 1 2", "3 0 2 3")),
               "it has no uv"));
 }
@@ -316,5 +317,5 @@ TEST_CASE("a picture in a comment is shown where vertices have uv") {
   CHECK(warns(scene_of("comment TextureFile none.png\n"), "a picture was left out"));
   CHECK(scene_of("comment TextureFile none.png\n").materials.empty());
   CHECK(warns(scene_of("comment TextureFile a.png\ncomment TextureFile b.png\n"),
-              "no texnumber of its faces says which they show"));
+              "no texnumber of its faces selects one"));
 }

@@ -298,7 +298,7 @@ TEST_CASE("a value takes every number and text, and nothing that only converts t
 
   const Error large = thrown_by([] { return Value(uint64_t(1) << 63); });
   CHECK(large.kind() == ErrorKind::bad_input);
-  CHECK(std::string(large.what()).starts_with("9223372036854775808 is no value of a scene"));
+  CHECK(std::string(large.what()).starts_with("9223372036854775808 is too large for a scene"));
 
   static_assert(!std::is_constructible_v<Value, char>);
   static_assert(!std::is_constructible_v<Value, wchar_t>);

@@ -147,7 +147,7 @@ TEST_CASE("two tracks on one target are one error, at the second one's line, how
     return "";
   };
   const std::string message =
-      "the [[track]] at scene.toml:14 moves this already: give one track all its keyframes";
+      "the [[track]] at scene.toml:14 moves this already: put all its keyframes into one track";
   // `tracks` begins in line 13 of the scene, and a track has three lines.
   const std::string eye = track("camera.eye", "[0, 0, 1]"), radius = track("sphere.ball.radius", "2");
   CHECK(error_of(eye + radius).empty());

@@ -74,7 +74,7 @@ TEST_CASE("what is no light is an error, with its count and its first place; a b
     image::write_image(folder / "a.pfm", picture);
     return said_of(folder, "image = 'a.pfm'");
   };
-  const std::string wanted = "no light, which is from 0 to 1e+15; the first is ";
+  const std::string wanted = "out of range: light must be from 0 to 1e+15; the first is ";
   CHECK(said([](image::Image&) {}) == "accepted");
   CHECK(said([](image::Image& picture) { picture.pixel(2, 1)[1] = std::nanf(""); }) ==
         "1 value of the picture is " + wanted + "nan, in column 2 of row 1");
@@ -95,8 +95,7 @@ TEST_CASE("what is no file of light is an error at its name") {
   CHECK(said_of(folder, "image = 'none.hdr'") ==
         "cannot read " + (folder / "none.hdr") + ": No such file or directory");
   CHECK(said_of(folder, "image = 'a.png'") ==
-        (folder / "a.png") +
-            ": a .png does not hold light, but what a screen shows; take a .hdr, .exr or .pfm");
+        (folder / "a.png") + ": a .png stores colours for a screen, not light; use a .hdr, .exr or .pfm");
   CHECK(said_of(folder, "image = 'a.jpg'") ==
         (folder / "a.jpg") + ": a picture's name must end in .png, .pfm, .hdr or .exr");
   folder.write("a.hdr", "nothing");

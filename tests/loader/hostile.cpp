@@ -132,7 +132,8 @@ TEST_CASE("groups nest 15 deep by their headers, and deeper by instances") {
     parse_scene(nested(16), "scene.toml");
     FAIL("accepted");
   } catch (const InputError& error) {
-    CHECK(std::string(error.what()).find("a key of more than 16 parts; groups nest deeper by [[instance]]") !=
+    CHECK(std::string(error.what())
+              .find("a key can have at most 16 parts; to nest groups deeper, use [[instance]]") !=
           std::string::npos);
   }
 }

@@ -152,7 +152,7 @@ TEST_CASE("what is no picture is an error at its name") {
   };
   const auto unreadable = [&](const std::string& name) { return "cannot read " + (folder / name) + ": "; };
   CHECK(said_of("b.png") == unreadable("b.png") + "No such file or directory");
-  CHECK(said_of("text.png") == unreadable("text.png") + "it is no PNG, JPEG, BMP or TGA");
+  CHECK(said_of("text.png") == unreadable("text.png") + "it is not a PNG, JPEG, BMP or TGA");
   CHECK(said_of("short.png").starts_with(unreadable("short.png") + "it is damaged ("));
   CHECK(said_of("folder.png") == unreadable("folder.png") + "it is a folder");
   CHECK(said_of("pipe.png") == unreadable("pipe.png") + "it is not a regular file");
@@ -199,5 +199,5 @@ TEST_CASE("a picture in memory is the same as in a file, but for its name") {
   CHECK(image.texels[5] == std::array<uint8_t, 4>{64, 128, 192, 255});
   CHECK(image.srgb);
   CHECK_THROWS_WITH_AS(decode_image_texture({}, "model.glb, image 3", budget, warnings),
-                       "cannot read model.glb, image 3: it is no PNG, JPEG, BMP or TGA", Error);
+                       "cannot read model.glb, image 3: it is not a PNG, JPEG, BMP or TGA", Error);
 }

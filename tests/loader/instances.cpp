@@ -145,14 +145,14 @@ TEST_CASE("what is wrong with patterns and instances is said where it stands") {
   CHECK(says(refused(ball + ball + "[[instance]]\ngroup = \"ball\"\n"),
              "scene.toml:19:9: error: more than one [[group]] is named \"ball\""));
   CHECK(says(refused("[[group]]\npattern = true\n"),
-             "scene.toml:5:11: error: a pattern needs a `name`, by which an [[instance]] shows it"));
+             "scene.toml:5:11: error: a pattern needs a `name`, by which an [[instance]] refers to it"));
   CHECK(says(refused("[[group]]\n[[group.group]]\nname = \"ball\"\npattern = true\n" +
                      sphere("group.group.sphere", 1)),
              "scene.toml:7:11: error: only a [[group]] that is in no other can be a pattern"));
   CHECK(says(refused("[[instance]]\n"), "[[instance]] needs `group`"));
   CHECK(says(refused("[[group]]\nname = \"a\"\n[[group.instance]]\ngroup = \"b\"\n"
                      "[[group]]\nname = \"b\"\n[[group.instance]]\ngroup = \"a\"\n"),
-             "scene.toml:5:8: error: group \"a\" holds itself: a → b → a"));
+             "scene.toml:5:8: error: group \"a\" contains itself: a → b → a"));
 }
 
 TEST_CASE("a group with a name that is no pattern stands where it is written, too") {
@@ -210,7 +210,7 @@ TEST_CASE("named groups that double each time are refused, or instanced where th
   const Scene scene = parse_walls(doubled(20));
   CHECK(scene.primitive_count() == 1'048'576);
   CHECK(scene.shapes.size() + scene.group_instances.size() < 20'000);
-  CHECK(says(refused(doubled(40)), "objects; at most 2147483647 can be told apart"));
+  CHECK(says(refused(doubled(40)), "objects; at most 2147483647 can have ids"));
 }
 
 TEST_CASE("what stands in CSG objects counts among what is kept") {
@@ -220,8 +220,7 @@ TEST_CASE("what stands in CSG objects counts among what is kept") {
       "radius = 1\n" +
       batch(10'000);
   const std::string said = refused("[render]\ngroups = \"flat\"\n" + text);
-  CHECK_MESSAGE(says(said, "batches and groups come to 100020001 objects; at most 67108864 are possible"),
-                said);
+  CHECK_MESSAGE(says(said, "batches and groups make 100020001 objects; at most 67108864 are possible"), said);
 }
 
 // What stands in a group under a map that only the world knows, too thin, too far or bent too much there.
@@ -232,22 +231,22 @@ TEST_CASE("what a group's map makes of shapes is legal or not, however the group
     const char* wrong;
   } cases[] = {
       {"{ scale = [1, 1, 1e6] }", "[[group.triangle]]\nvertices = [[0, 0, 0], [0, 1e-4, 1], [0, 0, 1]]\n",
-       "the map leaves the triangle no area"},
+       "the transform leaves the triangle without area"},
       {"{ scale = [1, 1, 1e5] }",
        "[[group.parallelogram]]\norigin = [0, 0, 0]\nedge_u = [1e-6, 0, 1]\nedge_v = [-1e-6, 0, 1]\n",
-       "the map leaves the parallelogram no area"},
+       "the transform leaves the parallelogram without area"},
       {"{ scale = [1, 1, 1e6] }", "[[group.polygon]]\nvertices = [[0, 0, 0], [0, 1e-4, 1], [0, 0, 1]]\n",
-       "the map leaves the outline no area"},
+       "the transform leaves the outline without area"},
       {"{ scale = [1, 1, 1000] }",
        "[[group.bilinear]]\ncorners = [[0, 0, 0], [1, 0, 0], [1, 1, 1], [0, 1, 0]]\n",
-       "the map leaves the patch flat"},
+       "the transform leaves the patch flat"},
       {"{ scale = [1, 1, 1e6] }",
        "[[group.bezier]]\npoints = [[0,0,0],[1,0,0],[2,0,0],[3,0,0],[0,0,1],[1,0,1],[2,0,1],[3,0,1],"
        "[0,0,2],[1,0,2],[2,0,2],[3,0,2],[0,0,3],[1,0,3],[2,0,3],[3,0,3]]\n",
-       "the map leaves the patch without area"},
+       "the transform leaves the patch without area"},
       {"{ scale = [1, 1, 1e4] }",
        "[[group.sphere]]\ncenter = [0, 0, 0]\nradius = 1\ntransform = [{ scale = [1, 1, 1e4] }]\n",
-       "the map cannot be undone"},
+       "`transform` cannot be inverted"},
       {"{ scale = 1e6 }", "[[group.box]]\nmin = [0, 0, 0]\nmax = [1e7, 1e7, 1e7]\n", "out of range"},
       // Near a limit that it keeps, and far from all.
       {"{ scale = [1, 1, 90] }", "[[group.bilinear]]\ncorners = [[0,0,0],[1,0,0],[1,1,1],[0,1,0]]\n",

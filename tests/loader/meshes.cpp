@@ -102,7 +102,7 @@ TEST_CASE("what is wrong with a mesh is an error at its key") {
   CHECK(said("file = '../outside.obj'") ==
         "2:8: error: ../outside.obj lies outside the scene's folder; --allow-path DIR allows other ones");
   CHECK(said("file = ''") == "2:8: error: `file` needs the name of a file");
-  CHECK(contains(said("file = 'scene.toml'"), "a mesh file ends in .obj, .ply, .gltf or .glb"));
+  CHECK(contains(said("file = 'scene.toml'"), "a mesh file's name must end in .obj, .ply, .gltf or .glb"));
   CHECK(said("smooth = 3") == "1:1: error: [[mesh]] needs `file`, a string");
   CHECK(said("file = 'a.obj'\nsmooth = 181") ==
         "3:10: error: `smooth` must be a number from 0 to 180, not 181");
@@ -127,7 +127,7 @@ TEST_CASE("a map that leaves triangles without area is refused") {
   };
   CHECK(scaled("1e-6") == "accepted");
   CHECK(scaled("[3, 0.3, 3]") == "accepted");
-  CHECK(contains(scaled("[1000, 0.001, 1]"), "the map leaves some of the triangles no area"));
+  CHECK(contains(scaled("[1000, 0.001, 1]"), "the transform leaves some of the triangles without area"));
 }
 
 TEST_CASE("warnings of mesh files are the scene's") {
@@ -203,13 +203,13 @@ TEST_CASE("overrides and a file's own camera and lights") {
   const Scene shown = load_scene(folder.write("scene.toml", light + "[[mesh]]\nfile = 'a.gltf'\n"));
   CHECK(shown.lights.size() == 1);
   REQUIRE(shown.warnings.size() == 1);
-  CHECK(contains(shown.warnings[0].message, "its camera and lights are not taken over"));
+  CHECK(contains(shown.warnings[0].message, "its camera and lights are not used"));
 }
 
 TEST_CASE("a mesh file that cannot be read") {
   const Folder folder;
   CHECK(refusal(folder.write("bad.ply", "ply\nx\n")) ==
-        (folder / "bad.ply") + ":2:1: error: `x` is no statement of a PLY header");
+        (folder / "bad.ply") + ":2:1: error: `x` is not a statement of a PLY header");
   try {
     load_scene(folder / "none.glb");
     FAIL("read");

@@ -41,8 +41,8 @@ TEST_CASE("what is no TOML is told, and not touched") {
 }
 
 TEST_CASE("a table that has no line of its own is left to its author") {
-  CHECK_THROWS_WITH_AS(edited("verify = {}\n"),
-                       "write max_explained = 0.00042 into `verify` by hand: it is no table with a line of "
-                       "its own",
-                       Error);
+  CHECK_THROWS_WITH_AS(
+      edited("verify = {}\n"),
+      "write max_explained = 0.00042 into `verify` by hand: the table has no header on a line of its own",
+      Error);
 }

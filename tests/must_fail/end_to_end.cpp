@@ -74,7 +74,7 @@ std::vector<Expected> all_expected() {
       {"offset", {bits, counts, colors}},
       {"ior", {bits, counts, colors}},
       {"light", {bits, colors}},
-      {"near_light", {bits, colors, "explained, more than the 4 allowed"}},
+      {"near_light", {bits, colors, "explained, which is more than the 4 allowed"}},
       {"materials", {bits, first_hits, counts, colors, "parts at material"}},
       {"bit", {bits, "by at most 4 ULP"}},
       {"nan", {"gpu: 1 NaN (first at ", bits, colors}},
@@ -85,7 +85,7 @@ std::vector<Expected> all_expected() {
        {bits, counts, colors},
        {"scenes/whitted.toml", "--spp", "4", "-D", "image.pattern=jittered", "--max-explained", "0.02"}},
       {"steps",
-       {" incomplete pixels: a shape was not found in the steps allowed", bits},
+       {" incomplete pixels: the search for a shape ran out of steps", bits},
        {"scenes/shapes/superellipsoid.toml"}},
       {"mis", {bits, paths}, box},
       {"twice", {bits, paths}, box},
@@ -102,7 +102,7 @@ std::vector<Expected> all_expected() {
       {"half_texel", {bits, paths}, {"scenes/path/environment.toml", "--spp", "2"}},
       {"albedo", {bits, "the tile of ", paths}, box},
       {"threshold",
-       {bits, "parts at what its path decides", paths},
+       {bits, "diverges at what its path decides", paths},
        {"scenes/path/materials.toml", "--spp", "2"}},
       {"clamp", {bits, paths}, box},
       {"emission_side", {bits, paths}, {"scenes/path/emitters.toml", "--spp", "2"}},
@@ -231,7 +231,7 @@ TEST_CASE("compare answers 1 to pictures of another size, too different, or not 
     const char* name;
     const char* reason;
   };
-  for (const Failing& failing : {Failing{"narrow.pfm", "wrong size: 7×6 in 3 channels against 8×6"},
+  for (const Failing& failing : {Failing{"narrow.pfm", "the sizes differ: 7×6 in 3 channels against 8×6"},
                                  {"other.pfm", "1 of 48 pixels differ"},
                                  {"negative.pfm", "1 negative (first at 5,1)"},
                                  {"nan.pfm", "1 NaN (first at 5,1)"}}) {

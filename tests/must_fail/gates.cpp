@@ -322,7 +322,7 @@ TEST_CASE("a picture of another size, place or shape fails, and so does none at 
   for (const Frame& frame : wrong) {
     CHECK_FALSE(compare_exactly(frame, reference).passes(64));
     CHECK_FALSE(compared(frame).passes());
-    CHECK(mentions(verify(frame), "wrong size"));
+    CHECK(mentions(verify(frame), "the sizes differ"));
   }
   CHECK_FALSE(compare_exactly(Frame{}, Frame{}).passes(64));
   CHECK_FALSE(compared(Frame{}, Frame{}).passes());

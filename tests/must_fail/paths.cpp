@@ -86,7 +86,7 @@ TEST_CASE("paths that part where the reference's do nearby are counted as such")
   CHECK(comparison.paths.explained[size_t(Cause::parted)] == edge_rows * each);
   CHECK(comparison.paths.explained_pixels() == edge_rows * each);
   CHECK(comparison.paths.worst.seam == Seam::trail);
-  CHECK(comparison.paths.worst.parting == "event 1: 2, and the reference's 1");
+  CHECK(comparison.paths.worst.parting == "event 1: 2, but the reference's 1");
 }
 
 TEST_CASE("one sample's colour is wrong, by less than its pixel's mean would show") {

@@ -51,16 +51,16 @@ def test_backends_and_crop():
     for wrong in [(60, 0, 10, 10), (0, 0, 0, 5)]:
         with pytest.raises(ValueError):
             eyeray.render(scene, crop=wrong)
-    with pytest.raises(TypeError, match=r"^a crop is \(x, y, width, height\) in whole pixels, not str$"):
+    with pytest.raises(TypeError, match=r"^a crop must be \(x, y, width, height\) in whole pixels, not str$"):
         eyeray.render(scene, crop="all")
     with pytest.raises(ValueError, match="'cpu'"):
         eyeray.render(scene, backend="cpu")
     with pytest.raises(eyeray.InputError, match="did you mean 'depth'"):
         eyeray.render(scene, aovs=["depht"])
     for wrong, name in [("depth", "str"), (3, "int"), ([3], "list")]:
-        with pytest.raises(TypeError, match=f"^aovs is a list of names, not {name}$"):
+        with pytest.raises(TypeError, match=f"^aovs must be a list of names, not {name}$"):
             eyeray.render(scene, aovs=wrong)
-    with pytest.raises(TypeError, match="^noise is a number, not str$"):
+    with pytest.raises(TypeError, match="^noise must be a number, not str$"):
         eyeray.render(scene, noise="little")
     with pytest.raises(TypeError, match="unexpected keyword argument 'crops'"):
         eyeray.render(scene, crops=None)
@@ -122,19 +122,19 @@ def test_files_and_dicts_are_rendered_at_once(tmp_path):
 
 
 @pytest.mark.parametrize("kind, words, scene, options", [
-    (ValueError, "^size: width and height are whole numbers from 1 on, not 0$", SMALL, {"size": (0, 1)}),
-    (TypeError, "^size: width and height are whole numbers from 1 on, not float$", SMALL, {"size": (2.5, 1)}),
-    (TypeError, r"^size is \(width, height\), not 64$", SMALL, {"size": 64}),
-    (TypeError, r"^size is \(width, height\), not \(64,\)$", SMALL, {"size": (64,)}),
-    (TypeError, r"^size is \(width, height\), not '64'$", SMALL, {"size": "64"}),
+    (ValueError, "^size: width and height must be whole numbers from 1 on, not 0$", SMALL, {"size": (0, 1)}),
+    (TypeError, "^size: width and height must be whole numbers from 1 on, not float$", SMALL, {"size": (2.5, 1)}),
+    (TypeError, r"^size must be \(width, height\), not 64$", SMALL, {"size": 64}),
+    (TypeError, r"^size must be \(width, height\), not \(64,\)$", SMALL, {"size": (64,)}),
+    (TypeError, r"^size must be \(width, height\), not '64'$", SMALL, {"size": "64"}),
     (ValueError, "^`defines` image.width=65537: error: `width` must be", SMALL, {"size": (65537, 1)}),
-    (ValueError, "^spp: the samples a pixel are a whole number from 1 on, not -1$", SMALL, {"spp": -1}),
+    (ValueError, "^spp: the samples a pixel must be a whole number from 1 on, not -1$", SMALL, {"spp": -1}),
     (TypeError, "from 1 on, not bool$", SMALL, {"spp": True}),
     (ValueError, "must be a square number; the nearest to 3 are 1 and 4", TABLES, {"spp": 3}),
     (ValueError, "unknown key `eyes`", {"camera": {"eyes": 3}}, {}),
-    (TypeError, "^camera is a dict, or a list of dicts$", {"camera": 3}, {}),
-    (TypeError, "^camera: a key is a str, not int$", {"camera": {3: 4}}, {}),
-    (TypeError, "^a scene is an eyeray.Scene, the name of a file, or a dict, not list$", [], {}),
+    (TypeError, "^camera must be a dict, or a list of dicts$", {"camera": 3}, {}),
+    (TypeError, "^camera: a key must be a str, not int$", {"camera": {3: 4}}, {}),
+    (TypeError, "^a scene must be an eyeray.Scene, the name of a file, or a dict, not list$", [], {}),
     (eyeray.FileError, "missing.toml", "missing.toml", {}),
     (TypeError, "^size and spp go with a file or a dict; a Scene has its own$", eyeray.Scene.read(SMALL), {"spp": 4}),
 ])

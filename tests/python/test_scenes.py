@@ -79,7 +79,7 @@ def test_a_mesh_of_arrays():
     (TypeError, "of numbers, not of <U", {"vertices": QUAD.astype(str)}),
     (TypeError, "an array, not str", {"vertices": "many"}),
     (TypeError, "of integers, not of float32", {"triangles": CORNERS.astype(np.float32)}),
-    (ValueError, "-1 is no index", {"triangles": [[0, 1, -1]]}),
+    (ValueError, "-1 is not the index", {"triangles": [[0, 1, -1]]}),
     (ValueError, r"shape \(2, 2\)", {"triangles": CORNERS[:, :2]}),
     (ValueError, r"shape \(4, 2\)", {"normals": QUAD[:, :2]}),
     (eyeray.InputError, "normals have 9 numbers, not 12", {"normals": QUAD[:3]}),
@@ -101,9 +101,9 @@ def test_vertices_without_triangles():
 @pytest.mark.parametrize("tables, words", [
     ({"sphere": [{"radius": None}]}, r"sphere\.0\.radius: NoneType"),
     ({"sphere": [{"radius": {1, 2}}]}, r"sphere\.0\.radius: set"),
-    ({"sphere": 3}, "sphere is a dict, or a list of dicts"),
-    ({"sphere": [3]}, r"sphere\.0 is a dict"),
-    ({"camera": {3: 4}}, "a key is a str, not int"),
+    ({"sphere": 3}, "sphere must be a dict, or a list of dicts"),
+    ({"sphere": [3]}, r"sphere\.0 must be a dict"),
+    ({"camera": {3: 4}}, "a key must be a str, not int"),
 ])
 def test_what_no_scene_can_hold(tables, words):
     with pytest.raises(TypeError, match=words):

@@ -107,21 +107,21 @@ TEST_CASE("neighbours' ids, another t, another place, a miss and a ghost are eac
     CHECK(result.difference.find(reason) != std::string::npos);
     return result.unexplained;
   };
-  CHECK(fails([](FirstHit& hit) { hit.primitive ^= hit.primitive >= 0 ? 1 : 0; }, "the ray hits what") >
-        5000);
+  CHECK(fails([](FirstHit& hit) { hit.primitive ^= hit.primitive >= 0 ? 1 : 0; },
+              "the ray hits a primitive that") > 5000);
   fails([](FirstHit& hit) { hit.t *= 1.0001; }, "its position falls");
   fails([](FirstHit& hit) { hit.position.x += 1e-3; }, "its position falls");
-  fails([](FirstHit& hit) { hit.position = Vec3(std::nan("")); }, "no number");
+  fails([](FirstHit& hit) { hit.position = Vec3(std::nan("")); }, "not a number");
   fails(
       [](FirstHit& hit) {
         if (hit.primitive == 0) hit = {};
       },
-      "the ray hits what cannot be there");
+      "the ray hits a primitive that cannot be there");
   fails(
       [](FirstHit& hit) {
         if (hit.primitive > 0) hit.primitive = 1 << 30;
       },
-      "the ray hits what");
+      "the ray hits a primitive that");
   // Both t and place, along the ray.
   const Vec3 eye = compared.scene.camera.eye;
   fails(
@@ -129,7 +129,7 @@ TEST_CASE("neighbours' ids, another t, another place, a miss and a ghost are eac
         hit.t *= 1.0001;
         hit.position = eye + (hit.position - eye) * 1.0001;
       },
-      "the ray hits what cannot be there");
+      "the ray hits a primitive that cannot be there");
 }
 
 TEST_CASE("one pixel is enough, far from any edge") {

@@ -105,7 +105,7 @@ TEST_CASE("shapes refuse what they cannot be") {
 
   // 5e-9 thin along x, and a hundredth of that after the map.
   CHECK(refused("[[triangle]]\nvertices = [[0, 0, 0], [0, 1, 0], [5e-9, 0.5, 0]]\ntransform = [{ scale = "
-                "[0.01, 1, 1] }]") == "3: the map leaves the triangle no area");
+                "[0.01, 1, 1] }]") == "3: the transform leaves the triangle without area");
 
   // Stretched ×100 along y, the shading normal leans over the edge of the outside; but it is right where it
   // is written.

@@ -23,8 +23,8 @@ std::string warning(int count, float value, double exposure = 0) {
 }  // namespace
 
 TEST_CASE("a picture of nothing but background, or beyond white, is named") {
-  CHECK(warning(5, 0).find("cannot be told from the background") != std::string::npos);
-  CHECK(warning(5000, 0.5f).find("cannot be told from the background") != std::string::npos);
+  CHECK(warning(5, 0).find("cannot be distinguished from the background") != std::string::npos);
+  CHECK(warning(5000, 0.5f).find("cannot be distinguished from the background") != std::string::npos);
   CHECK(warning(20, 0) == "");
   CHECK(warning(5000, 1) == "");
   CHECK(warning(5000, 1.5f).find("brighter than white") != std::string::npos);

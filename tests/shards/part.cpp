@@ -228,12 +228,12 @@ TEST_CASE("a part that ends early, goes on, or is none is refused with the reaso
     write_text(file, sound.substr(0, size));
     CAPTURE(size);
     CHECK(reason_for(file) ==
-          (size < part_magic.size() ? "it is no part of a picture" : "it is damaged: it ends too early"));
+          (size < part_magic.size() ? "it is not a part of a picture" : "it is damaged: it ends too early"));
   }
   write_text(file, sound + "x");
-  CHECK(reason_for(file) == "it is damaged: it goes on after its end");
+  CHECK(reason_for(file) == "it is damaged: it has data after its end");
   write_text(file, "P6 1 1 255 and more than twenty bytes");
-  CHECK(reason_for(file) == "it is no part of a picture");
+  CHECK(reason_for(file) == "it is not a part of a picture");
   CHECK(reason_for(folder / "nowhere") == "it cannot be read: No such file or directory");
   CHECK(reason_for(folder.path().string()) == "it is not a regular file");
 }
@@ -262,7 +262,7 @@ TEST_CASE("a header that says what no picture has is refused") {
     try {
       header_of(to_text(header));
     } catch (const Error& error) {
-      return error.what() == std::string("it is damaged: its header makes no sense");
+      return error.what() == std::string("it is damaged: its header is invalid");
     }
     return false;
   };

@@ -140,7 +140,7 @@ TEST_CASE("a node without Vulkan says so where the command says it does") {
   array.add(array.merged());
   array.said({}, {{"EYERAY_VULKAN_LOADER", "/nowhere/libvulkan.so.1"}});
   CHECK(array.ended().at("missing").size() == 3);
-  CHECK(array.run({"--no-submit"}).err.find("why not all is done: " + array.work("1.output")) !=
+  CHECK(array.run({"--no-submit"}).err.find("why shares are missing: " + array.work("1.output")) !=
         std::string::npos);
   CHECK(read_text(array.work("1.output")).find("Vulkan") != std::string::npos);
 }
@@ -190,5 +190,5 @@ TEST_CASE("without Slurm, and with words that are eyeray's own, it ends at once"
   command.insert(command.end(), {"--", "--array=1-4"});
   const ProcessResult own = run_eyeray(command);
   CHECK(own.code == 2);
-  CHECK(own.err.find("--array is eyeray's to say") != std::string::npos);
+  CHECK(own.err.find("--array is set by eyeray") != std::string::npos);
 }

@@ -123,7 +123,7 @@ TEST_CASE("where Slurm is missing, refuses or does not answer, its own words are
         "Slurm's squeue fails: slurm_load_jobs error: Unable to contact slurm controller");
   CHECK(farm.slurm.submitted().size() == 1);
   ::setenv("PATH", "/nowhere", 1);
-  CHECK(contains(farm.failure(ExitCode::file_io), "there is no squeue here"));
+  CHECK(contains(farm.failure(ExitCode::file_io), "squeue is not installed here"));
 }
 
 TEST_CASE("ten thousand shares are arrays of as many as Slurm takes, and each is theirs once") {
@@ -150,9 +150,9 @@ TEST_CASE("a folder with other files, another picture's or one that cannot be ma
   farm.array.folder = farm.folder / "." / farm.array.folder.filename() / "";  // the same, written otherwise
   CHECK(farm.state().missing.size() == 3);
   farm.array.contents = "5678";
-  CHECK(contains(farm.failure(ExitCode::bad_input), "holds another picture"));
+  CHECK(contains(farm.failure(ExitCode::bad_input), "contains another picture"));
   farm.array.folder = farm.folder.path();
-  CHECK(contains(farm.failure(ExitCode::bad_input), "holds other files"));
+  CHECK(contains(farm.failure(ExitCode::bad_input), "contains other files"));
   farm.array.folder = farm.folder / "scene.toml/work";
   CHECK(contains(farm.failure(ExitCode::file_io), "cannot make the folder"));
 }

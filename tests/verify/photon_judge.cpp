@@ -61,7 +61,7 @@ TEST_CASE("a photon that no rounding explains fails, though many may part") {
   const verify::JudgedPhotons aside = judge(box(), [&](auto& ways) { ways[number].places.x += 0.01; });
   CHECK(aside.tally.aside == sound.tally.aside + 1);
   CHECK(aside.tally.unexplained == 1);
-  CHECK(aside.tally.worst.find(", which lies 0.01 aside") != std::string::npos);
+  CHECK(aside.tally.worst.find(", which is displaced by 0.01") != std::string::npos);
   CHECK_FALSE(aside.tally.passes());
 }
 

@@ -70,7 +70,7 @@ function choose_pixel(at) {
   show_values(at);
   probed = null;
   tell_whether_stale();
-  $('probe').textContent = `Looking into ${at[0]},${at[1]} …`;
+  $('probe').textContent = `Examining ${at[0]},${at[1]} …`;
   send({ probe: at });
 }
 

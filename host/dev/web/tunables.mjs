@@ -29,7 +29,7 @@ function show_value(row) {
 }
 
 function row_of(each) {
-  const node = make('div', { className: 'tunable', title: `${each.id}; a double click on the name gives back what the file says` });
+  const node = make('div', { className: 'tunable', title: `${each.id}; double-click the name to restore the value of the file` });
   const input = controls[each.type](each), output = make('output', {});
   const row = { each, node, input, output, touched: -Infinity };
   input.id = `tunable ${each.id}`;
