@@ -168,7 +168,7 @@ print(eyeray.render(eyeray.Scene.read({SMALL!r})).complete)
 
 
 def test_errors_of_devices():
-    with pytest.raises(eyeray.DeviceError, match="matches `device` no such device; there is\\n  0  "):
+    with pytest.raises(eyeray.DeviceError, match="matches `device` no such device; the devices are\\n  0  "):
         eyeray.Renderer(device="no such device").render(eyeray.Scene.read(SMALL))
     with pytest.raises(eyeray.FileError):
         eyeray.Renderer(shaders="no-such-folder")
