@@ -29,7 +29,7 @@ eyeray::Value value_of(const py::handle& value, const std::string& where, int de
   if (py::isinstance<py::str>(value)) return value.cast<std::string>();
   if (depth > deepest)
     throw py::value_error(where.substr(0, 60) + ": lists and dicts are nested more than " +
-                          std::to_string(deepest) + " deep; does one hold itself?");
+                          std::to_string(deepest) + " deep; does one contain itself?");
   if (py::isinstance<py::dict>(value))
     return table_within(py::reinterpret_borrow<py::dict>(value), where, depth + 1);
   // numpy's scalars and arrays as Python's numbers and lists.

@@ -121,7 +121,7 @@ const char* name(Seam seam) {
     case Seam::counts:
       return "counts";
     case Seam::trail:
-      return "what its path decides";
+      return "a decision of its path";
   }
   return "none";
 }

@@ -25,7 +25,7 @@ size_t bytes_of_results(const gpu::DeviceInfo& device, uint32_t photons) {
   if (const uint64_t room = room_on(device, sizeof(shader::PhotonResult), 1); photons > room)
     throw Error(ExitCode::no_device,
                 "`photons` in [render] is {}, but {} has memory for the results of {} ({} bytes each; a "
-                "shader sees {} bytes of one buffer): lower it",
+                "shader sees {} bytes of one buffer): lower `photons`",
                 photons, device.name, room, sizeof(shader::PhotonResult), device.limits.storage_range);
   return photons * sizeof(shader::PhotonResult);
 }

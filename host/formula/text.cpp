@@ -133,7 +133,7 @@ bool Judge::judge_word(size_t i) {
     fail(i, fmt::format("'{}' cannot be used in a formula", word));
     return false;
   }
-  if (word.starts_with("gl_")) fail(i, fmt::format("'{}' is not known here", word));
+  if (word.starts_with("gl_")) fail(i, fmt::format("'{}' is not defined here", word));
   if (!is(i + 1, "(") || own_.contains(word)) return true;
   if (is_built_in(word)) return false;
   if (word == "PROBE") {

@@ -40,7 +40,7 @@ Error failure(VkResult result, std::string_view what) {
     return {
         ExitCode::no_device,
         "the Vulkan device was lost while trying to {} (VK_ERROR_DEVICE_LOST): the driver stopped it, most "
-        "often because a shader ran too long or reached outside its buffers; --validate=core may say more",
+        "often because a shader ran too long or reached outside its buffers; --validate=core may show more",
         what};
   return {ExitCode::no_device, "the Vulkan driver could not {}: {}", what, result_name(result)};
 }

@@ -42,7 +42,7 @@ class PngReader {
 
     const size_t width = png_get_image_width(png_, info_), height = png_get_image_height(png_, info_);
     if (width * height != pixels.size() || png_get_rowbytes(png_, info_) != 4 * width)
-      png_error(png_, "its size is not what its header says");
+      png_error(png_, "its size differs from that in its header");
     for (int pass = 0; pass < passes; ++pass)
       for (size_t row = 0; row < height; ++row) png_read_row(png_, pixels[row * width].data(), nullptr);
     png_read_end(png_, nullptr);

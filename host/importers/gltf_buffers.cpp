@@ -164,7 +164,7 @@ void GltfBuffers::check_layout(const GltfObject& owner, size_t index, size_t com
     breaches_.add("accessors that do not begin at a multiple of their components' size", owner.place());
   const uint64_t stride = view.count("byteStride", 4);
   if (stride < 4 || stride > 252 || stride % 4 != 0)
-    breaches_.add("strides that are no multiple of 4 from 4 to 252", view.place() + ".byteStride");
+    breaches_.add("strides that are not multiples of 4 from 4 to 252", view.place() + ".byteStride");
 }
 
 // What is said of the data that the data do not keep is a sign that they are others than were meant.

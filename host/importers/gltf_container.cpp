@@ -72,7 +72,7 @@ GltfContainer open_gltf(std::string_view bytes, const std::string& file) {
     const uint32_t type = word(bytes, at + 4);
     at += 8;
     if (length > bytes.size() - at) throw malformed(file, "the file ends too early");
-    if (length % 4 != 0) breaches.emplace_back("chunks of .glb whose length is no multiple of 4");
+    if (length % 4 != 0) breaches.emplace_back("chunks of .glb whose length is not a multiple of 4");
     if (!json && type != json_chunk) throw malformed(file, "its first chunk is not JSON");
     if (!json) {
       json = bytes.substr(at, length);

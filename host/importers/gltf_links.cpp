@@ -255,7 +255,7 @@ constexpr LinkRule link_rules[] = {
      [](const Links& links, const Json&, size_t i) {
        return std::popcount(links.roles.views[i] & Role::any) > 1;
      }},
-    {"bufferViews", "views whose target is not what their accessors are",
+    {"bufferViews", "views whose target does not fit their accessors",
      [](const Links& links, const Json& view, size_t i) {
        return !fits_target(links.roles.views[i], count(view, "target", 0));
      }},

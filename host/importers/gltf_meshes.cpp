@@ -148,7 +148,7 @@ std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std:
   if (std::ranges::any_of(pool.tangents, [](const Vec4& tangent) { return is_no_unit(Vec3(tangent)); }))
     breaches_.add("tangents that are not of unit length, normalised", attributes->place() + ".TANGENT");
   if (!std::ranges::all_of(pool.tangents, is_direction)) {
-    breaches_.add("meshes with tangents that are no directions; their tangents are computed from uv instead",
+    breaches_.add("meshes with tangents that are not directions; their tangents are computed from uv instead",
                   attributes->place());
     pool.tangents.clear();
     tangents.reset();

@@ -55,8 +55,7 @@ void check(const GltfObject& view, const GltfObject& object, const Coding& codin
                             coding.mode, stride));
   }
 
-  if (view.count("byteStride", stride) != stride)
-    view.fail("has another byteStride than what it is decoded to");
+  if (view.count("byteStride", stride) != stride) view.fail("has another byteStride than its decoded data");
   const uint64_t length = view.count("byteLength", 0);
   if (coding.count > length / stride || coding.count * stride != length) {
     view.fail(fmt::format("should have {} bytes, but is decoded to {} elements of {}", length, coding.count,
@@ -111,7 +110,7 @@ std::string decode_meshopt(const GltfObject& view, const GltfObject& object, std
   check_version(object, coding, coded);
   std::string decoded(coding.count * coding.stride, '\0');
   if (!decode(coding, coded, decoded))
-    object.fail(fmt::format("has data that are damaged: they are no {}", coding.mode));
+    object.fail(fmt::format("has data that are damaged: they are not {}", coding.mode));
   return decoded;
 }
 

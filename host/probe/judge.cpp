@@ -87,7 +87,7 @@ class Judge {
     }
     ray.verdict = same && ray.traced_around && ray.missed_around ? Verdict::explained : Verdict::differs;
     ray.difference =
-        fmt::format("only {} {} this ray", fmt::join(with, " and "), with.size() == 1 ? "has" : "have");
+        fmt::format("only {} {} this ray", fmt::join(with, " and "), with.size() == 1 ? "traces" : "trace");
   }
 
   const ProbedValue* reference(const Ray& ray, std::string_view name) const {

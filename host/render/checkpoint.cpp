@@ -120,7 +120,7 @@ void Checkpoint::read_header() {
   }
   if (!differences.empty())
     throw Error(ExitCode::cannot_resume,
-                "cannot resume from {}: it was made with other options or files; what differs: {}",
+                "cannot resume from {}: it was made with other options or files; these differ: {}",
                 file_.string(), fmt::join(differences, ", "));
 }
 

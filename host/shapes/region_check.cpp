@@ -76,11 +76,9 @@ class RegionCheck {
       all += count(k);
     }
     if (all > most_outline_vertices)
-      return fail(
-          0,
-          fmt::format("{} vertices are too many, at most {} are possible: cut it into several, which close "
-                      "tightly where they share vertices",
-                      all, most_outline_vertices));
+      return fail(0, fmt::format("{} vertices are too many, at most {} are possible: cut the outline into "
+                                 "several, which close tightly where they share vertices",
+                                 all, most_outline_vertices));
     return true;
   }
 

@@ -184,8 +184,8 @@ std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
                return glm::dot(unit(normal), geometric_normal(values.vertices)) <= least_normal_cosine;
              })) {
     table.error("normals",
-                "a normal points away from the outside, which is where the vertices run counter-clockwise; "
-                "turn it, or swap two vertices");
+                "a normal points to the inside: seen from outside, the vertices run counter-clockwise; "
+                "reverse the normal, or swap two vertices");
   }
   if (table.failed()) return nullptr;
   const TriangleValues world = transformed(values, Affine(transform));

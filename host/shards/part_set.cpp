@@ -141,7 +141,7 @@ void PartSet::keep_most_frequent(std::vector<PartReader> read) {
     const PartHeader& header = read[i].header();
     if (pictures[i] != *most) {
       faults_.foreign.push_back(
-          fmt::format("{} is of another picture; what differs: {}", name, difference(header, wanted)));
+          fmt::format("{} is of another picture; these differ: {}", name, difference(header, wanted)));
     } else if (const auto [other, first] = by_shard.try_emplace(header.shard.index, i); !first) {
       faults_.doubled.push_back(fmt::format("{} and {} are both {}", read[other->second].file().string(),
                                             name, shard_text(header.shard)));

@@ -149,7 +149,7 @@ TEST_CASE("another scene, size, sampling or backend does not resume, and is told
     CHECK(result.code == 6);
     CHECK(read_text(checkpoint) == kept);
     const std::string start = "eyeray: error: cannot resume from " + checkpoint +
-                              ": it was made with other options or files; what differs: ";
+                              ": it was made with other options or files; these differ: ";
     CAPTURE(result.err);
     REQUIRE(result.err.starts_with(start));
     return result.err.substr(start.size());

@@ -140,10 +140,10 @@ TEST_CASE("a set that makes no picture is refused, and names what is wrong") {
   write_text(folder.scene(), text + "\n# another\n");
   render_part(folder, picture, 2, 4);
   CHECK(refusal(parts, 2) ==
-        begin + parts[2] + " is of another picture; what differs: the scene; missing: 2/4\n");
+        begin + parts[2] + " is of another picture; these differ: the scene; missing: 2/4\n");
   write_text(folder.scene(), text);
   render_part(folder, picture + Words{"--spp", "4"}, 2, 4);
-  CHECK(refusal(parts, 2).find("what differs: the samples a pixel (4, of most 1), the options laid over") !=
+  CHECK(refusal(parts, 2).find("these differ: the samples a pixel (4, of most 1), the options laid over") !=
         std::string::npos);
   render_part(folder, picture_of(folder.scene()), 2, 4);
   const std::string other = refusal(parts, 2);

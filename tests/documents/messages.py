@@ -36,7 +36,13 @@ def literals(text):
             joined[-1] = (begin, token.end(), value + token[2])
         else:
             joined.append((token.start(), token.end(), token[2]))
-    return [each for each in joined if not text[:each[0]].rpartition("\n")[2].lstrip().startswith("#include")]
+    return joined
+
+
+def is_shown(text, begin):
+    """Not the name of a file that is included, and not the reason of an assertion at compile time."""
+    before = text[:begin].rpartition("\n")[2].lstrip()
+    return not before.startswith("#include") and "static_assert(" not in re.split("[;{}]", text[:begin])[-1]
 
 
 def plain(text):
@@ -45,7 +51,7 @@ def plain(text):
 
 
 def of_cpp(text):
-    return [value for _, _, value in literals(text)]
+    return [value for begin, _, value in literals(text) if is_shown(text, begin)]
 
 
 def of_python(text):

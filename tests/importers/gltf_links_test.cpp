@@ -239,11 +239,11 @@ TEST_CASE("rules of glTF: nodes, skins, and what accessors and views hold") {
       {"colours of 3 bytes in 4", attribute("COLOR_0", std::vector<double>(12, 0), 5121, "VEC3", 3, true),
        ""},
       {"positions in a view for indices", set("/bufferViews/0/target", 34963),
-       "views whose target is not what their accessors are: 1, the first bufferViews[0]"},
+       "views whose target does not fit their accessors: 1, the first bufferViews[0]"},
       {"indices in a view for attributes", set("/bufferViews/1/target", 34962),
-       "views whose target is not what their accessors are: 1, the first bufferViews[1]"},
+       "views whose target does not fit their accessors: 1, the first bufferViews[1]"},
       {"matrices in a view for attributes", set("/bufferViews/6/target", 34962),
-       "views whose target is not what their accessors are: 1, the first bufferViews[6]"},
+       "views whose target does not fit their accessors: 1, the first bufferViews[6]"},
       {"right targets",
        [](GltfFile& file) {
          file.json["bufferViews"][0]["target"] = 34962;

@@ -166,7 +166,7 @@ TEST_CASE("meshopt: what is against the specification is refused, with its place
       {0, {{"count", 1e15}}, "should have 1728 bytes, but is decoded to 1000000000000000 elements of 12"},
       {0,
        {{"mode", "INDICES"}, {"byteStride", 4}, {"count", 432}},
-       "has data that are damaged: they are no INDICES"},
+       "has data that are damaged: they are not INDICES"},
       {0, {{"byteLength", 1e9}}, "of a buffer that has"},
       {0, {{"buffer", 7}}, "buffer must be an index below 2"},
       {0, {{"buffer", 1}}, "buffers[1] has no data"},
@@ -185,7 +185,7 @@ TEST_CASE("meshopt: what is against the specification is refused, with its place
   GltfFile file = meshopt_grid();
   file.json["bufferViews"][0]["byteStride"] = 16;
   CHECK(contains(refusal(file.gltf(), "a.gltf"),
-                 "bufferViews[0] has another byteStride than what it is decoded to"));
+                 "bufferViews[0] has another byteStride than its decoded data"));
 }
 
 TEST_CASE("meshopt: data cut short at every byte, or of another version") {

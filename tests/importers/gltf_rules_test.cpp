@@ -140,7 +140,7 @@ TEST_CASE("rules of glTF: what is said when each is broken") {
          file.json["accessors"][target]["min"] = file.json["accessors"][target]["max"] = {0, 0, 0};
        },
        "accessors of attributes whose elements do not begin at multiples of 4 bytes: 1, the first accessors[7]; "
-       "strides that are no multiple of 4 from 4 to 252: 1, the first bufferViews[8].byteStride"},
+       "strides that are not multiples of 4 from 4 to 252: 1, the first bufferViews[8].byteStride"},
       {"stride of indices", set("/bufferViews/1/byteStride", 4),
        error +
            "accessors[1] is in bufferViews[1], which has a byteStride: only attributes of vertices may have one"},

@@ -226,7 +226,7 @@ TEST_CASE("a normal map counts by its codes, with the mesh's tangents where they
   attributes["TANGENT"] = file.add({0, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, 5126, "VEC4", 4);
   const ImportedScene unsound = import_sound(file.gltf(), "a.gltf");
   CHECK(warns(unsound,
-              "meshes with tangents that are no directions; their tangents are computed from uv instead"));
+              "meshes with tangents that are not directions; their tangents are computed from uv instead"));
   CHECK(unsound.meshes[0].tangents.empty());
 
   // A coat has its own, or none.

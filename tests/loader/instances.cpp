@@ -122,8 +122,7 @@ normals = [{2}, {2}, {2}]
   for (const char* groups : {"flat", "instanced"}) {
     CAPTURE(groups);
     CHECK(verdict(groups, "[1, 0, 0.2]") == "accepted");
-    CHECK(says(verdict(groups, "[-1, 0, -0.1]"),
-               "scene.toml:11:11: error: a normal points away from the outside"));
+    CHECK(says(verdict(groups, "[-1, 0, -0.1]"), "scene.toml:11:11: error: a normal points to the inside"));
   }
 }
 

@@ -102,7 +102,7 @@ std::vector<Expected> all_expected() {
       {"half_texel", {bits, paths}, {"scenes/path/environment.toml", "--spp", "2"}},
       {"albedo", {bits, "the tile of ", paths}, box},
       {"threshold",
-       {bits, "diverges at what its path decides", paths},
+       {bits, "diverges at a decision of its path", paths},
        {"scenes/path/materials.toml", "--spp", "2"}},
       {"clamp", {bits, paths}, box},
       {"emission_side", {bits, paths}, {"scenes/path/emitters.toml", "--spp", "2"}},

@@ -176,7 +176,7 @@ TEST_CASE("what another render left is refused, and what differs is named") {
     return std::string();
   };
   const std::string start =
-      "cannot resume from " + file + ": it was made with other options or files; what differs: ";
+      "cannot resume from " + file + ": it was made with other options or files; these differ: ";
   CHECK(message({{"size", "7x9"}, identity[1]}) == start + "the size (9x7, now 7x9)");
   CHECK(message({identity[0], {"scene", "other", false}}) == start + "the scene");
   CHECK(message({{"size", "9x71"}, {"scene", "", false}, {"new", "x"}}) ==

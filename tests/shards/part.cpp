@@ -329,9 +329,9 @@ TEST_CASE("all that is wrong with a set is named at once") {
   REQUIRE(faults.foreign.size() == 2);
   CHECK(faults.foreign[0] ==
         folder / "7-8.eyeray" +
-            " is of another picture; what differs: the size (65x48, of most 64x48), the scene");
+            " is of another picture; these differ: the size (65x48, of most 64x48), the scene");
   CHECK(faults.foreign[1] ==
-        folder / "3-9.eyeray" + " is of another picture; what differs: the number of shards (9, of most 8)");
+        folder / "3-9.eyeray" + " is of another picture; these differ: the number of shards (9, of most 8)");
   CHECK(faults.text().ends_with("missing: 3/8 to 4/8, 7/8 to 8/8"));
   const auto refused_as = [](const PartFaults& each) {
     try {

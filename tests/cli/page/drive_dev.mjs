@@ -136,7 +136,7 @@ await next('gpu', () => writeFileSync(scene_file, scene + sheets.replace('sin(60
 assert.match(await page.locator('#warnings').textContent(), /scene\.toml:\d+.*warning: `lipschitz` is 1, but/);
 await page.screenshot({ path: `${folder}/warnings.png` });
 await next('gpu', () => writeFileSync(scene_file, scene + sheets.replace('0.5', '1.000001').replace('lipschitz = 1', 'lipschitz = 60000')));
-assert.match(await page.locator('#warnings').textContent(), /^\d+ pixels may be wrong: .* steps allowed/);
+assert.match(await page.locator('#warnings').textContent(), /^\d+ pixels may be wrong: .* ran out of steps/);
 await next('gpu', () => writeFileSync(scene_file, scene));
 assert.ok(await page.locator('#warnings-panel').isHidden());
 
