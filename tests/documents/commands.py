@@ -1,6 +1,8 @@
 """Every eyeray command that a document shows is one: its words and options are those of --help, its scenes are there,
-and what writes or tells something without rendering is run. With --all every command runs, small, but for those of NOT_RUN.
-Usage: commands.py EYERAY [--all], from the source tree's root."""
+and and those that write or print something without rendering are run. With --all every command runs, small, but for those of NOT_RUN. Then
+a block that begins with its file's name as a comment (`# first.toml`) is written to that file, or with the word "continued" appended to it;
+lines that begin with sed are run too; and `# exit code 1` behind a command is the exit code that it must have.
+Usage: commands.py EYERAY [--all [DOCUMENT…]], from the source tree's root."""
 import pathlib
 import re
 import shlex
@@ -14,6 +16,7 @@ EYERAY = str(pathlib.Path(sys.argv[1]).resolve())
 RUN = {"check", "shaders", "completion", "manual", "new", "generate"}
 SLOW = re.compile(r"terrain|000|--size-factor")
 ALL = "--all" in sys.argv
+ONLY = [each for each in sys.argv[2:] if not each.startswith("--")]
 SMALL = {"-s": "24x18", "--spp": "1", "--triangles": "2000", "--frames": "0:1"}  # take the place of what stands there
 SIZED = {"render", "verify", "probe"}  # commands that get SMALL's size and samples where they name none, …
 UNSIZED = {"--record": {"-s", "--spp"}, "--classic": {"--spp"}}  # … but for those that an option excludes
@@ -38,18 +41,45 @@ NOT_RUN = {
 }
 
 
-def commands(text):
+class Words(list):
+    """The words of a command, and the exit code that it must have."""
+
+    code = 0
+
+
+def blocks(text):
+    """(language, text) of each block of code."""
+    return re.findall(r"^```(\w*)\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
+
+
+def steps(text):
+    """Commands, and between them (file, text, mode) of the files that a reader writes, and the lines of sed."""
+    for language, block in blocks(text):
+        named = re.match(r"(?:#|//) ([\w./-]+\.(?:toml|glsl))(, continued)?\n", block)
+        if named and language in ("toml", "glsl"):
+            yield named[1], block, "a" if named[2] else "w"
+        elif language in ("", "sh"):
+            yield from commands(f"```{language}\n{block}```", ("sed",))
+
+
+def commands(text, others=()):
     """The words after `eyeray` of each such line in blocks of shell, of eyeray-bench with the word bench before them; a line that ends with a
-    backslash goes on."""
-    for language, block in re.findall(r"^```(\w*)\n(.*?)^```", text, re.MULTILINE | re.DOTALL):
+    backslash goes on. And the words of lines that begin with one of the others."""
+    for language, block in blocks(text):
         if language not in ("", "sh"):
             continue
         for line in block.replace("\\\n", " ").splitlines():
+            code = re.search(r"\s# exit code (\d+)$", line)
             line = re.sub(r"\s#.*", "", line.removeprefix("$ "))
+            if line.split(" ")[0] in others:
+                yield Words(shlex.split(line))
+                continue
             for part in re.split(r"&&|\|\||;|\|(?= )", line):
                 found = re.match(r"(?:[A-Z_]+=\S* )*(?:scripts/|build/release/)?eyeray[ -](.*)", part.strip())
                 if found:
-                    yield shlex.split(re.split(r" \d?>", found[1])[0])
+                    words = Words(shlex.split(re.split(r" \d?>", found[1])[0]))
+                    words.code = int(code[1]) if code else 0
+                    yield words
 
 
 def run(words, **options):
@@ -106,8 +136,8 @@ def made_small(words):
     return words
 
 
-def run_all(document, all_words, used):
-    """Runs a document's commands one after the other in one scratch folder; returns what goes wrong."""
+def run_all(document, all_steps, used):
+    """Does a document's steps one after the other in one scratch folder; returns the faults."""
     faults = []
     with tempfile.TemporaryDirectory() as folder:
         here = pathlib.Path(folder)
@@ -116,7 +146,21 @@ def run_all(document, all_words, used):
             shutil.copy(ROOT / source, here / name)
         for name in RENDERED:
             run(["render", "scenes/whitted.toml", "-s", "24x18", "-o", name, "--quiet"], cwd=folder)
-        for words in all_words:
+        for words in all_steps:
+            if isinstance(words, tuple):
+                name, text, mode = words
+                (here / name).parent.mkdir(parents=True, exist_ok=True)
+                with open(here / name, mode) as file:
+                    file.write(text)
+                continue
+            if not words:
+                continue
+            if words[0] == "sed":
+                done = subprocess.run(words, cwd=folder, capture_output=True, text=True)
+                if done.returncode != 0:
+                    faults.append(f"{document}: {shlex.join(words)}: ended with {done.returncode}: {done.stderr}")
+                continue
+            code = words.code
             reasons = [each for each in NOT_RUN if re.search(each, " ".join(words))]
             used.update(reasons)
             if reasons:
@@ -131,8 +175,8 @@ def run_all(document, all_words, used):
                 words = [each for word in words for each in (files if "*" in word else [word])]
                 words = [str(pathlib.Path(word).relative_to(here)) if word in files else word for word in words]
             done = run(words, cwd=folder)
-            if done.returncode != 0:
-                faults.append(f"{document}: eyeray {shlex.join(words)}: ended with {done.returncode}: {done.stderr[-600:]}")
+            if done.returncode != code:
+                faults.append(f"{document}: eyeray {shlex.join(words)}: ended with {done.returncode}, not {code}: {done.stderr[-600:]}")
     return faults
 
 
@@ -144,8 +188,10 @@ def main():
         (pathlib.Path(folder) / "scenes").symlink_to(ROOT / "scenes")
         for document in [ROOT / "README.md", *documents]:
             found = list(filter(None, commands(document.read_text())))
+            if ONLY and str(document.relative_to(ROOT)) not in ONLY:
+                continue
             if ALL:
-                faults += run_all(document.relative_to(ROOT), found, used)
+                faults += run_all(document.relative_to(ROOT), steps(document.read_text()), used)
             for words in found:
                 seen += 1
                 line = f"{document.relative_to(ROOT)}: eyeray {shlex.join(words)}"
@@ -157,6 +203,8 @@ def main():
                     if done.returncode != 0:
                         faults.append(f"{line}: ended with {done.returncode}: {done.stderr}")
     print(f"{seen} commands, {len(ran)} of them run")
+    if ONLY:
+        sys.exit("\n".join(faults) or 0)
     if ALL:
         faults += [f"no document has a command like {each}, which NOT_RUN lists" for each in NOT_RUN if each not in used]
     if seen < 70 or len(ran) < 5:
