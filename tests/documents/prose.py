@@ -28,7 +28,7 @@ OFF = ("<!-- prose off -->", "<!-- prose on -->")  # around the bad examples of 
 HEADLESS = re.compile(r"\bwhat(?:ever)?\b(?! to\b|(?<=ever) the\b)|(?<!\bsuch )\b(?:that|those) of which\b", re.IGNORECASE)
 HEADLESS_COMMENT = re.compile(r"(?:What|Where|Whether|How|That|Which)\b(?! to\b)")
 BE = r"(?:is|are|was|were|has|have|had|do|does|did|can|may|must|will|would)"
-FRONTED = re.compile(rf"Of\b|(?:So|Nor|Neither|There(?:fore)?|Then) {BE}\b(?! (?:a|an|no|one|two|\d+)\b)"
+FRONTED = re.compile(rf"Of\b|(?:So|Nor|Neither|Then) {BE}\b(?! (?:a|an|no|one|two|\d+)\b)"
                      rf"|(?:Then|So) (?:go|goes|come|comes|follow|follows|stand|stands)\b|(?:Only|Not only) (?:then|there|so|here) {BE}\b")
 INVERTED = re.compile(rf"(?:,|;| and| but) (?:so|nor|neither) {BE}\b(?! that\b)|\bof (?:which|whom|these|those) [a-z ]{{0,20}}\b(?:alone|only)\b")
 

@@ -142,7 +142,7 @@ double sent_elsewhere(double roughness, double cosine) {
 
 }  // namespace
 
-// docs/path-tracing.md has these figures.
+// docs/rendering.md has these figures.
 TEST_CASE(
     "glass of high roughness mirrors as much as the documents say, beside random walks on the microsurface") {
   struct Expected {
