@@ -188,12 +188,12 @@ def record(counts):
 
 
 def risen(counts, allowed):
-    """(path, habit) of each count that rose. A new file may take over the counts of files that are gone."""
+    """(path, habit) of each count that rose. A new file may take over the counts that other files lost, as when a page is split."""
     zero, new = dict.fromkeys(HABITS, 0), {path for path in counts if path not in allowed}
-    gone = {path for path in allowed if path not in counts}
     rose = [(path, habit) for path in counts if path not in new for habit in HABITS if counts[path][habit] > allowed[path][habit]]
     for habit in HABITS:
-        if sum(counts[path][habit] for path in new) > sum(allowed.get(path, zero)[habit] for path in gone):
+        lost = sum(max(0, allowed[path][habit] - counts.get(path, zero)[habit]) for path in allowed)
+        if sum(counts[path][habit] for path in new) > lost:
             rose += [(path, habit) for path in new if counts[path][habit]]
     return rose
 
