@@ -215,7 +215,9 @@ def without_allowance(eyeray):
             source, _, text = line.partition(": ")
             if line.strip() and not line.startswith("#"):
                 text = text if "/" in source and " " not in source else line
-                wrong += [show(MESSAGES, number, *each[1:]) for each in findings_of([(number, text)], words)]
+                # A line that begins with spaces shows a command.
+                blocks = [(number, each) for each in text.split("\\n") if not each.startswith("  ")]
+                wrong += [show(MESSAGES, number, *each[1:]) for each in findings_of(blocks, words)]
     for command, text in help_texts(eyeray) if eyeray else ():
         # Each option is a block: its names, then two spaces or more and its description, which goes on below.
         blocks = re.split(r"\n(?= {0,6}\S)|\n\s*\n|(?<=\S)   *(?=[A-Za-z])", text)
