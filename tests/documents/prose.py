@@ -59,6 +59,7 @@ def plain(text):
     """The text without code, pictures, links' targets, addresses, HTML and emphasis: one space between words."""
     text = re.sub(r"`+[^`]*`+", "CODE", text)
     text = re.sub(r"!\[[^\]]*\]\([^)\s]*\)", " ", text)
+    text = re.sub(r"\[[\w./-]+\.\w+\]\([^)\s]*\)", "CODE", text)  # a link that shows its file's name
     text = re.sub(r"\[([^\]]*)\]\([^)\s]*\)", r"\1", text)
     text = re.sub(r"<[^<>\n]{1,80}>|https?://\S+", "CODE", text)
     return re.sub(r"\s+", " ", text.replace("**", "").replace("*", " ")).strip()
