@@ -1,4 +1,4 @@
-// What photons are sent out and gathered by (docs/rendering.md): numbers that all executors share.
+// What photons are sent out and gathered by (docs/photon-mapping.md): numbers that all executors share.
 #pragma once
 
 #include <cstdint>

@@ -22,6 +22,7 @@ HABITS = {  # its column in prose.txt: its name, and the cure
     "long": ("a sentence of more than 35 words", "write a list, a table or two sentences"),
 }
 MOST_WORDS = 35
+MOST_SHOWN = 5  # of a file's findings, where none is in a line that differs from the last commit
 CODE = ("host", "shaders", "include", "benchmarks", "python", "examples", "tests")
 OFF = ("<!-- prose off -->", "<!-- prose on -->")  # around the bad examples of CONTRIBUTING.md, and nowhere else
 
@@ -199,6 +200,13 @@ def risen(counts, allowed):
     return rose
 
 
+def lines_changed(path):
+    """The lines of a file that differ from the last commit, where there is one."""
+    diff = subprocess.run(["git", "diff", "-U0", "HEAD", "--", path], capture_output=True, text=True).stdout
+    spans = re.findall(r"^@@ -\S+ \+(\d+)(?:,(\d+))? @@", diff, re.MULTILINE)
+    return {line for first, count in spans for line in range(int(first), int(first) + int(count or 1))}
+
+
 def help_texts(eyeray, command=()):
     """(command, text) of --help, of each command and those below it."""
     text = subprocess.run([eyeray, *command, "--help"], capture_output=True, text=True, check=True).stdout
@@ -239,7 +247,12 @@ def main():
     allowed = recorded() if RECORD.exists() else counts
     rose, wrong = risen(counts, allowed), without_allowance(eyeray)
     for path, habit in rose:
-        wrong += [show(path, *each) for each in found[path] if each[1] == habit]
+        some = [each for each in found[path] if each[1] == habit]
+        changed = lines_changed(path)
+        shown = [each for each in some if each[0] in changed] or some[:MOST_SHOWN]
+        wrong += [show(path, *each) for each in shown]
+        if len(shown) < len(some):
+            wrong.append(f"{path}: {len(some) - len(shown)} more of {habit}: --list {path} prints them")
         before = allowed.get(path, {}).get(habit, 0)
         wrong.append(f"{path}: {habit} rose from {before} to {counts[path][habit]}; rewrite one of these sentences for each")
     if "--bless" in arguments and not rose:
