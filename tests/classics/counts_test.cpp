@@ -20,7 +20,7 @@ struct Published {
   bool quick = true;  // else only with EYERAY_FULL_TESTS=1
 };
 
-// docs/generate.md says what stands behind the differences.
+// docs/experiments/ray-counts.md explains the differences.
 const Published published[] = {
     {"sphereflake", 4, 263169, 175095, 0, 954368},
     {"tetra", 6, 49788, 0, 0, 46112},
