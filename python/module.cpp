@@ -219,7 +219,7 @@ void close_without_gil(Renderer* renderer) {
 }
 
 void add_renderer(py::module_& module) {
-  py::class_<Cancellation>(module, "Cancellation", "Asks a call, from any thread, to end soon.")
+  py::class_<Cancellation>(module, "Cancellation", "Requests that a call end soon; any thread may do so.")
       .def(py::init<>())
       .def("request", &Cancellation::request)
       .def_property_readonly("requested", &Cancellation::requested);

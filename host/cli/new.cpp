@@ -72,7 +72,7 @@ void add_new(CLI::App& app, Run& run) {
   command->add_option("DIR", options->folder, "The folder to write it to.")->required();
   command->add_flag("--json", options->json, "Answer as JSON on standard output.");
   command->footer(
-      "Example: a scene to change while looking at it\n"
+      "Example: change a scene, and see the picture change\n"
       "  eyeray new my-scene\n"
       "  eyeray dev my-scene/scene.toml");
   command->callback([options, &run] { run = [options] { return options->run(); }; });

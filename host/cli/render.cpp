@@ -293,7 +293,7 @@ void add_render(CLI::App& app, Run& run) {
       "  eyeray render scenes/whitted.toml --spp 10000 --checkpoint long.part    and, after Ctrl-C, --resume "
       "long.part\n"
       "  eyeray render scenes/whitted.toml --shard 3/64                      whitted.3-of-64.eyeray\n"
-      "Ctrl-C keeps what was rendered so far, if every pixel has a sample.");
+      "Ctrl-C keeps the picture rendered so far, if every pixel has a sample.");
   command->callback([render, &run] { run = [render] { return render->run(); }; });
 }
 

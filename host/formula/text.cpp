@@ -202,7 +202,7 @@ void Judge::judge_arrays() {
   if (largest * comparisons > most_compared)
     faults_.push_back(
         {1, 1,
-         fmt::format("comparing arrays of {} elements in {} places is too much: compare elements in a loop",
+         fmt::format("comparing arrays of {} elements {} times is too much: compare elements in a loop",
                      largest, comparisons)});
 }
 

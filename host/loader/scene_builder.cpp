@@ -379,8 +379,8 @@ void Builder::check_whole(reading::TableReader& render) {
       log_.warning({}, "the scene has no [[light]]: shapes are lit by `ambient` of [render] only");
     if (!area_lights_.empty())
       log_.warning(reading::position_of(area_lights_.front().second->source()),
-                   fmt::format("integrator = \"{}\" shows area lights and casts no light from them; \"path\" "
-                               "and \"sppm\" do",
+                   fmt::format("integrator = \"{}\" shows area lights, but they illuminate nothing; \"path\" "
+                               "and \"sppm\" sample them",
                                integrator_names[size_t(scene_.render.integrator)]));
   }
   if (walks_at_random(scene_.render.integrator) && !empty && !log_.has_errors()) warn_of_paths(scene_, log_);

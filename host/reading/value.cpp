@@ -83,8 +83,8 @@ double Reader::number(const toml::node& node) {
              (key_.below_max && value >= key_.max)) {
     mismatch(node);
   } else if (std::fabs(value) > largest_number) {
-    fail(node, fmt::format("`{}` is {:g}, beyond what float32 arithmetic can render (±{:g})", key_.name,
-                           value, largest_number));
+    fail(node, fmt::format("`{}` is {:g}, beyond the range of float32 arithmetic (±{:g})", key_.name, value,
+                           largest_number));
   } else if (key_.above_min && key_.min >= 0 && value < 1 / largest_number) {
     fail(node, fmt::format("`{}` is {:g}, too small for float32 arithmetic (at least {:g})", key_.name, value,
                            1 / largest_number));

@@ -193,7 +193,7 @@ class RegionCheck {
     const size_t other = first.start.outline;
     return fail(
         second.start,
-        fmt::format("{} crosses or touches {}: its edge from vertex {} meets that from vertex {}",
+        fmt::format("{} crosses or touches {}: its edge from vertex {} crosses that from vertex {}",
                     name(second.start.outline), other == second.start.outline ? "itself" : name(other),
                     second.start.vertex + 1, first.start.vertex + 1));
   }

@@ -263,8 +263,8 @@ struct Progress {
   double seconds = 0;  // since sampling began
 };
 
-// Asks a call, from any thread, to end soon. Copies are the same request. The device first finishes the work
-// that it has, about 50 ms, and its driver a kernel that it compiles, up to seconds.
+// Requests that a call end soon; any thread may do so. Copies are the same request. The device first finishes
+// the work that it has, about 50 ms, and its driver a kernel that it compiles, up to seconds.
 class EYERAY_API Cancellation {
  public:
   Cancellation();

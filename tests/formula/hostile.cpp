@@ -101,7 +101,7 @@ TEST_CASE("what is too long or too deep is refused before a compiler sees it") {
                      "return p.x;")
             .find("numbers in arrays; at most 8192") != std::string::npos);
   CHECK(refusal_of_f("vec4 a[1024], b[1024];" + times(3000, "a==b;") + "return p.x;")
-            .find("comparing arrays of 1024 elements in 3000 places is too much") != std::string::npos);
+            .find("comparing arrays of 1024 elements 3000 times is too much") != std::string::npos);
   // What a person writes is far from that.
   CHECK(refusal_of_f("float s = 0.0;\n" + times(200, "s += sin(p.x * 3.0) * (p.y - 2.0) + s / 3.0;\n") +
                      "return s;") == "");
