@@ -75,7 +75,7 @@ def commands(text, others=()):
                 yield Words(shlex.split(line))
                 continue
             for part in re.split(r"&&|\|\||;|\|(?= )", line):
-                found = re.match(r"(?:[A-Z_]+=\S* )*(?:scripts/|build/release/)?eyeray[ -](.*)", part.strip())
+                found = re.match(r"(?:[A-Z_]+=\S* )*(?:scripts/|build/release/)?eyeray(?: |-(?=bench\b))(.*)", part.strip())
                 if found:
                     words = Words(shlex.split(re.split(r" \d?>", found[1])[0]))
                     words.code = int(code[1]) if code else 0
