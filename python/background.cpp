@@ -30,7 +30,7 @@ class Worker {
     std::unique_lock lock(mutex_);
     change_.wait(lock, [this] { return !busy_; });
   }
-  // Of its last work.
+  // The exception that the last work threw, if any.
   std::exception_ptr thrown() const { return thrown_; }
   // False in a forked child, which has no threads of its parent.
   bool is_here() const { return process_ == ::getpid(); }

@@ -130,7 +130,7 @@ struct Instance {
   vec4 to_world[3];        // rows: the affine map back, its w's that origin
 };
 INLINE bool of_group(Instance instance) { return instance.material == NONE; }
-// Of each of a mesh's triangles; NONE of a group.
+// The optical depth of each of a mesh's triangles; NONE for a group.
 INLINE uint mesh_optical_depth(Instance instance) { return of_group(instance) ? NONE : instance.depth_or_triangle; }
 // The id of a group's first triangle of a mesh.
 INLINE uint first_triangle_of(Instance instance) { return instance.depth_or_triangle; }

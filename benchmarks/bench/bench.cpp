@@ -18,7 +18,7 @@ namespace {
 
 // More primitives would take POV-Ray gigabytes and a minute to parse.
 constexpr uint64_t most_for_povray = 2'000'000;
-// Of the standard scenes, whose pictures take half a minute each: made when asked for by name.
+// The standard scene whose pictures take half a minute each. It is made only if named on the command line.
 constexpr std::string_view large_scene = "terrain-8m";
 
 // A file of that name comes first.

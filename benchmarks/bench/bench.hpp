@@ -18,7 +18,7 @@ namespace eyeray::engine::bench {
 
 // Measured beside the standard scenes when none is named, where it is there.
 inline constexpr std::string_view default_scene = "scenes/whitted.toml";
-// Of paths when none is named.
+// The scene whose paths are measured if none is named.
 inline constexpr std::string_view path_scene = "scenes/path/cornell_box.toml";
 
 struct Options {

@@ -74,7 +74,8 @@ struct PathReport {
   int runs = 0;
   std::vector<PathSeries> series;
   std::vector<Likeness> likeness;  // of each other renderer
-  // Of photons, which are biased: the pictures that errors are measured against, for people; else empty.
+  // Describes, for people, the pictures that errors of photon mapping are measured against, since photons are
+  // biased. Empty for other integrators.
   std::string reference = {};
 };
 
@@ -86,8 +87,9 @@ struct EqualTime {
 };
 EqualTime at_equal_time(const PathSeries& first, const PathSeries& second);
 
-// Of a scene of `sppm`, that beside `path`. Error as load_scene and render; (file_io) where Blender or
-// POV-Ray is asked for and missing, (bad_input) where the scene has no likeness there, or is not for `path`.
+// Measures the paths of a scene. For a scene of `sppm`, measures `sppm` beside `path`. Error as load_scene
+// and render; (file_io) where Blender or POV-Ray is asked for and missing, (bad_input) where the scene has no
+// likeness there, or is not for `path`.
 PathReport measure_paths(const std::string& scene, const PathOptions& options);
 
 // As a table, for people.

@@ -29,7 +29,7 @@ struct Series {
   std::vector<TimedRun> runs;
 };
 
-// Of a stage over a series; a run without the stage counts as 0.
+// The spread of a stage's time over a series. A run without the stage counts as 0.
 Spread stage_spread(const Series& series, const std::string& stage);
 Spread tracing_spread(const Series& series);
 Spread memory_spread(const Series& series);

@@ -12,8 +12,8 @@ struct Moments {
 };
 Moments moments(std::span<const double> runs);
 
-// Of two means that are the same in truth: Welch, "The Generalization of 'Student's' Problem when Several
-// Different Population Variances are Involved" (Biometrika 1947).
+// Welch's test of the hypothesis that two means are equal: Welch, "The Generalization of 'Student's' Problem
+// when Several Different Population Variances are Involved" (Biometrika 1947).
 struct WelchTest {
   double t = 0;
   double freedom = 0;  // degrees of it

@@ -208,7 +208,7 @@ print("eyeray: cpu", time.process_time() - processor, "wall", time.time() - wall
   void add(const std::string& mesh, const Shape& shape, const Mat4& map) {
     append(text_, "add({}, m{}, {})\n", mesh, shape.material, tuple(map));
   }
-  // Of corners in the world.
+  // Adds a polygon whose corners are in world space.
   void add_polygon(const Shape& shape, const std::vector<Vec3>& corners) {
     std::string order;
     for (size_t i = 0; i < corners.size(); ++i) append(order, "{}, ", i);

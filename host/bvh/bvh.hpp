@@ -41,7 +41,7 @@ struct BvhOptions {
   // Cuts items at a plane where that makes better boxes (spatial splits): slower to build, faster to trace
   // where items are long and thin.
   bool split = false;
-  // Of an item's box, what lies below and above `position` on `axis`.
+  // Returns the two parts of an item's box: below and above `position` on `axis`.
   std::function<std::pair<Box, Box>(uint32_t item, int axis, float position)> cut;
 };
 

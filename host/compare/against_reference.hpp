@@ -52,7 +52,7 @@ struct ReferenceComparison {
   bool passes() const;
 };
 
-// Of a comparison, in the order in which a fault shows along a ray's life.
+// The kinds of tallies of a comparison, in the order in which a fault shows along a ray's life.
 struct TallyType {
   const char* gate;
   const char* of;  // "first hits"

@@ -40,8 +40,8 @@ Vec3 rgb_from_ycxcz(const Vec3& ycxcz) {
   return rgb_from_xyz * (white * Vec3(y + ycxcz.y / 500, y, y - ycxcz.z / 200));
 }
 
-// Of a positive number, to the last bits: three of Halley's steps from a guess by the exponent's third. In
-// half the time of std::cbrt, which was a sixth of all.
+// The cube root of a positive number, exact to the last bits: three of Halley's steps from a guess by the
+// exponent's third. It takes half the time of std::cbrt, which took a sixth of FLIP's time.
 double cube_root(double x) {
   double root = std::bit_cast<double>(std::bit_cast<uint64_t>(x) / 3 + 0x2a9f7893782da1ce);
   for (int step = 0; step < 3; ++step) {
@@ -67,7 +67,8 @@ Vec3 hunt(const Vec3& lab) {
   return {lab.x, 0.01 * lab.x * lab.y, 0.01 * lab.x * lab.z};
 }
 
-// Of values that are neither huge nor tiny, for which std::hypot takes its time.
+// The length of (x, y), for values that are neither huge nor tiny: std::hypot is slow because it handles
+// those.
 double length(double x, double y) {
   return std::sqrt(x * x + y * y);
 }

@@ -15,11 +15,12 @@ struct Flip {
   double p99 = 0;
 };
 
-// Of each pixel of two linear 1- or 3-channel pictures of one size, clipped to [0, 1], row by row. Seen at 67
-// pixels a degree, as the paper does: a 0.7 m wide display of 3840 pixels, 0.7 m away.
+// FLIP's error of each pixel, row by row, of two linear 1- or 3-channel pictures of one size. Colours are
+// clipped to [0, 1]. The pictures are seen at 67 pixels a degree, as in the paper: a 0.7 m wide display of
+// 3840 pixels, 0.7 m away.
 std::vector<double> flip_map(const image::Image& a, const image::Image& b);
 Flip flip(const image::Image& a, const image::Image& b);
-// Of such a map.
+// The summary of a map that flip_map returned.
 Flip summary(std::vector<double> map);
 
 }  // namespace eyeray::engine::compare

@@ -57,7 +57,7 @@ inline Counts counts_at(const Frame& frame, int x, int y) {
   return {double(*frame.hits.pixel(x, y)), double(*frame.rays_traced.pixel(x, y))};
 }
 
-// Of linear or encoded colours, Rec. 709's.
+// Weights of Rec. 709's luma, for linear or encoded colours.
 inline constexpr Vec3 luma_weights(0.2126, 0.7152, 0.0722);
 
 // Why two frames cannot be compared at all ("its picture is 95×72, not 96×72"); empty when they can.

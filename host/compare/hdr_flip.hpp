@@ -19,8 +19,8 @@ struct Exposures {
   double at(int index) const { return start + index * (stop - start) / (count - 1); }
 };
 
-// Of a black reference both are 0. Where the median is black, it is that of the luminances above 0 alone: the
-// paper leaves this open.
+// The exposures for a reference; both are 0 if it is black. If the median luminance is 0, the median of the
+// luminances above 0 replaces it: the paper leaves this case open.
 Exposures exposures_of(const image::Image& reference);
 
 // What a display shows of linear colours at an exposure: tone mapped (ACES, as Narkowicz fits it), linear, in
@@ -34,8 +34,8 @@ struct HdrFlip {
   std::vector<float> exposure;  // … and the first exposure at which it is found, in stops
 };
 
-// Of two linear 1- or 3-channel pictures of one size, of which `b` is the reference. None where a value is
-// not finite.
+// HDR-FLIP of two linear 1- or 3-channel pictures of one size, of which `b` is the reference. Empty if a
+// value is not finite.
 std::optional<HdrFlip> hdr_flip(const image::Image& a, const image::Image& b);
 
 }  // namespace eyeray::engine::compare

@@ -33,8 +33,8 @@ struct Metrics {
 inline constexpr std::array<int, 5> display_steps = {1, 2, 4, 8, 16};
 inline constexpr int first_decade = -7;
 
-// Of two 1- or 3-channel linear pictures of one size, at least one pixel. A value that is not finite counts
-// as an infinite difference.
+// Compares two linear 1- or 3-channel pictures of one size, of at least one pixel. A value that is not finite
+// counts as an infinite difference.
 // `hdr`: whether HDR-FLIP is measured, with b the reference; it takes as long as FLIP for each of its
 // exposures.
 Metrics measure(const image::Image& a, const image::Image& b, bool hdr = false);

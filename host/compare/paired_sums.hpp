@@ -21,12 +21,12 @@ inline constexpr int paired_tile = 8;  // pixels
 inline constexpr double paired_rounding = 5e-5;
 inline constexpr double paired_false_alarms = 1e-3;  // of all sums of a picture together, at most
 
-// Of all sums that which is farthest beyond, or nearest to, what is allowed: rounding, and √(2 ln(2 n / a))
-// √(m Σ(value − reference)²), n sums, a the false alarms. For differences that are as likely up as down that
-// holds whatever else they are (Hoeffding 1963, of the signs alone), if at most m of them have one cause and
-// so one sign (Cauchy and Schwarz). m is 1, but where samples of the same number share what lies within
-// `shared` of what their pixels show, as photons: then it is how many of a tile, or of all, lie so near to
-// one of them.
+// The sum that is farthest beyond its limit, or nearest to it. The limit is rounding and √(2 ln(2 n / a)) √(m
+// Σ(value − reference)²), for n sums and the rate of false alarms a. It holds for differences that are
+// symmetric around zero, whatever their distribution (Hoeffding 1963, on the signs alone), if at most m of
+// them have one cause and so one sign (Cauchy and Schwarz). m is 1, unless samples of the same number share
+// everything within `shared` of the points that their pixels show, as photons do. Then m is the number of
+// pixels, of a tile or of all, that lie so near to one of them.
 PairedSum worst_paired_sum(const Frame& value, const Frame& reference, double shared = 0);
 
 }  // namespace eyeray::engine::compare

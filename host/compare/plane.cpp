@@ -29,7 +29,7 @@ Pair load(const double* from) {
   return pair;
 }
 
-// Of each of `width` places the sum over `taps`, each weighted, in their order.
+// Writes `width` sums, each over the weighted `taps` in their order.
 void weigh(const Kernel& kernel, std::span<const double* const> taps, int width, double* sums) {
   int x = 0;
   for (; x + 8 <= width; x += 8) {

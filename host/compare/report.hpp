@@ -114,7 +114,7 @@ struct Report {
   // Where to look for the fault, a sentence: the first value that differs, and on whose side. Empty where
   // nothing tells.
   std::string diagnosis() const;
-  // Of all gates' counts the largest.
+  // The largest of all gates' counts.
   int64_t count(int64_t (*of)(const Tally&)) const;
   // Twice the share of pixels that are explained and count against the cap, of the gate that has most,
   // rounded up to 1e-5: what the scene is to be allowed. Nothing where more than the cap fails.

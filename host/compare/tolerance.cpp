@@ -34,13 +34,13 @@ double normal_excess(const Vec3& value, const Vec3& reference, double tolerance)
   return worst;
 }
 
-// Of the geometric normal, and of how it faces the ray.
+// The excess of the geometric normal, and of its cosine with the ray.
 double geometric_excess(const FirstHit& value, const FirstHit& reference, double tolerance) {
   return std::max(normal_excess(value.normal_geometric, reference.normal_geometric, tolerance),
                   ratio(std::abs(value.cosine - reference.cosine), tolerance));
 }
 
-// Of vectors whose components may be large.
+// The excess of vectors whose components may be large: the tolerance is relative above 1.
 template <int n>
 double relative_excess(const glm::vec<n, double>& value, const glm::vec<n, double>& reference,
                        double tolerance) {

@@ -5,7 +5,7 @@
 namespace eyeray::engine {
 
 uint32_t crc32(std::span<const std::byte> bytes, uint32_t so_far) {
-  // Of no address zlib makes the sum of nothing.
+  // For a null address zlib returns the checksum's initial value instead.
   if (bytes.empty()) return so_far;
   return uint32_t(crc32_z(so_far, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }

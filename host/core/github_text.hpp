@@ -5,8 +5,8 @@
 
 namespace eyeray::engine {
 
-// Of any bytes, what a command of GitHub's workflows can hold ("::error file=…::…"): a property's end at ,
-// and : too.
+// Encodes any bytes so that a command of GitHub's workflows can hold them ("::error file=…::…"). In a
+// property, "," and ":" are encoded too.
 std::string github_text(std::string_view text, bool property);
 
 // `text` as one line for a terminal or a log: printable, and no command to GitHub's workflows, which are

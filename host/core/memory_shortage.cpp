@@ -24,8 +24,8 @@ bool can_map(size_t bytes, int protection) {
   return address != MAP_FAILED && ::munmap(address, bytes) == 0;
 }
 
-// Of libraries that do not look at what malloc gives them, or give up where it gives nothing. Any other crash
-// goes on as if this were not here.
+// Handles crashes of libraries that do not check malloc's result, or abort if it is null. Any other crash
+// goes on as without this handler.
 extern "C" void on_crash(int number) {
   if (!can_map(hardly_any, PROT_READ | PROT_WRITE)) end_for_want_of_memory();
   ::sigaction(number, number == SIGABRT ? &usual_abort : &usual_fault, nullptr);

@@ -14,7 +14,7 @@ struct PixelSample {
   uint32_t rays = 0;   // rays traced for it: eye, reflected, refracted and shadow rays
   uint32_t hits = 0;   // surfaces struck by its eye, reflected and refracted rays
   uint32_t flags = 0;  // SampleFlag bits; 0 when nothing went wrong
-  // Of its rays; 0 from an executor that was not asked for kinds (ExecutorOptions::ray_kinds).
+  // The sample's rays by kind; 0 from an executor that does not count kinds (ExecutorOptions::ray_kinds).
   uint32_t reflected = 0;
   uint32_t refracted = 0;
   uint32_t total_reflections = 0;  // where a refracted ray would have been followed, had there been one
@@ -40,7 +40,7 @@ enum SampleFlag : uint32_t {
   endless = 1u << 4,  // a formula's loops did not end: whoever reads samples fails (executors/samples.hpp)
 };
 
-// Of one ray's search for its closest hit; −1 from an executor that does not count it.
+// The cost of one ray's search for its closest hit; −1 from an executor that does not count it.
 struct SearchCost {
   int64_t nodes = -1;  // of BVHs, visited
   int64_t tests = -1;  // primitives tested
@@ -52,7 +52,7 @@ struct FirstHit {
   Vec3 position{0.0};                                  // world
   Vec3 normal{0.0};                                    // world, unit, shading normal as the shape defines it
   Vec3 normal_geometric{0.0};                          // the same of the geometric normal
-  // Of the angle between normal_geometric and the way back along the ray: above 0 the front is seen.
+  // The cosine between normal_geometric and the reversed ray's direction: above 0 the front is seen.
   double cosine = 0;
   Vec2 uv{0.0};
   int32_t primitive = -1;  // index, see Scene::primitive_count; −1 where nothing is hit

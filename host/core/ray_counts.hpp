@@ -18,7 +18,7 @@ struct RayCounts {
 
   uint64_t total() const { return eye + reflected + refracted + shadow; }
 
-  // Of an executor that counts kinds.
+  // Adds a sample of an executor that counts rays by kind.
   void add(const PixelSample& sample) {
     ++eye;
     // Whatever an eye ray leads to begins with what it hits.

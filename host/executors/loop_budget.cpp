@@ -6,7 +6,7 @@
 namespace eyeray::engine::executors {
 namespace {
 
-// Of the 65 535 iterations that a capped driver grants an invocation, what we count on (docs/lavapipe.md).
+// A capped driver grants an invocation 65 535 iterations. We count on this many of them (docs/lavapipe.md).
 constexpr uint64_t granted_iterations = 60000;
 
 }  // namespace

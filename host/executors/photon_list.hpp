@@ -15,7 +15,8 @@ struct PhotonList {
   std::vector<uint32_t> cells;          // where each key's begin, and where the last one's end
 };
 
-// Of `stored`, in any order. Those with a number in `left_out`, which is in order, bring nothing.
+// Makes the list of the photons `stored`, which are in any order. Photons whose number is in `left_out`,
+// which is sorted, contribute nothing.
 PhotonList photon_list(std::span<const shader::Photon> stored, uint32_t key_mask,
                        std::span<const uint32_t> left_out);
 

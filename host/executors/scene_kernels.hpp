@@ -41,7 +41,7 @@ class SceneKernels {
   SceneKernels(const Workshop& workshop, UploadedScene& scene, ShaderFiles files)
       : workshop_(workshop), scene_(scene), files_(std::move(files)), guard_(workshop.most_iterations) {}
 
-  // Of these nodes a BVH4 is made once a kernel is that traverses it.
+  // Keeps the nodes from which a BVH4 is made with the first kernel that traverses it.
   void make_bvh4_of(RawVector<shader::uvec4> nodes, const shader::Bvh& bvh) {
     binary_nodes_ = std::move(nodes);
     bvh_ = bvh;

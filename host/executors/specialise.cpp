@@ -99,7 +99,7 @@ std::string defines(const records::PackedScene& scene, const Used& used, const S
   define("HAS_LENS", int(scene.frame.aperture > 0));
   define("HAS_FILTER", int(scene.frame.pixel_filter != FILTER_BOX));
   define("HAS_SECONDARY", int(most_bounces(scene) > 0));
-  // Of these only one is compiled.
+  // Only one camera, sampler and integrator is compiled.
   define("CAMERA_IS(number)", "true");
   define("SAMPLER_IS(number)", "true");
   define("INTEGRATOR_IS(number)", "true");

@@ -17,8 +17,8 @@ constexpr int64_t least_samples_in_wavefront = 1 << 22;
 constexpr size_t most_in_wavefront = 1 << 18;
 // In more lanes than these packets are slower than rays alone.
 constexpr uint32_t most_lanes_in_wavefront = 8;
-// Pictures take vectors of 512 bits where these save more than compiling for them takes: of so many samples.
-// Of more primitives than this, packets in narrow ones are faster.
+// Vectors of 512 bits are used for pictures of so many samples, where they save more time than compiling for
+// them takes. In scenes of more primitives than this, packets in narrower vectors are faster.
 constexpr int64_t least_samples_in_wide_vectors = 1 << 20;
 constexpr size_t most_in_wide_vectors = 1 << 14;
 

@@ -26,7 +26,7 @@ class RowStore {
   void append(const Rows& rows);
   // Makes the device keep what was appended.
   void sync();
-  // Of all bytes read or appended.
+  // The checksum of all bytes read or appended.
   uint32_t checksum() const { return checksum_; }
   void remove();
 

@@ -176,7 +176,7 @@ class Folding {
     return true;
   }
 
-  // Of a variable, along constant indices.
+  // A part of a variable that constant indices select.
   struct Part {
     uint32_t variable;
     uint32_t offset;

@@ -34,10 +34,11 @@ struct Compiled {
 
 namespace {
 
-// Of straight-line code: each is a call in kernels, and drivers take more than a second for a hundred.
+// Limit on the steps of straight-line code. Each step is a call in kernels, and drivers take more than a
+// second for a hundred.
 constexpr size_t most_straight_steps = 512;
 
-// As glslang mangles it.
+// The function's name, mangled as glslang mangles it.
 std::string mangled(const Entry& entry) {
   return fmt::format("{}{}(vf{};", user_prefix, entry.name, entry.parameter.back());
 }

@@ -20,7 +20,7 @@ enum class Type : uint8_t { real, whole, truth };
 
 enum class Op : uint8_t {
   move,  // of any type
-  // Of floats: C's operators, then the functions fn_… of shaders/math/formula.glsl.
+  // Operations on floats: C's operators, then the functions fn_… of shaders/math/formula.glsl.
   negate,
   add,
   subtract,
@@ -59,11 +59,11 @@ enum class Op : uint8_t {
   clamp,
   mix,
   smoothstep,
-  // Of floats to a truth; whatever is not a number is neither, and unequal to all.
+  // Comparisons of floats. NaN is neither less than nor equal to any number.
   less,
   less_equal,
   equal,
-  // Of whole numbers, signed ones in two's complement.
+  // Operations on whole numbers. Signed ones are in two's complement.
   whole_negate,
   whole_add,
   whole_subtract,

@@ -19,7 +19,7 @@ struct Size {
 // Settles for each loop whether its turns are counted, and what one counts. What is too much, in words; ""
 // where nothing is.
 std::string limit(ir::Program& program);
-// Of both functions together, once limited.
+// The size of both functions together, after limit().
 Size size_of(const ir::Program& program);
 
 }  // namespace eyeray::engine::formula

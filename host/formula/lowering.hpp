@@ -41,7 +41,8 @@ class FunctionLowering {
     uint32_t header, merge, next;
     bool in_next = false;
   };
-  // Of a value: how often it is used, and where last in its own block; past its end if another one uses it.
+  // The uses of a value: their number, and the last one's position in the value's own block. The position is
+  // past the block's end if another block uses the value.
   struct Uses {
     size_t count = 0;
     size_t last = 0;

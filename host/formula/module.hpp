@@ -59,7 +59,7 @@ struct Module {
   const Function* named(std::string_view name) const;
 
   const Type& type(uint32_t id) const { return types.at(id); }
-  // Of the value or variable that `id` names.
+  // The type of the value or variable that `id` names.
   const Type& type_of(uint32_t id) const { return types.at(value_types_.at(id)); }
   // A whole number that `id` names as a constant.
   std::optional<uint32_t> constant(uint32_t id) const;

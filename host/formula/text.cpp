@@ -21,7 +21,7 @@ constexpr size_t most_nesting = 64;
 constexpr size_t most_links = 500;
 constexpr size_t most_elements = 1024;
 constexpr size_t most_functions = 256;
-// Of comparisons of arrays, each of which is written out element by element.
+// Limit on the elements in comparisons of arrays, which are written out element by element.
 constexpr size_t most_compared = size_t{1} << 15;
 
 class Judge {

@@ -42,7 +42,8 @@ class Rows {
   std::vector<std::vector<double>> heights_;
 };
 
-// Of central differences; flattened where it would be on the wrong side of a triangle around the vertex.
+// The normal of a vertex, from central differences. It is flattened where it would be on the wrong side of a
+// triangle around the vertex.
 Vec3 Rows::normal(int row, int column) const {
   const double cell = 2 * reach / grid_;
   const int left = std::max(0, column - 1), right = std::min(grid_, column + 1);

@@ -37,8 +37,9 @@ std::string way_out() {
       variables, option_text("backend", "twin"));
 }
 
-// Of 8 cold starts on lavapipe, two threads, whitted came to its end in all with 800 MiB, in one with 600. A
-// driver with less may crash or hang in threads of its own.
+// Bytes of address space that a driver needs; with less it may crash or hang in threads of its own. On
+// lavapipe with two threads, all of 8 cold starts of whitted ended well with 800 MiB, and one of 8 with 600
+// MiB.
 constexpr size_t needed_addresses = size_t{1} << 30;
 
 // Whether a driver of this machine makes pictures sooner with wide vectors. Its version is known only once it

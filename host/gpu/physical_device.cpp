@@ -28,7 +28,8 @@ std::string version_text(uint32_t version) {
                      VK_API_VERSION_PATCH(version));
 }
 
-// Of llvmpipe the lanes of a subgroup say how wide its vectors are, which it leaves out of its own.
+// Identifies a device and its driver. llvmpipe leaves the width of its vectors out of its own identifier, so
+// the subgroup's size is added.
 std::string driver_id(const VkPhysicalDeviceProperties& properties, uint32_t subgroup_size) {
   std::string id = fmt::format("{:08x}{:08x}{:08x}{:02x}", properties.vendorID, properties.deviceID,
                                properties.driverVersion, subgroup_size);

@@ -25,15 +25,15 @@ struct RasterPicture {
   std::vector<float> depths;  // its depth there; both 0 where there is none
 };
 
-// As SPIR-V, entry points "main": kernels/raster.vert.glsl and .frag.glsl.
+// The shaders kernels/raster.vert.glsl and .frag.glsl as SPIR-V, whose entry points are "main".
 struct RasterShaders {
   std::vector<uint32_t> vertex, fragment;
 };
 
 class Rasterizer {
  public:
-  // Of a device that was opened to draw (DeviceOptions::draws). Error (no_device) when it has no graphics
-  // queue, and with the numbers when it draws no picture of that size, or has not that much memory.
+  // `device` must be opened to draw (DeviceOptions::draws). Error (no_device) when it has no graphics queue,
+  // and with the numbers when it draws no picture of that size, or has not that much memory.
   Rasterizer(Device& device, const RasterShaders& shaders, int width, int height);
   ~Rasterizer();
   Rasterizer(const Rasterizer&) = delete;

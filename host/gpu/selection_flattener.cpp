@@ -15,8 +15,8 @@ namespace {
 using Instruction = SpirvInstruction;
 using Block = SpirvBlock;
 
-// Of GLSL.std.450, whose only set of functions a shader has: those of values alone. Modf writes through a
-// pointer, and so does what comes later.
+// Whether a function of GLSL.std.450, the only set of functions that shaders use, takes values alone. Modf
+// and the functions after FMix write through pointers.
 bool is_function_of_values(uint32_t function) {
   return function <= GLSLstd450FMix && function != GLSLstd450Modf;
 }
@@ -57,7 +57,7 @@ class Types {
     for (const Instruction& instruction : module.declarations) see(instruction);
   }
 
-  // Of scalars and vectors; 0 of anything else.
+  // The number of components of a scalar or vector type; 0 for any other type.
   uint32_t components(uint32_t type) const {
     const auto found = components_.find(type);
     return found == components_.end() ? 0 : found->second;

@@ -27,7 +27,7 @@ namespace {
 // compressed fewer; but DWA holds an even block of 8 · 8 halves in two, and deflates these.
 constexpr uint64_t most_deflated = 1032;
 constexpr uint64_t most_of_cosines = 64 * most_deflated;
-// Of a tile, pixels.
+// Limit on the pixels of a tile.
 constexpr uint64_t most_in_tile = 1 << 24;
 
 class MemoryStream final : public Imf::IStream {

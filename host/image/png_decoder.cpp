@@ -10,7 +10,7 @@ namespace eyeray::engine::image {
 
 namespace {
 
-// Of what is no pixels.
+// Limit on the bytes of a chunk that holds no pixels.
 constexpr png_alloc_size_t most_chunk_bytes = 8'000'000;
 
 // libpng is C and may not be unwound through: what goes wrong comes back as a text.

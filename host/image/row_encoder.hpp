@@ -23,7 +23,7 @@ class RowEncoder {
 std::unique_ptr<RowEncoder> png_encoder(AtomicFile& file, int width, int height, int channels);
 std::unique_ptr<RowEncoder> pfm_encoder(AtomicFile& file, int width, int height, int channels);
 std::unique_ptr<RowEncoder> radiance_encoder(AtomicFile& file, int width, int height, int channels);
-// Of those channels.
+// `channels`: the names and types of the file's channels.
 std::unique_ptr<RowEncoder> exr_encoder(AtomicFile& file, int width, int height,
                                         std::vector<ExrChannel> channels);
 

@@ -24,7 +24,7 @@ ImportedScene import_obj(MeshFile& file);
 ImportedScene import_ply(MeshFile& file);
 ImportedScene import_gltf(MeshFile& file);  // .gltf and .glb, told apart by how they begin
 
-// Of files without normals, but glTF.
+// Default angle of smoothing in degrees, for files without normals other than glTF.
 inline constexpr double default_smooth = 40;
 
 }  // namespace eyeray::engine::importers

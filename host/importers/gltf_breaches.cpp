@@ -30,8 +30,8 @@ constexpr Types bytes_and_shorts =
 constexpr Types shares = any_float | normalized(unsigned_byte) | normalized(unsigned_short);
 constexpr Types directions = normalized(signed_byte) | normalized(signed_short);
 
-// Of the specification, 3.7.2.1 and 3.11; `quantized`: what KHR_mesh_quantization adds; `clear`: what nothing
-// allows, and can be read in one way only.
+// A rule of the specification, 3.7.2.1 and 3.11. `quantized`: the types that KHR_mesh_quantization adds.
+// `clear`: types that nothing allows, but that can be read in only one way.
 struct AttributeRule {
   std::string_view name;
   Types core;

@@ -41,7 +41,7 @@ class GltfBuffers {
   void claim(const GltfObject& owner, uint64_t elements);
   // … but so many more where some of it is coded.
   void allow(uint64_t elements) { allowed_elements_ += elements; }
-  // Of what was read so far, as it was read.
+  // Size in bytes of the data read so far, in the form in which it was read.
   uint64_t byte_size() const;
 
   // The elements of an accessor. Normalized integers are numbers from −1 or 0 to 1.
@@ -49,7 +49,7 @@ class GltfBuffers {
   std::vector<Vec3> vec3(size_t accessor);
   std::vector<Vec4> vec4(size_t accessor);
   std::vector<Mat4> mat4(size_t accessor);
-  // Of an animation, one after the other: of type SCALAR, VEC3 or VEC4.
+  // The numbers of an animation's accessor, one after the other: of type SCALAR, VEC3 or VEC4.
   std::vector<double> numbers(size_t accessor, std::string_view type);
   std::vector<Vec4> colors(size_t accessor);  // RGBA; of RGB the alpha is 1
   std::vector<uint32_t> indices(size_t accessor);

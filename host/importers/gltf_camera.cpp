@@ -8,7 +8,8 @@ namespace eyeray::engine::importers {
 
 namespace {
 
-// Of one form of a camera; `sound`: what has to be above 0 beside is.
+// Checks the planes of one form of a camera. `sound`: whether the form's other values that must be above 0
+// are.
 void check_planes(const GltfObject& form, bool sound, GltfBreaches& breaches) {
   if (!sound || (form.has("zfar") && !(form.number("zfar", 0) > form.number("znear", 0))))
     breaches.add("cameras whose aspectRatio, ymag, znear or zfar is out of range, which is ignored",

@@ -58,7 +58,7 @@ std::unique_ptr<Material> GltfMaterials::glass(const GltfObject& material, const
   return materials::make_dielectric(glass);
 }
 
-// Of KHR_materials_volume, by Beer's law, from the colour that is left at a distance.
+// The absorption of KHR_materials_volume, by Beer's law, from the colour that is left at a distance.
 Vec3 GltfMaterials::absorption(const GltfObject& material) {
   const auto volume = material.extension("KHR_materials_volume");
   if (!volume) return Vec3(0);

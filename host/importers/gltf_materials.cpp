@@ -247,7 +247,7 @@ std::unique_ptr<Material> GltfMaterials::material(size_t index) {
     const TexturePtr reflectance =
         textured(mirrors ? mirrored : Vec3(0), mirrors && s.metalness > 0.5 ? s.image : nullptr);
     const TexturePtr diffuse = textured(s.base * (1 - s.metalness * smooth), s.image);
-    // Of what is nothing but a mirror there is no body.
+    // A pure mirror has no diffuse body.
     const bool mirror = s.metalness * smooth > 0.95;
     auto stand_in = materials::make_phong({.diffuse = mirror ? textures::make_constant(Vec3(0)) : diffuse,
                                            .reflectance = reflectance,
@@ -297,7 +297,7 @@ std::optional<AlphaMask> GltfMaterials::mask(const GltfObject& material, bool bl
                    blends};
 }
 
-// Of metallic-roughness, or where there is only that of specular-glossiness.
+// The base colour's texture of metallic-roughness, or else the diffuse texture of specular-glossiness.
 std::optional<GltfObject> GltfMaterials::base_texture(const GltfObject& material) {
   if (const auto pbr = material.object("pbrMetallicRoughness")) return pbr->object("baseColorTexture");
   const auto old = material.extension(specular_glossiness);

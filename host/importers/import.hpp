@@ -33,7 +33,7 @@ struct ImportOptions {
   std::optional<double> smooth = {};
   // Where what the file names (materials, buffers, pictures) may lie beside the file's own folder tree.
   std::vector<std::filesystem::path> allowed_folders = {};
-  // Of the pictures of the scene that the file is for; null: it is for none.
+  // The budget for the pictures of the scene that the file is for; null if it is for none.
   image::PixelBudget* pixels = nullptr;
   Playing playing = {};
 };

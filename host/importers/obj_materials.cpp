@@ -94,7 +94,7 @@ std::unique_ptr<Material> convert(const tinyobj::material_t& source, const Maps&
       {.diffuse = diffuse, .reflectance = reflectance, .emission = emitted, .highlight = highlight(source)});
 }
 
-// Of `d` and `map_d`. Blends where either is between 0 and 1; else it cuts out.
+// The alpha mask of `d` and `map_d`. It blends where either is between 0 and 1; else it cuts out.
 std::optional<AlphaMask> mask(double dissolve, const std::shared_ptr<const ImageTexture>& picture) {
   const double factor = share(dissolve);
   if (!picture && factor == 1) return std::nullopt;

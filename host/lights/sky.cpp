@@ -34,8 +34,8 @@ Medium medium_at(double radius) {
   return {air * rayleigh, dust * mie_scattering, air * rayleigh + dust * mie_extinction + layer * ozone};
 }
 
-// Of a ray from `radius` whose direction has that cosine with up: how far it is to a sphere, from within it
-// or to its near side; below 0 where it is missed.
+// Distance to a sphere along a ray from `radius` whose direction has that cosine with up: from within the
+// sphere, or to its near side. Below 0 if the ray misses the sphere.
 double to_top(double radius, double cosine) {
   return -radius * cosine +
          std::sqrt(std::max(0.0, radius * radius * (cosine * cosine - 1) + top_radius * top_radius));
@@ -106,7 +106,8 @@ class Atmosphere {
  public:
   explicit Atmosphere(const Vec3& ground) : ground_(ground) {}
 
-  // Of the sun's light at a radius, its direction having that cosine with up.
+  // The share of the sun's light that arrives at a radius, if the direction to the sun has that cosine with
+  // up.
   Vec3 sunlight(double radius, double cosine) const {
     return to_ground(radius, cosine) >= 0 ? Vec3(0) : transmittance_(radius, cosine);
   }

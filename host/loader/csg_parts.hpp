@@ -13,7 +13,7 @@ namespace eyeray::engine::loader {
 // Why no table of this section can stand in a CSG object, or "".
 std::string why_no_part(const Section& section);
 
-// Of a shape that encloses nothing: the key that is to blame, and why.
+// Why a shape encloses nothing: the key that is to blame, and the reason.
 struct Blame {
   std::string_view key;
   std::string message;

@@ -53,7 +53,7 @@ std::string unchanged(const toml::node& node) {
   return fmt::format("{{ {} }}", fmt::join(entries, ", "));
 }
 
-// Of a table { axis = [x, y, z], degrees = a } of numbers.
+// A rotation from a table { axis = [x, y, z], degrees = a } of numbers.
 struct Rotation {
   Vec3 axis;
   double degrees;

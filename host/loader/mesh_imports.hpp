@@ -25,7 +25,7 @@ class MeshImports {
   MeshImports(const AllowedFolders& folders, std::vector<std::filesystem::path> trees,
               std::vector<std::filesystem::path> sources, image::PixelBudget& budget)
       : folders_(&folders), trees_(std::move(trees)), sources_(std::move(sources)), budget_(budget) {}
-  // Of a scene that is in no file; `memory` must outlive it.
+  // For a scene that is in no file. `memory` must outlive this object.
   MeshImports(const MemoryFiles& memory, image::PixelBudget& budget) : memory_(&memory), budget_(budget) {}
 
   struct Loaded {

@@ -14,7 +14,8 @@ Corners corners(const Mesh& mesh, const std::array<uint32_t, 3>& triangle) {
   return {mesh.positions[triangle[0]], mesh.positions[triangle[1]], mesh.positions[triangle[2]]};
 }
 
-// Of what a map leaves of a mesh's thinnest triangles. A turn alone changes a thickness by up to three times.
+// Least thickness of a mesh's thinnest triangles under a map. A rotation alone changes a thickness by up to
+// three times.
 constexpr double least_thickness = thinnest_triangle / 10;
 
 }  // namespace

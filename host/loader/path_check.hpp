@@ -6,7 +6,8 @@
 
 namespace eyeray::engine::loader {
 
-// Of a sound scene with shapes, whose integrator walks at random.
+// Warns of materials that scatter more light than they get, and of light that no path finds. The scene must
+// be sound and have shapes, and an integrator that walks at random.
 void warn_of_paths(const Scene& scene, DiagnosticLog& log);
 
 }  // namespace eyeray::engine::loader

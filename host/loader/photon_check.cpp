@@ -22,7 +22,7 @@ bool has_end(const Shape& shape) {
   return std::isfinite(glm::length(bounds.max - bounds.min));
 }
 
-// Of the scene's surfaces; what no shape is made of keeps no photon.
+// For each material, whether a surface of the scene has it. A material without a shape stores no photon.
 std::vector<bool> used_materials(const Scene& scene) {
   std::vector<bool> used(scene.materials.size());
   const auto add = [&](const std::vector<std::unique_ptr<Shape>>& shapes) {

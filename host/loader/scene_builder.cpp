@@ -290,7 +290,7 @@ size_t Builder::for_each_placed(const Section& section, const toml::table& table
   for (size_t i = 0; i < batch.count; ++i) {
     placed.name = {group.name.index, false};
     if (const std::string_view name = written_name(table, batch, i); !name.empty()) {
-      // Of one name there are as many as the batch has elements.
+      // All elements of a batch share one name.
       const bool shared = batch.lists && !batch.lists->contains("name");
       placed.name = {scene_.names.add(name, shared ? uint32_t(i + 1) : 0, group.name.index), true};
     }

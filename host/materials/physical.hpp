@@ -38,7 +38,7 @@ class Physical : public Material {
 // Reference, 2013). `body`: the colour of what is not mirrored.
 PhongValues stand_in(const TexturePtr& body, const Vec3& f0, double roughness);
 
-// Of a number in [0, 1], where it varies its value in the middle.
+// The typical value of a texture of a number in [0, 1]. If the texture varies, it is the value in the middle.
 double typical(const Texture& texture);
 
 // The keys that such materials share.

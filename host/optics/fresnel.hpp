@@ -20,8 +20,8 @@ Fresnel schlick(const Vec3& f0, const Vec3& f90);
 // n > 0, k ≥ 0. Born, Wolf: Principles of Optics, 14.2.
 Fresnel conductor(const Vec3& n, const Vec3& k);
 
-// Of unpolarised light at the boundary from index n1 to n2, cosine being that of the incident angle. Born,
-// Wolf: Principles of Optics, 1.5.
+// Reflectance in [0, 1] of unpolarised light at the boundary from index n1 to n2. `cosine`: of the incident
+// angle. Born, Wolf: Principles of Optics, 1.5.
 double dielectric_reflectance(double cosine, double n1, double n2);
 
 }  // namespace eyeray::engine::optics

@@ -17,7 +17,7 @@ struct GgxAlbedo {
 
 // Over the microfacets that are seen: of one direction, without means. In [0, 1] both.
 GgxAlbedo ggx_albedo_integral(double cosine, double roughness);
-// Of `places` directions, by √cosine in even steps from 0 to 1, with means.
+// The albedos of `places` directions, in even steps of √cosine from 0 to 1, with means.
 std::vector<GgxAlbedo> ggx_albedo_row(int places, double roughness);
 
 }  // namespace eyeray::engine::optics

@@ -17,7 +17,7 @@ inline constexpr double least_sheen_roughness = 0.07;
 
 // The BSDF at half-way vectors of that cosine, without the weakening.
 double sheen(double cosine_half_way, double cosine_o, double cosine_i, double roughness);
-// Of `places` directions, by √cosine in even steps from 0 to 1; a roughness in [0, 1].
+// The albedos of `places` directions, in even steps of √cosine from 0 to 1, for a roughness in [0, 1].
 std::vector<SheenAlbedo> sheen_albedo_row(int places, double roughness);
 
 }  // namespace eyeray::engine::optics

@@ -10,14 +10,14 @@ namespace eyeray::engine::optics {
 
 class VisibleNormals {
  public:
-  // Of the surface's roughness, seen under this cosine; z is the surface's normal.
+  // `roughness`: the surface's. `cosine`: between the surface's normal, which is z, and the viewer.
   VisibleNormals(double cosine, double roughness)
       : width_(std::max(roughness * roughness, 1e-6)), cosine_(std::max(cosine, 1e-6)) {}
 
   // Towards the viewer, unit.
   Vec3 viewer() const { return {std::sqrt(1 - cosine_ * cosine_), 0, cosine_}; }
 
-  // Of what one of them sends out under this cosine, the share that no other is in the way of.
+  // The share of the light scattered by a microfacet under this cosine that no other microfacet blocks.
   double leaving(double cosine) const {
     const double here = 1 + lambda(cosine_);
     return here / (here + lambda(std::min(cosine, 1.0)));

@@ -25,7 +25,7 @@ class BlasRecords {
   }
   shader::Primitive record(uint32_t item) const;
 
-  // Of the items, and of what else the space's BVH holds; what has no bounds is in no BVH.
+  // The boxes of the items and of everything else in the space's BVH. Items without bounds are in no BVH.
   RawVector<bvh::Box> boxes;
 
  private:

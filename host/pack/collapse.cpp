@@ -122,8 +122,8 @@ class Collapser {
                : NONE;
   }
 
-  // Of the nodes from `first` to before `end`, one and all below it or none. A node stands before its left
-  // half, and that before its right.
+  // Finds the covers of the nodes from `first` to before `end`: a node and all nodes below it, or none. A
+  // node stands before its left half, and the left half before the right one.
   void find_covers(uint32_t first, uint32_t end) {
     if (end - first <= worth_a_task) {
       for (uint32_t node = end; node-- > first;) covers_[node] = cover_node(node);

@@ -88,7 +88,7 @@ class GeometryPacker {
     for (const Instance& instance : scene_.instances) ++uses_[size_t(instance.mesh)];
   }
 
-  // Of shapes that are packed relative to `origin`; id(i) says what index the i-th has.
+  // The records of shapes, packed relative to `origin`. id(i) returns the index of the i-th shape.
   template <typename Id>
   BlasRecords shape_records(std::span<const std::unique_ptr<Shape>> shapes, const Vec3& origin,
                             const Id& id) {
@@ -290,7 +290,8 @@ class GeometryPacker {
     bvh.extent += glm::abs(bvh.origin);
   }
 
-  // Of the world's own shapes, and of those in instances on their way there.
+  // The largest growth by a map: of the world's own shapes, and of shapes that instances transform to world
+  // space.
   float world_growth() const {
     float growth = packed_.map_growth;
     for (const shader::Instance& instance : packed_.instances)

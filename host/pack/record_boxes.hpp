@@ -9,10 +9,10 @@
 
 namespace eyeray::engine::pack {
 
-// Of a shape with these bounds, packed relative to `origin`.
+// The box of a shape with these bounds, packed relative to `origin`.
 bvh::Box shape_box(const Bounds& bounds, const Vec3& origin);
 
-// Of what is below and above a plane, of a triangle.
+// The boxes of the parts of a triangle below and above the plane at `position` across `axis`.
 std::pair<bvh::Box, bvh::Box> cut_triangle(const shader::Primitive& triangle, int axis, float position);
 
 // In the world, around all corners of a box of the instance's space.

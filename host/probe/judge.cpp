@@ -24,7 +24,8 @@ bool same_bits(const ProbedValue& a, const ProbedValue& b) {
              std::bit_cast<std::array<uint64_t, 4>>(b.numbers);
 }
 
-// Of a float32 executor and the reference, or of two of the former.
+// The largest distance in ulps between values of a float32 executor and of the reference, or of two float32
+// executors.
 int64_t ulp_distance(const ProbedValue& a, const ProbedValue& b) {
   int64_t most = 0;
   for (size_t c = 0; c < size_t(a.size); ++c)

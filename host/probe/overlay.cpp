@@ -11,7 +11,8 @@ namespace {
 template <typename Key>
 class Occurrences {
  public:
-  // Of what answers `is`, the place of the one that is next for `key`; all.size() if there are too few.
+  // The index of the next element for `key` among those for which `is` returns true; all.size() if there are
+  // too few.
   template <typename All, typename Is>
   size_t next(const Key& key, const All& all, const Is& is) {
     size_t skip = met_[key]++;

@@ -52,7 +52,7 @@ struct Range {
   double low, high;
 };
 
-// Of the triangle's nearness, within `radius` of a point.
+// The range of the triangle's nearness within `radius` of a point.
 Range nearness_about(const ScreenTriangle& triangle, const Vec2& point, double radius, Viewer viewer) {
   const auto [least, most] = std::minmax({triangle.at[0].z, triangle.at[1].z, triangle.at[2].z});
   const std::optional<Vec2> rise = slope(triangle);

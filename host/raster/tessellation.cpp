@@ -59,7 +59,7 @@ struct RoundQuadric {
   }
 };
 
-// Of quadrics that are round about y, and whose clip does not cut their sides.
+// The quadric as a surface of revolution about y. Empty if it is none, or if its clip cuts its sides.
 std::optional<RoundQuadric> round_quadric(const QuadricForm& form) {
   const bool is_round = form.square.x == 1 && form.square.z == 1 && form.product == Vec3(0) &&
                         form.linear.x == 0 && form.linear.z == 0;

@@ -27,8 +27,8 @@ inline constexpr double coordinate_error = 0x1p-22;
 
 class View {
  public:
-  // Of the pixels `area` of a picture of `size`. Error (bad_input) for a camera that no projection matrix
-  // describes.
+  // The view of the pixels `area` of a picture of `size`. Error (bad_input) for a camera that no projection
+  // matrix describes.
   View(const Camera& camera, const Vec2& size, const Rect& area);
 
   const Rect& area() const { return area_; }
@@ -43,7 +43,7 @@ class View {
   // What greater numbers are nearer of: of perspective 1 / depth, of parallel rays −depth, depth being
   // measured along the way that the camera looks. Either runs straight over the picture of a plane.
   bool perspective() const { return perspective_; }
-  // Of what is hit at `t` by the ray through the centre of a pixel of the area.
+  // The nearness of the hit at `t` along the ray through the centre of a pixel of the area.
   double nearness(int x, int y, double t) const;
   // And back.
   double t(int x, int y, double nearness) const;
@@ -72,8 +72,8 @@ class View {
       before = next;
     }
   }
-  // Of the plane through `point` across `normal`, the part that `cut` leaves; Vec4 as it takes them, empty
-  // where the plane is seen from its edge.
+  // The part of the plane through `point` perpendicular to `normal` that `cut` leaves, in the form that `cut`
+  // takes. Empty if the plane is seen edge-on.
   std::vector<Vec4> plane(const Vec3& point, const Vec3& normal) const;
 
  private:

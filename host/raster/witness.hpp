@@ -35,7 +35,8 @@ class Witness {
   Seen drawn_at(size_t pixel) const;
   Seen traced_at(const compare::Frame& frame, size_t pixel) const;
   std::string misplaced(const FirstHit& hit, int x, int y) const;
-  // Of each of some pixels, in ascending order, the triangles that may be within their slack of its centre.
+  // For each of the pixels, which are in ascending order, the triangles that may be within their slack of its
+  // centre.
   std::vector<std::vector<ScreenTriangle>> triangles_about(const std::vector<size_t>& pixels) const;
 
   const Scene& scene_;

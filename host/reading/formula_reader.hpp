@@ -27,7 +27,7 @@ inline constexpr Key parameters_key{.name = "parameters",
 bool has_one_source(TableReader& table, std::initializer_list<std::string_view> sources,
                     std::string_view owner);
 
-// Of the table's formula, for messages: "the function of [[implicit]] at scene.toml:12".
+// The title of the table's formula, for messages: "the function of [[implicit]] at scene.toml:12".
 std::string formula_title(const TableReader& table, std::string_view owner);
 
 // What the key `parameters` has, if it is there.

@@ -65,7 +65,7 @@ class TableReader {
   // Whether this table has had an error so far.
   bool failed() const;
   SourcePosition position() const;
-  // Of the key's value, or of the table where the key is absent.
+  // The position of the key's value, or of the table where the key is absent.
   SourcePosition position(std::string_view key) const;
 
   struct Table;  // the parsed TOML behind it; reading/table_reader.cpp

@@ -14,7 +14,7 @@ namespace eyeray::engine::records {
 
 namespace {
 
-// Of formulas, together in one kernel.
+// Limit on the instructions of all formulas in one kernel.
 constexpr double most_formula_instructions = 1 << 15;
 
 size_t hash_bytes(std::span<const std::byte> bytes) {

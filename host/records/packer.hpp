@@ -34,7 +34,7 @@ struct PackedScene {
   // them; then those of each mesh or group with a BVH of its own.
   RawVector<shader::Primitive> primitives;
   std::vector<uint32_t> linear_ends;  // by kind, the end of those in no BVH
-  // Of those of `kind` in no BVH.
+  // The index of the first primitive of `kind` that is in no BVH.
   uint32_t first_linear(uint32_t kind) const { return kind == 0 ? 0 : linear_ends[kind - 1]; }
   std::set<uint32_t> bvh_kinds;                       // of the shapes in BVHs
   std::set<std::pair<uint32_t, uint32_t>> uses;       // kinds of shape, and materials that they are made of

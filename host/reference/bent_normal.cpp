@@ -35,7 +35,7 @@ Vec3 mapped(const NormalMap& map, const SurfacePoint& point, const Vec3& n) {
   return usable(bent) ? glm::normalize(bent) : n;
 }
 
-// Of the height of `map`, from one side of the place to the other.
+// The slope of the height of `map`, from one side of the point to the other.
 double rise(const BumpMap& map, const TextureContext& from, const TextureContext& to) {
   return map.height * (luminance(map.texture->at(to)) - luminance(map.texture->at(from))) / (2 * map.width);
 }

@@ -47,7 +47,7 @@ double lambda(const Vec3& w, double width) {
   return (std::sqrt(1 + width * width * tan_squared) - 1) / 2;
 }
 
-// Of those microfacets that o sees, one.
+// Samples the normal of a microfacet that is visible from o.
 Vec3 ggx_normal(const Vec3& o, double width, const Vec2& u) {
   const Vec3 stretch(width, width, 1);
   const Vec3 v = glm::normalize(stretch * o);

@@ -26,12 +26,13 @@ class ViewedBsdf {
   // o: towards the viewer, o.z > 0.
   ViewedBsdf(const Bsdf& bsdf, const Vec3& o) : ViewedBsdf(bsdf, o, false) {}
 
-  // Of light from i; of all lobes, but not of the mirrored and the refracted direction. `before`: whether the
-  // light is before the surface. Lobes whose normals, which may be bent, have it elsewhere do not count.
+  // The value for light from i, summed over all lobes except the mirrored and the refracted direction.
+  // `before`: whether the light is in front of the surface. A lobe whose normal, which may be bent, puts the
+  // light on the other side does not count.
   BsdfValue at(const Vec3& i, bool before) const;
   // Whether any does.
   bool faces(const Vec3& i, bool before) const;
-  // chance and u: random numbers in [0, 1). Not of a black one.
+  // chance and u: random numbers in [0, 1). The BSDF must not be black.
   BsdfSample sample(double chance, const Vec2& u) const;
   // Its wide lobes alone, or the sharp ones, each followed as often as before (shaders/bsdf/parts.glsl).
   ViewedBsdf part(bool wide) const;

@@ -61,7 +61,8 @@ class BoxRay {
 class Bvh {
  public:
   Bvh() = default;  // of no boxes
-  // Of boxes 0 … count − 1, all finite; `box` is called from many threads. Takes O(n log n), on all cores.
+  // Builds a BVH of the boxes 0 … count − 1, all finite. `box` is called from many threads. Takes O(n log n),
+  // on all cores.
   Bvh(uint32_t count, const std::function<Bounds(uint32_t)>& box, Acceleration acceleration);
 
   // Calls visit(i, limit) for the boxes that the ray may enter at t ≤ limit, the nearer ones first as far as

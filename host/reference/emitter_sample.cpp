@@ -219,7 +219,7 @@ std::array<TriangleForm, 2> halves(const ParallelogramForm& it) {
   return {TriangleForm{{a, b, c}}, TriangleForm{{a, c, d}}};
 }
 
-// Of a parallelogram without right angles, round its first corner.
+// Samples a parallelogram without right angles by solid angle, around its first corner.
 Vec2 place_round_corner(const ParallelogramForm& it, const Vec3& from, const Vec2& u) {
   const auto [low, high] = halves(it);
   const double first = seen_from(from, low).solid_angle(), second = seen_from(from, high).solid_angle();

@@ -7,7 +7,8 @@
 namespace eyeray::engine::reference {
 namespace {
 
-// Of standard deviation 1, cut off at 3: rings that hold as much as those of a disk hold.
+// Samples a Gaussian of standard deviation 1, cut off at 3: each ring of a uniform disk maps to a ring of the
+// same probability.
 Vec2 gaussian(const Vec2& u) {
   const Vec2 on_unit_disk = on_disk(u);
   const double share = glm::dot(on_unit_disk, on_unit_disk);

@@ -59,7 +59,7 @@ Vec2 MeshGeometry::uv(const TriangleHit& hit) const {
   return mesh_.uv[a] * (1 - hit.u - hit.v) + mesh_.uv[b] * hit.u + mesh_.uv[c] * hit.v;
 }
 
-// Of its vertices. Where all three are equal, that very value.
+// The alpha interpolated from the triangle's vertices; exact where all three are equal.
 double MeshGeometry::alpha(const TriangleHit& hit) const {
   if (mesh_.alphas.empty()) return 1;
   const auto& [a, b, c] = mesh_.triangles[hit.triangle];

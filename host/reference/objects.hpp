@@ -33,7 +33,7 @@ class Objects {
   SurfacePoint surface(const Ray& ray, const Hit& hit) const;
 
   size_t size() const { return shapes_.size() + instances_.size(); }
-  // Of an instance, or of a shape's part that has the surface there.
+  // The material of an instance, or of the part of a shape that has the surface at the hit.
   int material(const Hit& hit) const;
   std::optional<Hit> intersect(size_t object, const Ray& ray,
                                double limit = std::numeric_limits<double>::infinity(),

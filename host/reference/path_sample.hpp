@@ -64,8 +64,8 @@ class PathSample {
   PixelSample gathering_sample(Ray ray, MediaStack media) {
     return follow(ray, media, &PathSample::meet_gathering);
   }
-  // Of the sample's photon that the id's index names, its pixel being photons_of | the sample's number: where
-  // it is stopped. Its trail.
+  // Traces the photon of the sample that the id's index names, and appends the points where it is stopped to
+  // `stopped`. The id's pixel is photons_of | the sample's number. Returns the photon's trail.
   uint32_t photon(const PhotonSources& sources, std::vector<Photon>& stopped);
   AuxiliarySample auxiliary(Ray ray, MediaStack media);
 

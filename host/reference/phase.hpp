@@ -6,9 +6,10 @@
 
 namespace eyeray::engine::reference {
 
-// Of light that is turned by that angle: by solid angle, and its density too.
+// The phase function per solid angle, for light scattered by that angle. It is also the density of
+// phase_direction.
 double phase_value(double g, double cosine);
-// By that density, for light that came in direction `before`.
+// Samples a direction with the density phase_value, for light that travelled in direction `before`.
 Vec3 phase_direction(double g, const Vec3& before, const Vec2& u);
 
 }  // namespace eyeray::engine::reference

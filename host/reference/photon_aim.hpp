@@ -20,7 +20,8 @@ struct Window {
 // From a point on a surface of normal n, or with n = 0 from one in space: directions. None around the point
 // itself or below the horizon.
 std::vector<Window> windows_from(const PhotonSettings& settings, const Vec3& p, const Vec3& n);
-// Of light from direction d: places relative to the scene's middle, on a plane square to d.
+// The windows for light from direction d: positions relative to the scene's middle, on a plane perpendicular
+// to d.
 std::vector<Window> windows_along(const PhotonSettings& settings, const Vec3& d);
 
 struct Aimed {

@@ -122,7 +122,7 @@ bool SampleRays::is_before(const SurfacePoint& point, const Vec3& l, double dist
 
 double SampleRays::shadow(const Ray& ray, double t_end) {
   ++rays_;
-  // Of a lamp that is far away float32 cannot tell how near to it something stands.
+  // If an area light is far away, float32 cannot resolve how near to it an occluder stands.
   const double short_of = walks_at_random(scene_.render.integrator) ? displacement_.share : 0;
   return tracer_.transmittance(ray, t_end * (1 - short_of), flags_);
 }

@@ -25,7 +25,7 @@ struct Interaction {
 
   bool in_medium() const { return primitive == ~uint64_t{0}; }
   Vec3 mirrored() const { return glm::normalize(d + 2 * cos_view * surface.normal); }
-  // Of a ray that is bent; there is no total reflection.
+  // The direction of the refracted ray. There must be no total reflection.
   Vec3 refracted() const;
 };
 

@@ -11,12 +11,12 @@ double angle_between(const Vec3& a, const Vec3& b) {
   return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-// Of a spherical polygon, at the corner b.
+// The angle of a spherical polygon at the corner b.
 double corner_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
   return angle_between(glm::cross(b, a), glm::cross(b, c));
 }
 
-// What of v is square to the unit vector n, made unit.
+// The component of v perpendicular to the unit vector n, normalised.
 Vec3 beside(const Vec3& v, const Vec3& n) {
   return glm::normalize(v - glm::dot(v, n) * n);
 }

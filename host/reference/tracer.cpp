@@ -18,7 +18,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // The greatest SurfacePoint::lift, as a share of the longest edge: rays of wild normals stay near.
 constexpr double most_lift = 0.25;
 
-// Of the scene's own objects, as Objects takes them.
+// The first ids of the scene's own objects, in the form that Objects takes.
 std::vector<uint64_t> first_ids(const Scene& scene, const PrimitiveIds& ids) {
   std::vector<uint64_t> first;
   for (size_t i = 0; i < scene.shapes.size(); ++i) first.push_back(ids.of_shape(i));

@@ -55,9 +55,10 @@ class Tracer {
   const LightChoice& light_choice() const { return light_choice_; }
   // Whether paths of the scene may cross an interface (scene/interfaces.hpp).
   bool any_interface() const { return any_interface_; }
-  // Of sample `index`, where the scene's integrator sends out photons. From many threads at once.
+  // The photon map of sample `index`, if the scene's integrator emits photons. May be called from many
+  // threads at once.
   std::shared_ptr<const PhotonMap> photons(uint32_t index) const;
-  // From now on these photons of each sample bring nothing.
+  // From now on these photons of each sample contribute nothing.
   void leave_out(LeftOutPhotons photons) const;
   // The scene's own objects, and as Scene::group_instances those of groups.
   const Objects& world() const { return *world_; }

@@ -27,7 +27,7 @@ constexpr uint32_t event_of(Event kind, uint64_t value) {
 inline uint32_t with_event(uint32_t trail, uint32_t event) {
   return pcg(trail ^ event);
 }
-// Of a sample with these events.
+// The trail of a sample with these events.
 uint32_t trail_of(std::span<const uint32_t> events);
 // "hits primitive 3".
 std::string describe_event(uint32_t event);

@@ -40,7 +40,7 @@ class Recursion {
   Vec3 child(RayKind kind, const Path& path, const Interaction& at, const Vec3& d, const MediaStack& media,
              const Vec3& share);
 
-  // Of ray `number` from that depth on.
+  // The key of alpha tests for ray `number` at that depth.
   uint32_t key(int depth, size_t number) const {
     return alpha_key(id_.pixel, id_.index, uint32_t(depth), uint32_t(number), scene_.render.seed);
   }

@@ -161,7 +161,7 @@ class Driver {
     return true;
   }
 
-  // Of rows [row, row + height) of the band.
+  // The parts of the band's rows [row, row + height) that are to be sampled.
   std::vector<Rect> parts_to_sample(int row, int height) const {
     if (adaptive_) return adaptive_->left(row, height);
     if (!tiles_) return {Rect{0, row, crop_.width, height}};

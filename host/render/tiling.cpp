@@ -9,8 +9,8 @@
 namespace eyeray::engine::render {
 namespace {
 
-// Of a shard's pixels P there are √(P / 2048) tiles, each of √(2048 P) pixels. More tiles make shares more
-// alike, larger ones cost less: a dispatch takes of a CPU what some thousand samples take
+// A shard of P pixels has √(P / 2048) tiles of √(2048 P) pixels each. More tiles make shares more alike;
+// larger tiles cost less, since a dispatch costs as much CPU time as some thousand samples
 // (docs/many-machines.md).
 constexpr double pixels_by_tiles = 2048;
 constexpr int64_t least_tiles = 2;

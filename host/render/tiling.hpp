@@ -56,14 +56,14 @@ class Tiling {
 // pixel, and gets no sample.
 class ShardTiles {
  public:
-  // Of `area`, a part of a picture.
+  // The shard's tiles of `area`, a part of a picture.
   ShardTiles(const Rect& area, const Shard& shard);
 
   const Shard& shard() const { return shard_; }
-  // Of the stack, in pixels; the height is 0 where there are more shards than tiles.
+  // The size of the stack of tiles in pixels. The height can be 0 if there are more shards than tiles.
   int width() const { return width_; }
   int height() const { return int(tiles_.size()) * Tiling::tile_height; }
-  // What is to be rendered: less than the stack's area.
+  // The number of pixels to render: less than the stack's area.
   int64_t pixels() const { return pixels_; }
   // In pixels of the picture, `area` included, from the stack's top on.
   const std::vector<Rect>& tiles() const { return tiles_; }

@@ -84,7 +84,7 @@ struct Area {
 };
 
 struct Bounding {
-  // Of what lies around its middle.
+  // The bounds of a form that lies around its middle.
   static LightBounds around(const Mat4& to_world, double radius) {
     return {.center = Vec3(to_world[3]), .radius = radius};
   }

@@ -27,7 +27,7 @@ using EmitterForm =
 std::optional<EmitterForm> emitter_form(const ShapeForm& form);
 EmitterForm mapped(const EmitterForm& form, const Affine& map);
 
-// Of its one side.
+// The area of one side of the form.
 double area_of(const EmitterForm& form);
 // Whether its angles are right ones: so nearly that places chosen on it as if they were are as even as
 // float32 tells.

@@ -13,7 +13,7 @@ namespace {
 
 constexpr size_t most_emitters = size_t{1} << 20;
 
-// Of what varies: over uv.
+// The mean radiance of an emitting material. A radiance that varies is averaged over uv.
 Vec3 mean_radiance(const Material& material, const Vec3& position) {
   constexpr int steps = 32;
   Vec3 sum(0);

@@ -16,7 +16,7 @@ namespace eyeray::engine {
 
 namespace {
 
-// Of all weight, what is shared evenly.
+// The share of the total weight that is shared evenly.
 constexpr double even_share = 1.0 / 16;
 // With fewer lights, asking a BVH costs more than it gains.
 constexpr size_t least_for_bvh = 64;
@@ -53,7 +53,7 @@ std::vector<double> shares_of(const std::vector<double>& weights) {
   return shares;
 }
 
-// Of a light in the scene; none where it shines everywhere alike.
+// The bounds of a light in the scene. Empty if the light shines everywhere alike.
 std::optional<LightBounds> bounds_of(const Light& light) {
   const LightForm form = light.form();
   if (const auto* point = std::get_if<PointLight>(&form); point && point->falloff == Falloff::inverse_square)

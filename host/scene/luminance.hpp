@@ -4,7 +4,7 @@
 
 namespace eyeray::engine {
 
-// Of linear RGB with the primaries of Rec. 709.
+// The luminance of linear RGB with the primaries of Rec. 709.
 inline double luminance(const Vec3& color) {
   return glm::dot(color, Vec3(0.2126, 0.7152, 0.0722));
 }

@@ -13,14 +13,14 @@ struct Scene;
 
 class PrimitiveIds {
  public:
-  // Of the scene as it is now.
+  // The ids of the scene as it is now.
   explicit PrimitiveIds(const Scene& scene);
 
-  // Of Scene::shapes, and of the first triangle of Scene::instances.
+  // The id of an element of Scene::shapes, and the id of the first triangle of one of Scene::instances.
   uint64_t of_shape(size_t shape) const;
   uint64_t of_instance(size_t instance) const { return instances_[instance]; }
 
-  // Of a group instance's first shape and first triangle; the others follow in the group's order.
+  // The ids of a group instance's first shape and first triangle. The others follow in the group's order.
   struct First {
     uint64_t shape = 0;
     uint64_t triangle = 0;

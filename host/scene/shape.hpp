@@ -78,7 +78,8 @@ inline void turn_over(SurfacePoint& point) {
   std::swap(point.lift.x, point.lift.y);
 }
 
-// Of a surface square to `normal` where gradients of u and v along it are known.
+// Sets along_u and along_v of a surface perpendicular to normal_geometric, from the gradients of u and v
+// along the surface.
 inline void set_along(SurfacePoint& point, const Vec3& u_gradient, const Vec3& v_gradient) {
   const double area = glm::dot(point.normal_geometric, glm::cross(u_gradient, v_gradient));
   point.along_u = glm::cross(v_gradient, point.normal_geometric) / area;
@@ -175,12 +176,12 @@ class Shape {
   virtual const Shape& part(const Intersection&) const { return *this; }
   // Whether it encloses a volume, so that CSG objects can be made of it.
   virtual bool is_closed() const { return false; }
-  // Of a closed shape, where the ray's whole line is within it, t < 0 included: in order, none touches
-  // another. Beyond an end that is `iteration_limit` there is none known.
+  // The spans of the ray's whole line, t < 0 included, that lie within a closed shape: in order, none touches
+  // another. Beyond an end that is `iteration_limit` no span is known.
   virtual std::vector<Span> spans(const Ray&) const { return {}; }
   // For exporters and for comparing with other renderers; monostate for what they do not have.
   virtual ShapeForm form() const { return {}; }
-  // Of shapes that are made of one.
+  // The formula of a shape that is made of one; else null.
   virtual const FormulaUse* formula_use() const { return nullptr; }
   // Whether shadow rays are weakened by each of its crossings, √(the material's share), as by a mesh's
   // triangles, and not once in all: of an open shape that may be part of a closed surface.

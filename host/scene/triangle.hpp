@@ -25,7 +25,7 @@ double thickness(const Corners& corners);
 // Unit, by counter-clockwise winding; for any triangle of at least `thinnest_triangle`.
 Vec3 geometric_normal(const Corners& corners);
 
-// Of coordinates that are linear over the triangle, from their values at its corners.
+// The gradients of coordinates that are linear over the triangle, from their values at its corners.
 struct UvGradients {
   Vec3 u, v;
 };

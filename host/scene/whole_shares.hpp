@@ -6,7 +6,7 @@
 
 namespace eyeray::engine {
 
-// Of how many numbers one is drawn.
+// The number of whole numbers among which a choice draws one.
 inline constexpr uint32_t choice_numbers = 1u << 24;
 
 // Whole numbers in proportion to `shares`, which sum to 1 and are at most choice_numbers: `ends[i]` is where

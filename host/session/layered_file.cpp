@@ -35,7 +35,7 @@ void LayeredFile::add(std::vector<image::ExrChannel> channels) {
 }
 
 void LayeredFile::write(Layer& layer, const image::Image& rows) {
-  // Of an image's channels the first ones.
+  // Only the first channels of the image are kept.
   const size_t kept = layer.channels.size(), channels = size_t(rows.channels());
   std::vector<float> samples(size_t(width_) * size_t(rows.height()) * kept);
   for (size_t i = 0; i < samples.size(); ++i) samples[i] = rows.samples()[i / kept * channels + i % kept];

@@ -58,8 +58,8 @@ constexpr Key keys[] = {
      .max = max_coordinate},
 };
 
-// Of the largest triangle of control points with the two that are farthest apart, its height over their
-// distance: 0 on a line.
+// The thickness of a net: the height of the largest triangle of control points that contains the two farthest
+// apart, over the distance of these two. 0 if all lie on a line.
 double thickness(const BezierNet& net) {
   double longest = 0;
   Vec3 a(0.0), b(0.0);

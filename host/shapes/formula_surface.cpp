@@ -11,8 +11,9 @@ namespace eyeray::engine::shapes {
 
 namespace {
 
-// Of the points that a gradient is taken from, in the cube: what docs/implicit-surfaces.md says of a function
-// with a Lipschitz constant and without a gradient of its own; else so near that it is the derivative.
+// Distances, in the cube, of the points that a gradient is taken from. The wide one is that of
+// docs/implicit-surfaces.md for a function with a Lipschitz constant and without its own gradient. The other
+// is so small that the result is the derivative.
 constexpr double wide_difference = 1.0 / 256;
 constexpr double difference = 1e-4;
 // Lengths in the cube: pairs of roots closer than this are not seen, and a root is known to that.

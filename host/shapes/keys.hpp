@@ -17,11 +17,11 @@ inline constexpr Key radii_key = {.name = "radii",
                                   .min = min_radius,
                                   .max = max_coordinate};
 
-// Of shapes with an axis.
+// Keys of shapes with an axis.
 inline constexpr Key axis_from_key = point_key("from", "Start of the axis.");
 inline constexpr Key axis_to_key = point_key("to", "End of the axis.");
 
-// Of shapes in a box.
+// Keys of shapes in a box.
 inline constexpr Key box_min_key = point_key("min", "The corner of the box with the least coordinates.");
 inline constexpr Key box_max_key = point_key("max", "The corner of the box with the greatest coordinates.");
 inline constexpr Key box_open_key = {.name = "open",

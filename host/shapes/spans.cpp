@@ -12,7 +12,7 @@ bool before(const Intersection& a, const Intersection& b) {
   return std::tie(a.t, a.part) < std::tie(b.t, b.part);
 }
 
-// Of two crossings the earlier or the later; of equal ones always that of the lower part.
+// The earlier or the later of two crossings. Among equal ones it is always that of the lower part.
 const Intersection& earlier(const Intersection& a, const Intersection& b) {
   return before(b, a) ? b : a;
 }

@@ -79,7 +79,7 @@ class Superellipsoid final : public ObjectShape {
     return std::pow(std::pow(around, q_ / p_) + std::pow(std::fabs(at.y), q_), 1 / q_);
   }
 
-  // Of the norm, by differentiating Barr's equation.
+  // The gradient of the norm, by differentiating Barr's equation.
   Vec3 gradient(const Vec3& at) const {
     const double around = std::pow(std::fabs(at.x), p_) + std::pow(std::fabs(at.z), p_);
     const double shared = around > 0 ? std::pow(around, q_ / p_ - 1) : 0;

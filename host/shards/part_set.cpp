@@ -15,7 +15,7 @@
 namespace eyeray::engine::shards {
 namespace {
 
-// Of each fault as many are named.
+// Limit on the files that a message names for each fault.
 constexpr size_t named = 8;
 
 std::string some_of(const std::vector<std::string>& sentences) {

@@ -33,11 +33,11 @@ class PartSet {
   explicit PartSet(const std::vector<std::filesystem::path>& files);
 
   const PartFaults& faults() const { return faults_; }
-  // Of the picture that most of the parts are of; nothing where no file is a part.
+  // The header of the picture to which most of the parts belong; null if no file is a part.
   const PartHeader* header() const { return wanted_; }
   // Those that are sound and of that picture, one a shard, in the order of the shards.
   const std::vector<PartReader>& parts() const { return parts_; }
-  // Of all of them.
+  // The totals of all parts.
   PartTotals totals() const;
 
   // The picture, some rows of all planes at a time: no more is held. Only without faults, and once. Error

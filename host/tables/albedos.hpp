@@ -25,7 +25,7 @@ constexpr double glass_contrast(int end) {
 
 std::span<const optics::GgxAlbedo> ggx_albedos();
 std::span<const optics::SheenAlbedo> sheen_albedos();
-// Of the slice's end 0 … glass_slices.
+// The albedos of glass at the end 0 … glass_slices of a slice.
 std::span<const double> glass_albedos(int end);
 
 // Linear between the tables' places, at a cosine and a roughness in [0, 1]: within 4e-3, where both are above

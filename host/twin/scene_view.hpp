@@ -52,7 +52,7 @@ struct SceneView {
   const shader::vec4* albedos;
   uint32_t albedo_count;  // those of lobes that the scene lacks are not there
   bool has_bvh, quantised_nodes, panes, interfaces;
-  // Of the sample that is taken: set by whoever traces its photons.
+  // The photons of the current sample, set by the code that traces them.
   const shader::PhotonPass* photon_pass;
   const shader::Photon* photons;
   const uint32_t* photon_cells;
@@ -60,7 +60,7 @@ struct SceneView {
   LoopView loops;
   void (*stop_if_interrupted)();  // throws
 
-  // Of the primitives of `kind` in no BVH.
+  // The index of the first primitive of `kind` that is in no BVH.
   uint32_t first_linear(uint32_t kind) const { return kind == 0 ? 0 : linear_ends[kind - 1]; }
 };
 

@@ -83,8 +83,8 @@ LobeShares lobe_shares(Bsdf bsdf) {
 bool coat_faces(Bsdf bsdf, vec3 i) { return bsdf.coat > 0.0f && into_coat(bsdf, i).z > 0.0f; }
 #endif
 
-// Of all lobes but those of a single direction. `before`: whether the light is before the surface; a bent coat may have it above itself, and
-// what it covers below.
+// The sum of all lobes except those of a single direction. `before`: whether the light is in front of the surface. With a bent coat the
+// light may be above the coat, and below the layer that it covers.
 LobeValue bsdf_value(Bsdf bsdf, LobeShares shares, vec3 o, vec3 i, bool before) {
   Directions at = directions(bsdf, o, i);
   LobeValue all = no_value();

@@ -46,7 +46,7 @@ vec3 mirrored_share(Fresnel fresnel, float cosine) {
   return share;
 }
 
-// Of unpolarised light between two media, by the cosines of both its ways.
+// Reflectance of unpolarised light between two media, from the cosines of both directions.
 float fresnel_of_cosines(float cos_from, float cos_to, float ior_from, float ior_to) {
   float parallel = (ior_to * cos_from - ior_from * cos_to) / (ior_to * cos_from + ior_from * cos_to);
   float crossed = (ior_from * cos_from - ior_to * cos_to) / (ior_from * cos_from + ior_to * cos_to);

@@ -43,7 +43,7 @@ vec3 ggx_direction(vec3 o, float width, vec2 u) {
   return i.z > 0.0f ? i : vec3(0.0f, 0.0f, 0.0f);
 }
 
-// Of light from i that the microfacets send to o, were each a perfect mirror: value · cosine; and the density of i as sample.
+// Reflection from i to o, with perfect mirrors as microfacets. x: value · cosine. y: the density of i as a sample.
 vec2 ggx_reflection(vec3 o, vec3 i, vec3 h, float width) {
   float towards_o = 1.0f + ggx_lambda(o, width);
   float d = ggx_density(h, width) / (4.0f * o.z);

@@ -70,7 +70,7 @@ Layers layers_between(Bsdf bsdf, vec3 i) {
   return layers_towards_viewer(bsdf);
 }
 
-// Of a lobe with so many layers above it.
+// The share of light left for a lobe with so many layers above it.
 float under_layers(Layers left, uint layers) { return (layers > 0u ? left.coat : 1.0f) * (layers > 1u ? left.sheen : 1.0f); }
 
 SHADER_END

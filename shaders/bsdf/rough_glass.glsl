@@ -22,7 +22,7 @@ LobeValue rough_glass_value(Bsdf bsdf, Directions at) {
   float along_i = dot3(at.i, h);
   bool possible = along_o > 0.0f && (through ? along_i < 0.0f : along_i > 0.0f);
 
-  // Of what goes through, both ways are known: at the critical angle Snell's law would lose all digits of one.
+  // Both directions of transmitted light are known: at the critical angle Snell's law would lose all digits of one.
   float mirrored = through ? fresnel_of_cosines(along_o, -along_i, bsdf.ior_from, bsdf.ior_to)
                            : fresnel_reflectance(minimum(along_o, 1.0f), bsdf.ior_from, bsdf.ior_to);
   float towards_o = 1.0f + ggx_lambda(at.o, width);

@@ -247,7 +247,7 @@ void intersect_linear_list(INOUT(TraversalState) state, Ray ray, bool any) {
   }
   SCENE_PRIMITIVES(INTERSECT_CONSTANT)
 #else
-  // Of a kind that has nothing here there is no code: of a loop that makes no round Mesa 22.3.6 would not leave it out.
+  // A kind without primitives here gets no code: Mesa 22.3.6 would keep a loop of no iterations.
 #define INTERSECT_LINEAR_LIST(name, number)                                                                  \
   if (KIND_FIRST(name) < KIND_END(name))                                                         \
     for (uint i = KIND_FIRST(name); i < KIND_END(name) && state.occluded < OPTICAL_DEPTH_OPAQUE; i++) { \

@@ -8,8 +8,8 @@
 
 SHADER_BEGIN
 
-// Of what is seen under less, or more, places are chosen by area instead. As pbrt-v4 has it: a small one is seen as its area is, and of
-// one that is next to the point, nearly half of all directions, too little is left of the angle's complement.
+// Emitters seen under a smaller or larger solid angle are sampled by area instead, as in pbrt-v4. For a small one both ways are alike.
+// For one next to the point, nearly half of all directions, too few digits are left of the angle's complement.
 #define LEAST_SPHERICAL_TRIANGLE 3.0e-4f
 #define MOST_SOLID_ANGLE 6.22f
 
@@ -61,7 +61,7 @@ vec2 spherical_triangle_place(SphericalTriangle seen, vec2 u) {
   float versine = maximum(1.0f - (first * seen.to_first + second * seen.to_second), 0.0f);
   float reach = sqrt(maximum(u.x * (2.0f - u.x * versine) / maximum(2.0f - versine, 1.0e-30f), 1.0e-20f));
   float apex = maximum(1.0f - u.x * versine - reach * (1.0f - versine), 0.0f);
-  // Of directions these were the weights; of corners they are as the corners are near.
+  // The weights are those of unit directions. Division by the corners' distances makes them weights of the corners.
   vec3 weight = vec3(apex / seen.apex, reach * first / seen.first, reach * second / seen.second);
   float sum = weight.x + weight.y + weight.z;
   return vec2(weight.y / sum, weight.z / sum);

@@ -27,7 +27,7 @@ vec3 medium_transmittance(uint media, float length) {
 }
 #endif
 
-// Of the path whose ray has that hit.
+// The flight of the path whose ray has that hit.
 Flight flight_of(Frame frame, Path path, Hit hit) {
   Flight flight;
   flight.t = hit.t;
@@ -110,7 +110,7 @@ Interaction vertex_at(Frame frame, Path path, Ray ray, Hit hit, bool there, OUT(
 }
 
 #if HAS_SCATTERING
-// Of the light that the innermost medium takes away the share that it sends elsewhere.
+// The innermost medium's albedo: the share of the extinguished light that it scatters.
 vec3 medium_albedo(uint media) {
   Medium medium = load_medium(innermost_medium(media));
   vec3 extinction = medium.absorption + medium.scattering;

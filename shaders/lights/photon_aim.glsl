@@ -51,7 +51,7 @@ Window window_of(PhotonPass pass, vec4 target, AimFrom from) {
   float r = target.w;
   Window window;
   window.middle = from.afar ? way - from.n * along : way / sqrt(maximum(squared, 1.0e-30f));
-  // Of a sphere around the start, or below the horizon, there is none.
+  // A sphere around the start or below the horizon has no window.
   float sine_squared = r * r / maximum(squared, 1.0e-30f);
   bool seen = sine_squared < 1.0f && along > -r;
   window.size = from.afar ? 0.5f * r * r : seen ? sine_squared / (1.0f + sqrt(maximum(1.0f - sine_squared, 0.0f))) : 0.0f;
@@ -111,8 +111,8 @@ float aimed_weight(Aimed it, float own) {
 // For the photon's trail.
 uint aim_event(Aimed it) { return 32u * it.windows + it.around; }
 
-// Of light from direction d: a place on a disk as wide as the scene, so far off that all of the scene is before it. The flux is that of light
-// of irradiance 1.
+// Emission from direction d: a point on a disk as wide as the scene, so far off that the whole scene is in front of it. The flux is that of
+// light of irradiance 1.
 LightEmission from_afar(PhotonPass pass, vec3 d, vec2 start, float aim) {
   LocalFrame local = frame_around(d);
   vec2 at = on_disk(start);

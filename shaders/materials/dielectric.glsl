@@ -25,7 +25,7 @@ Scattering dielectric_scattering(Material material, ScatteringContext context) {
 }
 
 #if RANDOM_WALK
-// Of a surface that lets through `weight` of the light that comes, in `color`: single directions if it is polished, else lobes.
+// Adds a surface that transmits `weight` of the incident light, tinted by `color`: single directions if it is polished, else lobes.
 void add_glass(INOUT(Bsdf) bsdf, Scattering surface, float roughness, float weight, vec3 color, ScatteringContext context) {
   bsdf.mirror = bsdf.mirror + surface.reflected * weight;
   bsdf.transmitted = bsdf.transmitted + surface.transmitted * (color * weight);

@@ -6,8 +6,8 @@
 
 SHADER_BEGIN
 
-// Of light that goes on in `after` where it came in `before`, both unit: by solid angle, and its density too. 1 − cos is half the square
-// of their difference, which keeps its precision where light hardly turns.
+// The phase function per solid angle, which is its own sampling density, from direction `before` to `after`, both unit. 1 − cos is half
+// the square of their difference, which keeps its precision where light is hardly deflected.
 float phase_value(float g, vec3 before, vec3 after) {
   vec3 difference = after - before;
   float square = (1.0f - g) * (1.0f - g) + g * dot3(difference, difference);

@@ -74,7 +74,7 @@ float principled_through(Material material, ScatteringContext context, float met
 }
 
 #if HAS_PANES
-// Of a pane with that surface.
+// The light that a pane with that surface lets through straight.
 vec3 passed_straight(Bsdf bsdf, vec3 color, float through) {
   vec3 passed = color * through * (vec3(1.0f, 1.0f, 1.0f) - layer_albedo(bsdf.layer, bsdf.albedo)) * under_layers(layers_towards_viewer(bsdf), 2u);
   if (HAS_THIN == 1 && bsdf.roughness > 0.0f) passed = vec3(0.0f, 0.0f, 0.0f);

@@ -10,7 +10,7 @@
   X(principled, 6u)
 #endif
 
-// Of these the kinds that may be panes.
+// The kinds of materials that may be panes.
 #ifndef PANES
 #define PANES(X)    \
   X(dielectric, 2u) \

@@ -104,7 +104,7 @@ vec3 bound_absolute(vec3 x) {
   float top = both ? maximum((1.0f - slope) * high, (1.0f + slope) * -low) : 0.0f;
   return bound_line(x, slope, 0.5f * top, 0.5f * top);
 }
-// Of what is not negative; a part of x below 0 is no part of the function's domain, and left out.
+// The bound of a square root. The part of x below 0 is outside of the function's domain, and left out.
 vec3 bound_square_root(vec3 x) {
   float low = sqrt(maximum(bound_low(x), 0.0f));
   float high = sqrt(maximum(bound_high(x), 0.0f));

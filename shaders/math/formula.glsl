@@ -59,7 +59,7 @@ float fn_log(float x) {
 }
 float fn_exp2(float x) { return fn_exp(x * 0.693147181f); }
 float fn_log2(float x) { return fn_log(x) * 1.44269504f; }
-// Of x < 0, which GLSL leaves open, for whole y alone, as in C. The relative error grows with |y ln x|.
+// For x < 0, which GLSL leaves open, defined as in C: for whole y alone. The relative error grows with |y ln x|.
 float fn_pow(float x, float y) {
   float power = x == 0.0f ? (y > 0.0f ? 0.0f : y == 0.0f ? 1.0f : INFINITE) : fn_exp(y * fn_log(abs(x)));
   bool odd = floor(0.5f * y) != 0.5f * y;

@@ -49,7 +49,7 @@ uint node_holds(uvec4 node, uint literals, uint values) {
   return (node.z != 0u ? of_leaves == node.x && of_nodes == node.y : (of_leaves | of_nodes) != 0u) ? 1u : 0u;
 }
 
-// Of two points, 1 where it is within the CSG object. `literals`: the leaves that each is within, and those taken away that it is not.
+// For each of two points, 1 if it is within the CSG object. `literals`: the leaves that contain each point, and the subtracted leaves that do not.
 uvec2 csg_holds(uint at, uint nodes, uvec2 literals) {
   uvec2 values = uvec2(0u, 0u);
   uvec2 value = uvec2(0u, 0u);

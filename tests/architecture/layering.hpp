@@ -18,7 +18,7 @@ using Links = std::set<std::string>;
 inline const std::map<std::string, std::string> command_lines = {{"eyeray", "cli"},
                                                                  {"eyeray-bench", "bench_cli"}};
 
-// Of every layer, and of the programs' command lines.
+// The links of every layer, and of the programs' command lines.
 inline std::map<std::string, Links> read_layers() {
   std::ifstream stream("CMakeLists.txt");
   const std::string text(std::istreambuf_iterator<char>(stream), {});

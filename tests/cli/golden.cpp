@@ -57,7 +57,7 @@ TEST_CASE("a golden picture is made on request, compared with, and replaced wher
   CHECK(read_text(golden) != first);
   CHECK(verify({}).code == 0);
 
-  // Of another size nothing can be compared.
+  // Pictures of different sizes cannot be compared.
   CHECK(verify({"-s", "32x24"})
             .out.find("gate G: " + golden + ": it has 64×48 pixels, but the scene's picture has 32×24") !=
         std::string::npos);

@@ -8,7 +8,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// Of a comparison of two pictures of 16 MB.
+// The page faults of a comparison of two pictures of 16 MB.
 long page_faults(const SceneFolder& pictures, const Environment& environment) {
   const ProcessResult result =
       run_eyeray({"compare", pictures / "picture.pfm", pictures / "picture.pfm"}, environment);

@@ -171,7 +171,7 @@ TEST_CASE("samples that disprove a Lipschitz constant are a warning with the pla
         std::string::npos);
   CHECK(run_eyeray({"check", folder.scene()}).err == result.err);
 
-  // Of a ready formula too, if it is not its own.
+  // The warning holds for a ready formula too, if `lipschitz` is not the formula's own.
   std::ofstream(folder.scene(), std::ios::app) << "[[implicit]]\nready = \"gyroid\"\nmin = [3, 0, 0]\nmax = "
                                                   "[4, 1, 1]\nlipschitz = 0.5\nmaterial = \"matte\"\n";
   CHECK(run_eyeray({"check", folder.scene()})

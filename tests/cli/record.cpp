@@ -15,7 +15,7 @@ TEST_CASE("verify records what a healthy scene needs, and nothing of one that fa
     return run_eyeray(options);
   };
 
-  // Of another picture than the file's, or with a fault, nothing is written.
+  // Nothing is written for a picture other than the file's, or with a fault.
   CHECK(verify({"--record", "-s", "8x6"}).err ==
         "eyeray: error: --record verifies scenes as their files define them: leave out -s 8x6\n");
   CHECK(verify({"--record", "--crop", "0,0,8,6"}).code == 2);

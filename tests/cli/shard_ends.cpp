@@ -81,7 +81,7 @@ void kill_and_repeat(int kills) {
   // Nothing is lost, and nothing counted twice.
   const auto one = nlohmann::json::parse(whole.out), many = nlohmann::json::parse(merged.out);
   for (const char* key : {"rays", "samples_done", "flagged_pixels"}) CHECK(one.at(key) == many.at(key));
-  // Of a share that was resumed they are not known.
+  // Kinds of rays are unknown for a share that was resumed.
   if (many.contains("ray_kinds")) CHECK(one.at("ray_kinds") == many.at("ray_kinds"));
 }
 

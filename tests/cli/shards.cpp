@@ -135,7 +135,7 @@ TEST_CASE("a set that makes no picture is refused, and names what is wrong") {
   write_text(parts[2], sound);
   CHECK(run_eyeray(Words{"merge", "--check"} + parts).code == 0);
 
-  // Of another scene, other samples, other arithmetic.
+  // Parts of another scene, with other samples or other arithmetic, are refused.
   const std::string text = read_text(folder.scene());
   write_text(folder.scene(), text + "\n# another\n");
   render_part(folder, picture, 2, 4);

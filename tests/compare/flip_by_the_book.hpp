@@ -146,7 +146,7 @@ inline Filter feature(bool point, bool along_y) {
   return filter;
 }
 
-// Of each pixel, of pictures in [0, 1].
+// LDR-FLIP of each pixel of two pictures in [0, 1].
 inline std::vector<double> ldr_flip(const Picture& a, const Picture& b) {
   static const Filter filters[] = {sensitivity(1, 0.0047, 0, 1e-5), sensitivity(1, 0.0053, 0, 1e-5),
                                    sensitivity(34.1, 0.04, 13.5, 0.025)};

@@ -9,7 +9,7 @@ using namespace eyeray::engine::executors;
 
 namespace {
 
-// Of a kernel of these shaders.
+// The error of compiling a kernel of these shaders.
 Error error_of(ShaderFiles files) {
   const auto device = open_device({});
   StageTimes times;

@@ -173,7 +173,7 @@ material = "mirror"
     CHECK(counts.eye_hits == 64);
     CHECK(counts.reflected == 64 * 7);
     CHECK(counts.refracted == 0);
-    // Of eight points, the four on the mirror that faces the light.
+    // Only four of the eight points cast shadow rays: those on the mirror that faces the light.
     CHECK(counts.shadow == 64 * 4);
   }
 }

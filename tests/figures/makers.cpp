@@ -193,7 +193,7 @@ std::unique_ptr<Shape> some_closed_shape(Random& random, double size) {
   }
 }
 
-// Of all closed shapes, at most 5, nested now and then.
+// A CSG object of at most 5 closed shapes of any kind, nested now and then.
 std::unique_ptr<Shape> some_csg(Random& random, double size) {
   for (;;) {
     shapes::ShapeType::Shapes operands, removed;

@@ -59,7 +59,7 @@ bool near(const Vec3& a, const Vec3& b) {
   return glm::length(a - b) < 1e-6;
 }
 
-// Of a turn about z.
+// The quaternion of a rotation about z.
 std::vector<double> turn(double degrees) {
   const double half = glm::radians(degrees) / 2;
   return {0, 0, std::sin(half), std::cos(half)};
@@ -117,7 +117,8 @@ TEST_CASE("cubic splines have the values and the slopes of their keys") {
   CHECK(near(point_at(file, 0), Vec3(1, 0, 7)));
   CHECK(near(point_at(file, 9), Vec3(5, 0, 7)));
 
-  // Of rotations the four numbers go so, and are made a rotation: half way between two is their mean.
+  // The four numbers of rotations are interpolated alike, then normalised: half way between two is their
+  // mean.
   const std::vector<double> none = {0, 0, 0, 0};
   const GltfFile spun = animated_square(
       {"rotation", "CUBICSPLINE", {0, 1}, joined({none, turn(0), none, none, turn(90), none})});

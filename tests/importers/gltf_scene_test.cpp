@@ -83,7 +83,7 @@ TEST_CASE("metallic-roughness as a BSDF, with its coat, its index and its map") 
   CHECK(painted.coat == 0.75);
   CHECK(painted.coat_roughness == 0.1);
 
-  // Of a map, green is roughness and blue metalness, whatever red is.
+  // In a map, green is roughness and blue is metalness, whatever red is.
   std::ifstream png("tests/image/pictures/rgb.png", std::ios::binary);
   const std::string picture{std::istreambuf_iterator<char>(png), {}};
   GltfFile mapped = with_material({{"pbrMetallicRoughness",

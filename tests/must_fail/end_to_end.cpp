@@ -27,7 +27,7 @@ struct Expected {
   std::vector<std::string> scene = {"scenes/whitted.toml"};
 };
 
-// Of every fault.
+// The expected findings of every fault.
 std::vector<Expected> all_expected() {
   const char* bits = "gate A: gpu and twin";
   const char* colors = "gate B: gpu against the reference, colours";

@@ -234,7 +234,7 @@ TEST_CASE("a floor under many spheres stands in the linear list, whose leaves ho
   for (const bool any : {false, true})
     CHECK(test::differences(test::ask_twin(packed, rays, any), test::ask_twin(brute, rays, any)) == 0);
 
-  // Of five such, each would be tested by every ray: they go into the BVH.
+  // Five such triangles would each be tested by every ray, so they go into the BVH.
   for (int i = 0; i < 3; ++i) {
     TriangleValues triangle;
     triangle.vertices = {Vec3(-3, -0.5, -3), Vec3(3, 0.1 * i, 3), Vec3(3, -0.5, -3)};

@@ -203,7 +203,7 @@ class HardScene {
     }
   }
 
-  // Of parts that touch, that are the same, or lie beside each other; some of them within others.
+  // Adds CSG objects of parts that touch, are equal or lie side by side; some of them lie within others.
   void add_csg_objects(int count) {
     for (int i = 0; i < count; ++i) {
       Scene parts = test::empty_scene();

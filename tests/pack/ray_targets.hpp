@@ -10,7 +10,7 @@ struct RayTarget {
   glm::vec3 a, b, c;  // the corners; of a sphere its centre, and points at its poles and on it
 };
 
-// Of every primitive of the scene, as often as instances show it.
+// The targets on every primitive of the scene, once for each instance that shows it.
 inline std::vector<RayTarget> ray_targets(const Scene& scene, Random& random) {
   std::vector<RayTarget> targets;
   const records::PackedScene packed = pack::pack(scene, {.acceleration = Acceleration::brute_force});

@@ -55,7 +55,7 @@ TEST_CASE("a cube as a mesh is the cube of twelve triangles, pixel by pixel") {
   for (const bool glass : {false, true}) {
     Scene with_mesh = studio(), with_shapes = studio();
     for (Scene* scene : {&with_mesh, &with_shapes}) {
-      // Of a mesh, each triangle lets the root of the share through.
+      // Each triangle of a mesh lets the square root of the share through.
       const double shadow = scene == &with_mesh ? 0.25 : 0.5;
       const int material =
           glass ? add(*scene, make_dielectric({.absorption = {0.1, 0.4, 0.3}, .shadow = shadow}))

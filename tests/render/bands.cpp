@@ -106,7 +106,7 @@ TEST_CASE("an interrupted picture of several bands is none") {
     CHECK(part.color.sample_count() == 0);
     CHECK(part.first_hits.empty());
   }
-  // Of one band it is whole, and only noisier.
+  // If there is one band, the picture is whole and only noisier.
   FakeExecutor executor([](int call) { return call != 3; });
   const Rendering part = render::render(scene, executor, in_bands(scene, 7));
   CHECK(part.interrupted);

@@ -246,7 +246,7 @@ TEST_CASE("a checkpoint that lies with the right checksum is refused") {
   }
   for (const uint64_t samples : {uint64_t{5}, ~uint64_t{0}, uint64_t{1} << 32}) CHECK(lie(1, samples));
   for (const uint64_t extra : {uint64_t{3}, ~uint64_t{0}, uint64_t{1} << 32}) CHECK(lie(2, extra));
-  // Of another band's size, or of no size at all.
+  // Checkpoints of another band's size, or of no size at all, are refused.
   write_text(file, good);
   CHECK(refused(scene, 2, file));
   CHECK(refused(scene, 7, file));

@@ -91,7 +91,7 @@ TEST_CASE("an edge that passes is blurred over its way, by as much as it was the
   const Rendering picture = picture_of(scene, executors::Backend::twin);
   for (int x = 0; x < 32; ++x) {
     CAPTURE(x);
-    // Of the time the pixel [x, x + 1) is covered for: the edge is at 14 + 4 t.
+    // The share of the time for which the pixel [x, x + 1) is covered: the edge is at 14 + 4 t.
     const double covered = std::clamp((x + 0.5 - 14) / 4, 0.0, 1.0);
     CHECK(double(picture.color.pixel(x, 1)[0]) == doctest::Approx(covered).epsilon(0.02));
   }

@@ -52,7 +52,7 @@ TEST_CASE("every shard has as many tiles, to within one, and they lie all over t
     for (int i = 0; i < tiling.count(); ++i) ++tiles[size_t(tiling.owner(i))];
     const auto [fewest, most] = std::ranges::minmax(tiles);
     CHECK(most - fewest <= 1);
-    // Of each round of tiles one.
+    // Each shard owns one tile of each round of tiles.
     for (int first = 0; first + shards <= tiling.count(); first += shards) {
       std::set<int> owners;
       for (int i = first; i < first + shards; ++i) owners.insert(tiling.owner(i));

@@ -99,7 +99,7 @@ double share_lost(const ViewedBsdf& viewed) {
   return double(lost) / count;
 }
 
-// Of so many tests the z that one of them is above by chance in a thousand runs.
+// The z that any of so many tests exceeds by chance in one of a thousand runs.
 double critical_z(int tests) {
   const double p = 1 - std::pow(1 - 1e-3, 1.0 / tests);
   double low = 0, high = 10;

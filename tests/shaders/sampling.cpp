@@ -117,7 +117,8 @@ TEST_CASE("places on emitters and their densities are those of the reference") {
       const reference::EmitterSample theirs = reference::sample_emitter(form, Vec3(rounded), Vec2(u));
       apart = std::max(apart, glm::length(Vec3(ours.p) - theirs.position));
 
-      // Of the same place; one that is seen edge-on is as dense as its normal is rounded.
+      // Compares densities at the same point. If its surface is seen edge-on, the density depends on the
+      // rounding of the normal.
       const reference::EmitterSample same{Vec3(ours.p), Vec3(ours.normal)};
       const double density = reference::emitter_density(form, Vec3(rounded), same);
       const Vec3 way = glm::normalize(same.position - Vec3(rounded));
@@ -176,7 +177,7 @@ TEST_CASE("light from all around, its density and places in it are those of the 
                           std::abs(double(shader::environment_radiance(frame, ours.direction).x) - here.x));
       steepest = std::max(steepest, here.x);
 
-      // Of even directions: the mean density is 1 / 4π.
+      // The directions are uniform, so the mean density is 1 / 4π.
       const double y = random.uniform(-1, 1), azimuth = random.uniform(0, 2 * M_PI),
                    across = std::sqrt(1 - y * y);
       sum +=
@@ -203,7 +204,7 @@ std::vector<Vec2> filtered_places(PixelFilter filter, uint32_t count) {
   return places;
 }
 
-// Of cells as likely as each other: how many standard deviations chi² is too large.
+// The excess of chi² over its expectation, in standard deviations, for equally likely cells.
 double excess(const std::vector<int>& cells, uint32_t count) {
   const double expected = double(count) / double(cells.size());
   double chi_squared = 0;

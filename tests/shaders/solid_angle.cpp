@@ -28,7 +28,7 @@ double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
                         la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
 }
 
-// Of a rectangle in the plane z, from the origin: a sum over its corners.
+// The solid angle of a rectangle in the plane z, seen from the origin: a sum over its corners.
 double solid_angle_of_rectangle(const Vec2& low, const Vec2& high, double z) {
   const auto corner = [&](double x, double y) {
     return std::atan(x * y / (z * std::sqrt(x * x + y * y + z * z)));

@@ -16,8 +16,8 @@ struct Estimate {
   double error;  // standard
 };
 
-// Of the first channel, every pixel being an estimate of the same value; by an eighth of the samples where a
-// test has time for few.
+// An estimate from the first channel, of which every pixel estimates the same value. Takes an eighth of the
+// samples if a test has time for few.
 inline Estimate estimate(const Scene& scene, executors::Backend backend,
                          const executors::ExecutorOptions& options = {}) {
   const auto executor = executors::make_executor(backend, scene, options);

@@ -42,8 +42,8 @@ class KnownFormula {
   }
 
   const std::string& text() const { return text_; }
-  // Of f(p), where p.z is 0: the result itself, or, for all but floats, its upper half where p.x is positive
-  // and else its lower one.
+  // The result of f(p) for p.z = 0: the result itself if it is a float. Otherwise its upper half if p.x is
+  // positive, else its lower half.
   bool is_float() const { return is_float_; }
   uint32_t expected() const { return expected_; }
 
@@ -129,7 +129,7 @@ class KnownFormula {
   Known expression(char type, int depth) {
     if (depth == 0 || chance(6)) return leaf(type);
     const Known result = operation(type, depth - 1);
-    // Of what is no finite number, or one that machines may flush to 0, nothing is said here.
+    // Results that are not finite, or that machines may flush to 0, are not tested.
     if (type == 'f' && !(result.bits << 1 == 0 || std::isnormal(real(result.bits)))) return leaf(type);
     return result;
   }

@@ -32,7 +32,7 @@ double along(const MediumExtent& extent, const Ray& ray, double end, int steps, 
   return sum * (to - from) / (3 * steps);
 }
 
-// Of the medium's density.
+// The integral of the medium's density along the ray.
 inline double length_in(const MediumExtent& extent, const Ray& ray, double end, int steps) {
   return along(extent, ray, end, steps, [](double, double density) { return density; });
 }

@@ -45,7 +45,7 @@ class Random {
   uint64_t state_;
 };
 
-// Of the tests that let anyone draw something else, by EYERAY_SEED.
+// The seed of the tests whose random numbers EYERAY_SEED may change; 0 if it is not set.
 inline uint64_t seed() {
   const char* set = std::getenv("EYERAY_SEED");
   return set ? std::strtoull(set, nullptr, 10) : 0;

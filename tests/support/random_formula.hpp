@@ -103,7 +103,7 @@ class RandomFormula {
         if (v.name == name) return true;
     return false;
   }
-  // Of `count` letters of a vector's; "" where it has not so many different ones, and those are wanted.
+  // A swizzle of `count` of a vector's letters; "" if distinct letters are wanted and the vector has too few.
   std::string swizzle(int of, int count, bool distinct) {
     if (distinct && count > of) return "";
     std::string letters = std::string("xyzw").substr(0, size_t(of)), result;
@@ -321,7 +321,7 @@ class RandomFormula {
         return fmt::format("if ({}) return {};\n", expression("bool", 2), expression(returns_, 2));
     }
   }
-  // Of all of an array.
+  // A statement that assigns or compares a whole array.
   std::string array_statement() {
     for (const auto& scope : scopes_)
       for (const Variable& a : scope)

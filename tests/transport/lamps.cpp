@@ -169,7 +169,7 @@ TEST_CASE("lamps next to the floor: what Lambert says, with little noise") {
     add(scene, std::move(shape), lamp(scene));
     const double expected = shown(irradiance_of(corners));
     check(scene, expected);
-    // Of places chosen by area it is 1.3 to 14 times as much; of fewer samples five times.
+    // Sampling by area has 1.3 to 14 times as much noise, and fewer samples five times as much.
     const double most = 2e-3 * test::amount(5, 1, 1);
     for (const Backend backend : {Backend::twin, Backend::reference}) {
       const double noise = estimate(scene, backend).error / expected;

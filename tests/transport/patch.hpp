@@ -61,7 +61,7 @@ inline void check(const Scene& scene, double expected, double least_error = 2e-6
   }
 }
 
-// Of the floor's origin by a polygon above it of radiance 1 (Lambert 1760).
+// Irradiance at the floor's origin from a polygon above it of radiance 1 (Lambert 1760).
 inline double irradiance_of(const std::vector<Vec3>& corners) {
   double sum = 0;
   for (size_t i = 0; i < corners.size(); ++i) {

@@ -112,7 +112,7 @@ TEST_CASE("aimed photons bring what others bring, to glass and past it, with les
     }
     // A narrow spot heads for them by itself.
     if (aiming != Aiming::spot) CHECK(by_aim.at_balls.error < 0.7 * by_chance.at_balls.error);
-    // Of a lamp's places some see no ball.
+    // Some points of an area light see no ball.
     CHECK(by_aim.share > 0.25);
   }
 }

@@ -78,7 +78,7 @@ uint at;
 
 void visit_node() {
   bool here = at < LEAF;
-  // Of a leaf the root, and a limit that nothing hits: selects cost less than branches, and a minimum less than a select.
+  // For a leaf, visits the root with a limit that nothing hits: selects cost less than branches, and a minimum less than a select.
   uvec4 c = load_bvh4_child(4u * uint(greater(int(at), 0)) + lane);
   Child child = coded_child(c, boxes);
   int bound = here ? limit : -1;
@@ -261,7 +261,7 @@ TraversalState trace_cooperatively(Ray own, float t_max) {
     }
     traverse_bvh4();
 
-    // Of equally near ones the lowest id, as in `update_closest_hit`; back to the lane whose ray it was.
+    // The lowest id among equally near hits wins, as in `update_closest_hit`. The hit goes back to the lane that had the ray.
     int nearest_t = least(floatBitsToInt(state.hit.t));
     bool nearest = floatBitsToInt(state.hit.t) == nearest_t;
     uint id = least(nearest ? state.hit.id : NONE);

@@ -68,7 +68,7 @@ Line line_of(Ray r) {
 vec2 at_z(Line line, float z) { return vec2(line.p.x, line.p.y) + line.shear * (z - line.p.z); }
 float apart(vec2 a, vec2 b) { return maximum(abs(a.x - b.x), abs(a.y - b.y)); }
 
-// Of the first ray that waits.
+// The line of the first ray that waits.
 Line first_line() {
   uint first = uint(FAR_AWAY);
   [[unroll]] for (int k = RAYS_A_LANE - 1; k >= 0; k--) first = waits[k] ? uint(k) * LANES + lane : first;
@@ -265,7 +265,7 @@ float intersect_primitive(Primitive primitive, Ray r, out vec2 uv) {
 }
 
 #if BVH_OF_TRIANGLES
-// Of what passes, in each lane one ray with one primitive.
+// Intersects the pairs that passed: in each lane one ray with one primitive.
 void intersect_passing() {
   bool some = passing != 0u;
   uint lowest = lowest_bit(some ? passing : 1u);

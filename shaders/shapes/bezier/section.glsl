@@ -5,7 +5,7 @@
 
 SHADER_BEGIN
 
-// Of Newton's method for a root.
+// Limit on the steps of Newton's method for a root.
 #define BEZIER_STEPS 40u
 
 struct BezierRow {

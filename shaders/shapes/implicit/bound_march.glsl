@@ -10,8 +10,8 @@
 
 SHADER_BEGIN
 
-// Of the finest pieces: the h of the first piece that may be passed over, and of the longest; each is up to twice as long as the one before, so that
-// where a jump of the function was hit instead of rounding little is lost.
+// The h, in finest pieces, of the first piece that may be passed over, and of the longest one. Each piece is up to twice as long as the one before,
+// so that little is lost where the function jumped and rounding was not the cause.
 #define MARCH_FIRST_PASS 64.0f
 #define MARCH_LONGEST_PASS 16384.0f
 #define MARCH_BLUNT 1.5f   // e over that of a point: where more is, shorter pieces tell more
