@@ -16,7 +16,7 @@ struct Judgement : PixelOutcome {
 };
 
 constexpr int64_t always_allowed = 4;     // so that a small crop around an edge can pass
-constexpr size_t examined_at_once = 256;  // so that what has failed is soon told
+constexpr size_t examined_at_once = 256;  // so that failures are reported soon
 // Where a colour runs to and fro, the usual places may all miss its extreme: pixels that they leave
 // unexplained, if these are few, are looked at again at more places.
 constexpr int usual_angles = 16;

@@ -11,14 +11,14 @@
 
 namespace eyeray::engine::compare {
 
-// How a pixel came out, the worse the greater; the cause of an explained one.
+// The outcome of a pixel, from best to worst, and the cause of an explained one.
 enum class Outcome : uint8_t { equal, matching, explained, unexplained, unexamined };
 struct PixelOutcome {
   Outcome outcome = Outcome::equal;
   Cause cause = Cause::silhouette;
 };
 
-// How the pixels of one gate came out; the counts add up to `pixels`.
+// The outcomes of the pixels of one gate. The counts add up to `pixels`.
 struct Tally {
   int64_t pixels = 0;
   int64_t equal = 0;     // to the last bit of float32
@@ -32,8 +32,8 @@ struct Tally {
   WorstPixel worst;  // the largest error among the unexplained; else the explained; else the matching
 
   int64_t explained_pixels() const;
-  // Those that count against the cap: all but the undecidable ones, since an edge may run along the centres
-  // of a whole row of pixels.
+  // The pixels that count against the cap: all but the undecidable ones, since an edge may run along the
+  // centres of a whole row of pixels.
   int64_t capped_pixels() const;
   bool passes() const;
 };
@@ -69,7 +69,7 @@ inline constexpr TallyType path_tally_types[] = {
     {"D", "paths", &ReferenceComparison::paths, "samples"},
 };
 
-// What gate G looks at of one whose value is a golden picture (report.hpp).
+// The tally of gate G, which compares with a golden picture (report.hpp).
 inline constexpr TallyType golden_type{"G", "colours", &ReferenceComparison::colors};
 
 // `outcomes`, where it is asked for: of every pixel, row by row, the worst of its tallies. `paths`: where

@@ -14,7 +14,7 @@ namespace eyeray::engine::compare {
 // outcome a pixel.
 image::Image cause_picture(const image::Image& background, const std::vector<PixelOutcome>& outcomes);
 
-// What is in such a picture, as JSON: {"silhouette": {"color": "#0072b2", "pixels": 8}, …}.
+// The legend of such a picture, as JSON: {"silhouette": {"color": "#0072b2", "pixels": 8}, …}.
 std::string cause_legend(const std::vector<PixelOutcome>& outcomes);
 
 }  // namespace eyeray::engine::compare

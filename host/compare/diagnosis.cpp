@@ -15,7 +15,7 @@ bool agrees_with_reference(const Report& report, const std::string& executor) {
   });
 }
 
-// Which side it is on. Empty where there is nothing to tell it by.
+// The side that the fault is on. Empty if nothing indicates it.
 std::string side(const Report& report) {
   if (report.exact.empty()) return "";
   const ExactResult& pair = report.exact.front();

@@ -17,8 +17,8 @@ struct ExactComparison {
   uint64_t rays = 0, other_rays = 0;
   WorstPixel worst;  // the pixel with the largest distance; x = −1 when there is none
 
-  // Whether every bit agrees, or, with `ulp` > 0 (hardware whose sqrt or division is looser), every value is
-  // that near and every id agrees.
+  // True if every bit agrees. With `ulp` > 0, for hardware whose sqrt or division is looser: true if every
+  // value is that near and every id agrees.
   bool passes(int64_t ulp) const;
 };
 

@@ -50,8 +50,8 @@ struct Bounds {
   }
 };
 
-// Bounds of the mean of the samples' `member`. Each sample may fall on either side of its own edges, whatever
-// the others do: the bounds of the mean are the means of the bounds.
+// Bounds of the mean of the samples' `member`. Each sample may fall on either side of its own edges,
+// independently of the others. So the bounds of the mean are the means of the bounds.
 template <int n>
 Bounds<n> bounds(std::span<const Neighbour> neighbours, glm::vec<n, double> Neighbour::Sample::* member,
                  bool rounded) {

@@ -20,25 +20,27 @@ struct Neighbour {
     Counts counts{0.0};
   };
   std::vector<Sample> samples = {{}};
-  // As many of each sample, one after the other, where rays leave surfaces as far off and aside as float32
-  // may put them, or take the darkest or the brightest of a texture as near as that; may be empty.
+  // The same number of variants of each sample, one after the other: rays start as far off surfaces, and
+  // displaced sideways as far, as float32 may put them, or take the darkest or the brightest texel that near.
+  // May be empty.
   std::vector<Sample> rounded;
-  uint64_t first_surfaces = 0;  // a fingerprint of which primitive each sample's eye ray hits
+  uint64_t first_surfaces = 0;  // a fingerprint of the primitives that the samples' camera rays hit
   uint64_t first_colors = 0;    // a fingerprint of the surface's own colour where each hits it
   bool direct = true;           // nothing is seen by reflection or refraction
   FirstHit first_hit;           // of the pixel's centre
-  double rounding = 0;          // as many pixels as float32's arithmetic may move the eye ray; 0 if unknown
+  double rounding = 0;          // pixels by which float32 may move the camera ray; 0 if unknown
 };
 
 // (x, y): a pixel of the whole picture; called from many threads at once.
 using Reference = std::function<Neighbour(int x, int y, const Vec2& shift, rounding::Chance chance)>;
 
-// The same for single samples whose paths are random.
+// The reference for single samples whose paths are random.
 struct PathReference {
   std::function<Reference(int sample)> around;  // of that sample of each pixel
-  // What the shaders' path decides, event by event; empty where that is not known to be what has the trail.
+  // The decisions of the shaders' path, event by event. Empty if they are not known to have that trail.
   std::function<std::vector<uint32_t>(Pixel pixel, int sample, uint32_t trail)> shaders;
-  // What the reference's does, moved by `shift`, in one of `variants` ways that float32 may round it.
+  // The decisions of the reference's path, moved by `shift`, in one of `variants` ways in which float32 may
+  // round it.
   std::function<std::vector<uint32_t>(Pixel pixel, int sample, const Vec2& shift, int variant)> reference;
   int variants = 1;
   std::function<double(Pixel pixel)> rounding;  // Neighbour's
@@ -55,9 +57,9 @@ enum class Cause {
   rounding,     // a ray that leaves a surface starts as close to another, or to an edge, as it is rounded
   crease,       // of a first hit alone: the same surface, whose normal jumps
   grazing,      // of a first hit alone: the same surface, hit at so small an angle that t races
-  undecidable,  // the jump is as near to the eye ray, or to a hit, as float32 rounds those: no float32
-                // renderer can tell
-  parted,       // of a sample alone: a random path goes another way, as one of the reference's nearby does
+  undecidable,  // the jump is as near to the camera ray, or to a hit, as float32 rounds those: no float32
+                // renderer can decide
+  parted,       // of a sample alone: a random path diverges, as one of the reference's nearby does
 };
 inline constexpr int cause_count = 9;
 const char* name(Cause cause);
@@ -68,18 +70,18 @@ class Neighbourhood {
   // `angles`, `between`: see rounding::places_around.
   Neighbourhood(const Reference& reference, Pixel pixel, int angles, bool between = false);
 
-  // Whether `value` lies within [min, max] of the neighbourhood, each bound widened by the tolerance.
+  // True if `value` lies within [min, max] of the neighbourhood, each bound widened by the tolerance.
   bool explains(const Vec3& value, const Tolerances& tolerances) const;
-  // Whether each count lies within those of the neighbourhood.
+  // True if each count lies within the bounds of the neighbourhood's counts.
   bool explains(const Counts& value) const;
-  // Whether `value` is a hit of a primitive that the neighbourhood hits, with t, position, normal and uv
+  // True if `value` is a hit of a primitive that the neighbourhood hits too, with t, position, normal and uv
   // within the bounds found there.
   bool explains(const FirstHit& value, const Tolerances& tolerances) const;
-  // The same, of a neighbourhood in which rays also start as far off surfaces and aside as float32 may put
-  // them.
+  // True if `value` lies within a neighbourhood in which rays also start as far off surfaces, and displaced
+  // sideways as far, as float32 may put them.
   bool explains_as_rounding(const Vec3& value, const Tolerances& tolerances) const;
   bool explains_as_rounding(const Counts& value) const;
-  // What it is in the neighbourhood that explains a value.
+  // The cause in the neighbourhood that explains a value.
   Cause cause(const Vec3& value, const Tolerances& tolerances) const;
   Cause cause(const Counts& value) const;
   Cause cause(const FirstHit& value, const Tolerances& tolerances) const;

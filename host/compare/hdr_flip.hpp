@@ -23,7 +23,7 @@ struct Exposures {
 // luminances above 0 replaces it: the paper leaves this case open.
 Exposures exposures_of(const image::Image& reference);
 
-// What a display shows of linear colours at an exposure: tone mapped (ACES, as Narkowicz fits it), linear, in
+// Linear colours as a display shows them at an exposure: tone mapped (ACES, as Narkowicz fits it), linear, in
 // [0, 1]. Negative colours count as black.
 image::Image exposed(const image::Image& image, double exposure);
 

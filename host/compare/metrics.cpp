@@ -25,7 +25,7 @@ double difference(const Vec3& a, const Vec3& b) {
   return worst;
 }
 
-// As a display shows it.
+// The picture as a display shows it.
 Vec3 encoded(const Vec3& color) {
   Vec3 result;
   for (int c = 0; c < 3; ++c) result[c] = image::srgb_from_linear(std::clamp(color[c], 0.0, 1.0));

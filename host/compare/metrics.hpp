@@ -1,4 +1,4 @@
-// How far two pictures are apart, in the numbers that people quote. They are reported; they are not the gate.
+// The difference of two pictures in the usual metrics. They are reported; they are not the gate.
 #pragma once
 
 #include <array>

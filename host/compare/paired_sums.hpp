@@ -1,5 +1,5 @@
-// Whether what differs between two pictures of the same random numbers is chance: a test of sums, over tiles
-// and over all.
+// Tests whether the difference between two pictures of the same random numbers is chance, by sums over tiles
+// and over the whole picture.
 #pragma once
 
 #include "host/compare/frame.hpp"
@@ -16,8 +16,8 @@ struct PairedSum {
 };
 
 inline constexpr int paired_tile = 8;  // pixels
-// What rounding may add up to, of Σ|reference|: what leaves a surface by the lamp leaves it all nearer, or
-// farther, by 24 ε of the eye's distance (docs/numerics.md).
+// The share of Σ|reference| that rounding may add up to. All rays that leave a surface near an area light may
+// start nearer to it, or farther away, by 24 ε of the eye's distance (docs/numerics.md).
 inline constexpr double paired_rounding = 5e-5;
 inline constexpr double paired_false_alarms = 1e-3;  // of all sums of a picture together, at most
 

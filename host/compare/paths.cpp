@@ -11,14 +11,14 @@ namespace eyeray::engine::compare {
 
 namespace {
 
-constexpr size_t examined_at_once = 256;  // so that what has failed is soon told
+constexpr size_t examined_at_once = 256;  // so that failures are reported soon
 constexpr int usual_angles = 16;
 constexpr int many_angles = 256;
 // Unexplained samples are looked at again at so many angles where they are so few, or such a share of what
 // does not match: where mirrors see each other, any number of them needs that.
 constexpr size_t few = 32, few_of = 64;
-// And one in so many samples once more: a thin mirror makes a thousand of a rounding error, and a path may
-// meet several.
+// One in so many samples is examined once more: a thin mirror multiplies a rounding error by a thousand, and
+// a path may hit several.
 constexpr int most_angles = 4096;
 constexpr size_t one_in = size_t{1} << 18;
 

@@ -5,10 +5,10 @@
 
 namespace eyeray::engine::compare {
 
-// How the samples of both frames came out. A sample whose path decides what the reference's does must have
-// its colour, and its counts, or one within the neighbourhood's; one whose path parts must do where some path
-// of the reference's neighbourhood does. `outcomes`: of every pixel the worst of its samples is added to what
-// is there.
+// Compares the samples of both frames. A sample whose path decides as the reference's does must have the
+// reference's colour and counts, or ones within the neighbourhood's. A sample whose path diverges must
+// diverge where some path of the reference's neighbourhood does. `outcomes`: the worst outcome of each
+// pixel's samples is merged into it.
 Tally compare_paths(const Frame& value, const Frame& reference, const PathReference& paths,
                     const Tolerances& tolerances, std::vector<PixelOutcome>& outcomes);
 

@@ -1,4 +1,4 @@
-// Gate R: what the device's rasteriser draws is what eye rays hit (docs/gates.md).
+// Gate R: the triangles drawn by the device's rasteriser are those that camera rays hit (docs/gates.md).
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ namespace eyeray::engine::compare {
 // Why an id or a depth that was traced may differ from the one that was drawn.
 enum class RasterCause {
   edge,         // a triangle ends, or another begins, as near to the pixel's centre as corners are rounded
-  depth,        // two are as near to the eye, as far as depths tell
+  depth,        // two are equally near to the eye within the precision of depths
   tessellation  // a curved surface is that near to the triangles that stand for it
 };
 inline constexpr int raster_cause_count = 3;

@@ -1,4 +1,4 @@
-// What `eyeray verify` found out about a scene, for people and for programs.
+// The findings of `eyeray verify` on a scene, for people and for programs.
 #pragma once
 
 #include <algorithm>
@@ -72,8 +72,8 @@ struct PhotonTally {
   // All of them are explained, and no picture shows them: so that pictures show most of what there is, 4 %,
   // and more where photons may go far. Half of them are aimed at glass and mirrors, where they part.
   int64_t may_part() const;
-  // What is round, or struck at a grazing angle, throws photons as far aside as rounding does times many: a
-  // tenth.
+  // Curved surfaces and grazing angles multiply rounding, and displace photons by that much: a tenth of them
+  // may be displaced.
   int64_t may_lie_aside() const { return std::max<int64_t>(4, sent / 10); }
   bool passes() const { return unexplained == 0 && parted <= may_part() && aside <= may_lie_aside(); }
 };
@@ -96,7 +96,8 @@ struct Report {
   std::vector<RasterResult> raster;    // gate R, of every participant; empty where it was not asked for
   std::optional<PhotonTally> photons;  // where the scene's integrator sends any out
   std::optional<GoldenResult> golden;
-  // What indices in first hits stand for, by `sphere "left eye", scene.toml:12`; those that a report names.
+  // The names of the indices in first hits, such as `sphere "left eye", scene.toml:12`, for the indices that
+  // a report names.
   std::map<int32_t, std::string> primitives, materials;
   std::string kept;  // the folder where the evidence lies; empty when nothing was kept
 
@@ -107,19 +108,19 @@ struct Report {
   // that differ from eyeray's own come before all that fails.
   std::vector<std::string> failures() const;
   bool passes() const { return failures().empty(); }
-  // Whether all passes but gate G, which compares with what the scene once was.
+  // True if all gates pass except gate G, which compares with an earlier picture of the scene.
   bool own_gates_pass() const;
   // "passed", "failed", or "skipped", of what may stay unverified and did.
   std::string_view verdict() const;
-  // Where to look for the fault, a sentence: the first value that differs, and on whose side. Empty where
-  // nothing tells.
+  // A sentence that says where to look for the fault: the first value that differs, and on whose side. Empty
+  // if nothing indicates it.
   std::string diagnosis() const;
   // The largest of all gates' counts.
   int64_t count(int64_t (*of)(const Tally&)) const;
   // Twice the share of pixels that are explained and count against the cap, of the gate that has most,
   // rounded up to 1e-5: what the scene is to be allowed. Nothing where more than the cap fails.
   std::optional<double> healthy_allowance() const;
-  // The pixel to look at: the worst of the first gate that fails; nothing when all pass.
+  // The pixel to examine: the worst of the first gate that fails. Empty if all gates pass.
   std::optional<Pixel> pixel_to_look_at() const;
   // The first hits that the report shows.
   std::vector<FirstHit> shown_hits() const;

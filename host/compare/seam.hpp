@@ -1,4 +1,4 @@
-// Where two executors part: the first value along the life of a ray that differs.
+// The point where two executors diverge: the first value along the life of a ray that differs.
 #pragma once
 
 #include <string>

@@ -30,7 +30,7 @@ bool count_pixel(Soundness& soundness, const image::Image& image, int x, int y) 
 }
 
 bool count_hit(Soundness& soundness, const FirstHit& hit) {
-  // A miss has t = infinity, and nothing else to look at.
+  // A miss has t = infinity, and nothing else to check.
   if (hit.primitive < 0 && !std::isnan(hit.t)) return true;
   bool sound = count(soundness, hit.t, false);
   for (int c = 0; c < 3; ++c) {

@@ -1,4 +1,4 @@
-// What is wrong whatever it is compared with: looked at on the raw floats, before anything else.
+// Values that are wrong whatever they are compared with. The raw floats are checked, before anything else.
 #pragma once
 
 #include "host/compare/frame.hpp"

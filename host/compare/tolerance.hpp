@@ -1,4 +1,4 @@
-// What "agrees with the reference" means, for one pixel. Every test is written so that a NaN fails it.
+// The definition of "agrees with the reference" for one pixel. Every test is written so that a NaN fails it.
 #pragma once
 
 #include "host/compare/seam.hpp"
@@ -16,18 +16,19 @@ struct Tolerances {
   void check() const;
 };
 
-// How far t may be from that of the reference's hit: the relative tolerance, and at least two units in the
-// last place, in float32, of the coordinates that it comes from. Close to a large surface those are coarser.
+// The largest allowed difference of t from the reference's hit: the relative tolerance, but at least two
+// units in the last place, in float32, of the coordinates that t is computed from. Close to a large surface
+// those units are coarser.
 double t_tolerance(const FirstHit& reference, const Tolerances& tolerances);
 
 // |value − reference| in tolerances, of the worst channel: at most 1 where they match; infinite where a NaN
 // is in it.
 double color_excess(const Vec3& value, const Vec3& reference, double tolerance);
 
-// The same for a first hit: infinite where ids differ. Its position may be as far off as t.
+// The excess of a first hit: infinite if ids differ. Its position may be as far off as t.
 double hit_excess(const FirstHit& value, const FirstHit& reference, const Tolerances& tolerances);
 
-// The same for counts, which are equal but for the rounding of their means to float32.
+// The tolerance of counts, which are equal except for the rounding of their means to float32.
 inline constexpr double counts_tolerance = 0x1p-23;
 double counts_excess(const Counts& value, const Counts& reference);
 

@@ -18,7 +18,7 @@ bool usable(const Vec3& v) {
 }
 
 Vec3 mapped(const NormalMap& map, const SurfacePoint& point, const Vec3& n) {
-  // Where u and v run that it reads, square to n and to each other.
+  // The directions of the u and v that the map reads, perpendicular to n and to each other.
   const bool second = point.second && map.texture->reads_second_uv();
   const auto uv =
       second ? *point.second : SurfacePoint::SecondUv{point.uv, point.along_u, point.along_v, point.tangent};

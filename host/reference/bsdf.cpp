@@ -332,7 +332,7 @@ Vec3 ViewedBsdf::direction(Lobe lobe, double part, const Vec2& u) const {
 }
 
 BsdfSample ViewedBsdf::sample(double chance, const Vec2& u) const {
-  // The last whose numbers begin at or before `chance`.
+  // The last lobe whose numbers begin at or before `chance`.
   double begin = 0, below = 0;
   Lobe chosen = diffuse;
   for (int lobe = 0; lobe < lobes; ++lobe) {

@@ -30,25 +30,25 @@ class ViewedBsdf {
   // `before`: whether the light is in front of the surface. A lobe whose normal, which may be bent, puts the
   // light on the other side does not count.
   BsdfValue at(const Vec3& i, bool before) const;
-  // Whether any does.
+  // True if any lobe counts for light from i.
   bool faces(const Vec3& i, bool before) const;
   // chance and u: random numbers in [0, 1). The BSDF must not be black.
   BsdfSample sample(double chance, const Vec2& u) const;
   // Its wide lobes alone, or the sharp ones, each followed as often as before (shaders/bsdf/parts.glsl).
   ViewedBsdf part(bool wide) const;
-  // How often one of its lobes is followed: 1, of a part less.
+  // The probability that one of its lobes is followed: 1, or less for a partial BSDF.
   double followed() const;
   // The share of light that goes straight on.
   Vec3 passed() const { return bsdf_.passed * passed_; }
   // About the share of the light that it sends towards the viewer.
   Vec3 albedo() const { return glm::min(albedo_, Vec3(1)); }
-  // Whether light leaves in single directions alone.
+  // True if light leaves in single directions alone.
   bool specular() const { return shares_[mirror] + shares_[transmitted] + shares_[straight] > 0 && !rough(); }
-  // The same for photons, which come from o and are weighed by the surface's normal.
+  // The BSDF for photons, which come from o and are weighed by the surface's normal.
   ViewedBsdf adjoint() const { return {bsdf_, o_, true}; }
-  // What coat and sheen leave of the light of a single direction, mirrored or refracted.
+  // The share of light in a single direction, mirrored or refracted, that coat and sheen leave.
   double through_layers(const Vec3& i) const;
-  // Whether it sends no light on at all.
+  // True if it scatters no light at all.
   bool black() const { return sum_ == 0; }
 
  private:
@@ -63,7 +63,7 @@ class ViewedBsdf {
     return sum > 0;
   }
   BsdfValue value(Lobe lobe, const Vec3& i) const;
-  // What each layer leaves of light that crosses it in direction w, before the surface.
+  // The share of light left by each layer when light crosses it in direction w, in front of the surface.
   struct Layers {
     double coat, sheen;
   };

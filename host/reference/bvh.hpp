@@ -1,6 +1,6 @@
-// Which of many boxes a ray may hit: the reference's own BVH, the simplest there is. Every box is halved at
-// the median of its contents until a few are left, so that the BVH is complete and its shape follows from
-// the number of boxes alone.
+// Finds the boxes that a ray may hit: the reference's own BVH, the simplest possible. Every box is halved at
+// the median of its contents until a few are left, so that the BVH is complete and its shape follows from the
+// number of boxes alone.
 //
 // That nothing is lost to rounding rests on two facts. A ray sees every box wider by the same margin, so that
 // what a primitive's own intersection counts as a hit lies in its box. And `BoxRay::entry` is monotone: each
@@ -23,8 +23,8 @@
 
 namespace eyeray::engine::reference {
 
-// What rounding may move a point by, relative to the coordinates it is computed from: 64 units of 2⁻⁵³, where
-// the intersections of triangles and spheres take no more than 20.
+// Bound on the displacement of a point by rounding, relative to the coordinates it is computed from: 64 units
+// of 2⁻⁵³. The intersections of triangles and spheres take no more than 20.
 inline constexpr double rounding = 0x1p-47;
 
 // A ray as boxes see it.

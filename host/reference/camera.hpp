@@ -12,9 +12,9 @@ class CameraRays {
   // The ray through `place`, in pixels from the picture's top left corner, and from `lens`, to the right and
   // up of the lens' middle; its direction is unit.
   Ray ray(const Vec2& place, const Vec2& lens = Vec2(0.0)) const;
-  // Whether anything is seen there; else there is no ray.
+  // True if anything is seen there; else there is no ray.
   bool sees(const Vec2& place, const Vec2& lens = Vec2(0.0)) const;
-  // Where on the lens; u: two random numbers in [0, 1).
+  // A point on the lens. u: two random numbers in [0, 1).
   Vec2 lens_point(const Vec2& u) const;
 
  private:

@@ -195,7 +195,7 @@ SphericalTriangle seen_from(const Vec3& from, const TriangleForm& it) {
   return SphericalTriangle({it.vertices[0] - from, it.vertices[1] - from, it.vertices[2] - from});
 }
 
-// Where the direction meets the triangle's plane: the weights of the second and the third corner.
+// The point where the direction hits the triangle's plane, as weights of the second and the third corner.
 Vec2 weights_along(const Vec3& d, const Vec3& from, const TriangleForm& it) {
   const auto& [a, b, c] = it.vertices;
   const Vec3 n = glm::cross(b - a, c - a);

@@ -18,13 +18,14 @@ EmitterSample sample_emitter(const EmitterForm& form, const Vec3& from, const Ve
 // By solid angle at `from`, the density with which that chooses `place`.
 double emitter_density(const EmitterForm& form, const Vec3& from, const EmitterSample& place);
 
-// What such a place sends towards `from`.
+// The radiance that such a point emits towards `from`.
 Vec3 emitter_radiance(const Scene& scene, const Emitter& emitter, const EmitterSample& place,
                       const Vec3& from);
 
 // Evenly on the disk of radius 1. Shirley, Chiu: A Low Distortion Map Between Disk and Square, 1997.
 Vec2 on_disk(const Vec2& u);
-// Two unit vectors that are square to the unit vector n and to each other, as all executors choose them.
+// Two unit vectors that are perpendicular to the unit vector n and to each other. All executors choose the
+// same ones.
 std::pair<Vec3, Vec3> tangents(const Vec3& n);
 
 }  // namespace eyeray::engine::reference

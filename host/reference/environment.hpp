@@ -14,7 +14,7 @@ struct EnvironmentSample {
 };
 // `u`: two multiples of 2^-24 in [0, 1). There must be light.
 EnvironmentSample sample_environment(const EnvironmentMap& environment, const Vec2& u);
-// That sample_environment chooses `d`.
+// The density, per solid angle, with which sample_environment chooses `d`.
 double environment_density(const EnvironmentMap& environment, const Vec3& d);
 
 }  // namespace eyeray::engine::reference

@@ -17,7 +17,7 @@ class GroupGeometry {
   double reach() const { return map_.reach(objects_->bounds()); }
   double growth() const { return map_.growth() * objects_->growth(); }
 
-  // As its objects', for rays of the world; t is the same in both spaces.
+  // The nearest hit of the group's objects, for rays in world space. t is the same in both spaces.
   std::optional<Objects::Hit> trace(const Ray& ray, double limit, double& sure_until) const {
     return objects_->trace(map_.into(ray), limit, sure_until, before_);
   }

@@ -12,7 +12,7 @@ class InstanceGeometry {
   InstanceGeometry(const Instance& instance, const MeshGeometry& mesh, const Material* material = nullptr)
       : mesh_(&mesh), look_(material), map_(instance.transform), material_(instance.material) {}
 
-  // As MeshGeometry's, for a ray of the world; t is the same in both spaces.
+  // The nearest hit, like MeshGeometry::intersect, for a ray in world space. t is the same in both spaces.
   std::optional<TriangleHit> intersect(const Ray& ray, double limit = std::numeric_limits<double>::infinity(),
                                        uint64_t first_id = 0) const {
     return mesh_->intersect(map_.into(ray), limit, look_, first_id);
@@ -29,7 +29,7 @@ class InstanceGeometry {
   uint32_t triangles() const { return uint32_t(mesh_->mesh().triangles.size()); }
   // In the world: around the mesh's own box.
   Bounds bounds() const { return map_.bounds(mesh_->bounds()); }
-  // As the map's, of the mesh and of one triangle.
+  // The reach of the map, for the mesh and for one triangle.
   double reach() const { return map_.reach(mesh_->bounds()); }
   double reach(uint32_t triangle, const Vec3& eye) const;
   double growth() const { return map_.growth(); }

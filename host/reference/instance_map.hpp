@@ -1,4 +1,4 @@
-// From a space of its own, a mesh's or a group's, into the world, and what rounding makes of it on the way.
+// The map from the object space of a mesh or group to world space, and the rounding on the way.
 #pragma once
 
 #include "host/scene/affine.hpp"

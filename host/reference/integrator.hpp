@@ -1,4 +1,4 @@
-// What an integrator computes, in float64. An integrator is one .cpp here, one .glsl in shaders/integrators
+// The interface of integrators, in float64. An integrator is one .cpp here, one .glsl in shaders/integrators
 // and one row in integrators/rows.h.
 #pragma once
 
@@ -21,15 +21,15 @@ struct SampleId {
 
 struct Integrator {
   std::string_view manual;  // Markdown
-  // What the eye's ray, its direction unit, sees, starting in `media`. `observer` has been told of that ray,
-  // and is told the rest.
+  // The sample of the camera ray, of unit direction, which starts in `media`. `observer` already knows that
+  // ray, and is notified of the rest.
   PixelSample (*sample)(const Tracer& tracer, const SampleId& id, const Ray& ray, const MediaStack& media,
                         const rounding::Displacement& displacement, const Observer& observer);
 };
 
 const Integrator& integrator(IntegratorType type);
 
-// What a denoiser asks of that sample of `path`.
+// The denoiser's auxiliary values of that sample of `path`.
 AuxiliarySample path_auxiliary(const Tracer& tracer, const SampleId& id, const Ray& ray,
                                const MediaStack& media);
 

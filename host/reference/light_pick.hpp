@@ -1,4 +1,4 @@
-// Which light a vertex of a path asks: in float64, from the formulas.
+// Chooses the light that a vertex of a path samples: in float64, from the formulas.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@ struct LightPick {
   double share;  // how likely it is
 };
 
-// Where lights are asked from. `normal`: unit; none where the surface also sends on what comes from behind
+// A point at which lights are sampled. `normal`: unit; empty if the surface also transmits light from behind
 // it.
 struct LitPoint {
   Vec3 position;
@@ -21,9 +21,9 @@ struct LitPoint {
 
 // By a random number u in [0, 1); none where no light shines there.
 std::optional<LightPick> pick_light(const LightChoice& choice, const LitPoint& point, double u);
-// How likely that picks the light.
+// The probability that the choice picks the light.
 double light_share(const LightChoice& choice, const LitPoint& point, size_t light);
-// What of the light of a node may arrive in the point: above 0 wherever any does.
+// Estimate of a node's light that may arrive at the point: above 0 wherever any does.
 double importance(const LightBounds& bounds, const LitPoint& point);
 
 }  // namespace eyeray::engine::reference

@@ -1,4 +1,4 @@
-// Which media a ray is in.
+// The media that a ray is in.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@ namespace eyeray::engine::reference {
 // The materials whose media surround a point, outermost first: indices in Scene::materials. More than four
 // may come back, though no ray keeps more.
 std::vector<int> media_at(const Tracer& tracer, const Vec3& point);
-// The same for one point alone, for which a BVH is not worth its building.
+// The media at one point, for which building a BVH does not pay.
 std::vector<int> media_at(const Scene& scene, const Vec3& point);
 
 // The media that a ray is in, the last entered on top; four at most.

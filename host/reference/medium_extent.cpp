@@ -9,7 +9,7 @@ namespace {
 
 // Along a ray from `begin` on the density is density · exp(−decay · distance).
 struct Column {
-  double begin, end;  // equal where the ray meets none of the medium
+  double begin, end;  // equal where the ray misses the medium
   double density;     // at begin
   double decay;       // per unit of length; below 0 downwards
 };

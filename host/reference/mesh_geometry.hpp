@@ -1,4 +1,4 @@
-// What a ray hits of a mesh, in the mesh's own space.
+// Intersects rays with a mesh, in the mesh's object space.
 #pragma once
 
 #include <optional>
@@ -25,7 +25,7 @@ class MeshGeometry {
   // `first_id`: the scene's primitive index of the first triangle, where the material blends.
   std::optional<TriangleHit> intersect(const Ray& ray, double limit, const Material* material = nullptr,
                                        uint64_t first_id = 0) const;
-  // How many triangles the ray hits at 0 < t < t_end; counting ends at `most`.
+  // The number of triangles that the ray hits at 0 < t < t_end. Counting ends at `most`.
   uint32_t count_crossed(const Ray& ray, double t_end, uint32_t most, const Material* material = nullptr,
                          uint64_t first_id = 0) const;
 

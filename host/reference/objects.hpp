@@ -38,7 +38,7 @@ class Objects {
   std::optional<Hit> intersect(size_t object, const Ray& ray,
                                double limit = std::numeric_limits<double>::infinity(),
                                const PrimitiveIds::First& before = {}) const;
-  // How often a line crosses the object at most, as far as that is known.
+  // The largest number of times that a line can cross the object, as far as it is known.
   int most_crossings(size_t object) const;
   // Calls visit(material) for each that the object has surfaces of.
   template <typename Visit>
@@ -69,7 +69,7 @@ class Objects {
   // The largest coordinate, relative to `eye`, of the terms that what was hit is made of; 0 for unbounded
   // shapes.
   double reach(const Hit& hit, const Vec3& eye) const;
-  // How many times the rounding of a point grows, at most, on its way into an instance and back.
+  // The largest factor by which the rounding of a point grows on its way into an instance and back.
   double growth() const { return growth_; }
 
  private:

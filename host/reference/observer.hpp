@@ -6,31 +6,32 @@
 
 namespace eyeray::engine::reference {
 
-// Shows what it is told to a recorder, or, mostly, to none.
+// Forwards its notifications to a recorder or, mostly, to none.
 class Observer {
  public:
   Observer(RayRecorder* recorder = nullptr) : recorder_(recorder) {}
   // Takes what a random path decides alone (trail.hpp).
   explicit Observer(std::vector<uint32_t>& events) : events_(&events) {}
 
-  // Whether anybody looks.
+  // True if there is a recorder.
   explicit operator bool() const { return recorder_ != nullptr; }
 
   template <typename T>
   void value(std::string_view name, const T& value) const {
     if (recorder_) recorder_->value(name, 0, value);
   }
-  // What follows belongs to this ray, as RayRecorder has it; of a shadow ray `number` is its light's.
+  // The following notifications belong to this ray, as in RayRecorder. `number` of a shadow ray is that of
+  // its light.
   void ray(RayKind kind, const Ray& ray, int depth, size_t number = 0) const;
-  // What follows belongs to the last ray of `depth` again.
+  // The following notifications belong to the last ray of `depth` again.
   void back(int depth) const;
-  // What the ray hit, and the surface there, as the shape has it.
+  // The hit of the ray, and the surface there, as the shape defines it.
   void hit(const Tracer& tracer, const Ray& ray, const Hit& hit, const SurfacePoint& surface) const;
   void event(uint32_t event) const {
     if (events_) events_->push_back(event);
     value("event", event);
   }
-  // What a ray that hits nothing sees.
+  // The light seen by a ray that hits nothing.
   void miss(const Vec3& throughput, const Vec3& light) const;
 
  private:

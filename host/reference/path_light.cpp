@@ -1,4 +1,4 @@
-// What of lights' light a vertex of a path sends on.
+// The light of lights that a vertex of a path scatters.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -106,8 +106,8 @@ std::optional<Arriving> PathSample::arriving(const Interaction& at) {
       density, light};
 }
 
-// What that brings to the viewer by a vertex that sends on `scattered`; all but panes and interfaces keeps
-// the ray in `media`.
+// The light that arrives at the viewer by a vertex that scatters `scattered`. Only panes and interfaces let
+// the ray leave `media`.
 Vec3 PathSample::direct(const Interaction& at, const Arriving& light, const BsdfValue& scattered,
                         const MediaStack& media) {
   const double weight = light.density > 0 ? power_heuristic(light.density, scattered.density) : 1;

@@ -18,12 +18,12 @@
 
 namespace eyeray::engine::reference {
 
-// What pairs of random numbers are for; of the vertices after the first, `pairs_a_vertex` further on each.
+// The uses of pairs of random numbers. For each vertex after the first they are `pairs_a_vertex` further on.
 inline constexpr uint32_t scatter_pair = 4, direction_pair = 5, light_pair = 6, place_pair = 7,
                           pairs_a_vertex = 4;
 inline constexpr uint32_t first_flight_pair = 0x10000;  // of the vertices after the first one further on each
 
-// Where lights are asked from.
+// The point at which lights are sampled.
 LitPoint lit_point(const Interaction& at);
 // The side of the surface that a ray in that direction leaves on.
 Leaving leaving(const Interaction& at, const Vec3& d);
@@ -40,7 +40,7 @@ struct Arriving {
   uint64_t light;  // its number; of the environment −1
 };
 
-// How far a path gets through a medium: up to a point of it, or to what the ray hits.
+// The distance that a path travels through a medium: up to a point in it, or to the hit of the ray.
 struct Flight {
   double t;
   bool scattered;
@@ -60,7 +60,7 @@ class PathSample {
         observer_(observer) {}
 
   PixelSample sample(Ray ray, MediaStack media) { return follow(ray, media, &PathSample::meet_surface); }
-  // The same up to where photons are gathered, and what those bring.
+  // Follows the path up to the point where photons are gathered, and adds their light.
   PixelSample gathering_sample(Ray ray, MediaStack media) {
     return follow(ray, media, &PathSample::meet_gathering);
   }
@@ -85,11 +85,11 @@ class PathSample {
     ray.alpha_key = alpha_key(id_.pixel, id_.index, surfaces(), number, scene_.render.seed);
     return ray;
   }
-  // That the path has come through.
+  // The number of surfaces that the path has passed.
   uint32_t surfaces() const { return uint32_t(depth_ + all_panes_); }
   Flight fly(const Ray& ray, const MediaStack& media, const std::optional<Hit>& hit) const;
   Interaction scattered_at(const Ray& ray, double t) const;
-  // Lights what the path has met, into `color`, and goes on from there: the next ray, or none.
+  // Adds the light at the path's hit to `color`, and continues from there: returns the next ray, or none.
   using Meet = std::optional<Ray> (PathSample::*)(const Interaction& at, const LocalFrame& frame,
                                                   const ViewedBsdf& bsdf, MediaStack& media, Vec3& color);
   std::optional<Ray> meet_surface(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
@@ -99,7 +99,7 @@ class PathSample {
   std::optional<Ray> meet_medium(const Ray& ray, const Flight& flight, const MediaStack& media, Vec3& color);
   // From a vertex whose lights have been asked.
   void gain(const Vec3& light, Vec3& color);
-  // To the path's end, `meet` at every surface.
+  // Follows the path to its end, and calls `meet` at every surface.
   PixelSample follow(Ray ray, MediaStack media, Meet meet);
   std::optional<Ray> scatter_in(const Medium& medium, const Interaction& at);
   Vec3 emitted(const Interaction& at) const;

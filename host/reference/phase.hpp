@@ -1,5 +1,5 @@
-// How a point of a medium scatters light: Henyey, Greenstein: Diffuse Radiation in the Galaxy, Astrophysical
-// Journal 93, 1941. g is the mean cosine of the angle by which light is turned.
+// The phase function of a medium: Henyey, Greenstein: Diffuse Radiation in the Galaxy, Astrophysical Journal
+// 93, 1941. g is the mean cosine of the angle by which light is deflected.
 #pragma once
 
 #include "host/core/vec.hpp"

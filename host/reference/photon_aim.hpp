@@ -9,9 +9,9 @@
 
 namespace eyeray::engine::reference {
 
-// What a target looks like from where photons start: a cap of the sphere of directions, or a disk of places.
-// Archimedes: a cap has the area of a disk as wide as its chord. So of both, what is `distance` from the
-// middle is within where π distance² < area.
+// A target as seen from the start of photons: a cap of the sphere of directions, or a disk of positions. By
+// Archimedes, a cap has the area of a disk as wide as its chord. So a point of either is within if its
+// `distance` from the middle satisfies π distance² < area.
 struct Window {
   Vec3 middle;
   double area;
@@ -26,12 +26,12 @@ std::vector<Window> windows_along(const PhotonSettings& settings, const Vec3& d)
 
 struct Aimed {
   Vec3 at;             // a direction or place
-  bool by_aim;         // not by chance
+  bool by_aim;         // by a window, not by the light's own density
   uint64_t event = 0;  // Event::aim
   double density = 0;  // with which such are aimed at
 
-  // What a photon brings beside one that came by chance; own: the density with which the light would choose
-  // the same.
+  // The weight of a photon, relative to an unaimed one. own: the density with which the light itself would
+  // choose the same.
   double weight(double own) const;
 };
 

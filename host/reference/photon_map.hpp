@@ -1,4 +1,4 @@
-// The photons of one sample, and those that lie near a point: in float64, with a grid of its own.
+// The photons of one sample, and those that lie near a point: in float64, with the reference's own grid.
 #pragma once
 
 #include <cstdint>
@@ -58,7 +58,7 @@ void PhotonMap::near(const Vec3& p, const Visit& visit) const {
   }
 }
 
-// Those of a scene's samples, each made when it is first asked for. From many threads at once.
+// The photon maps of a scene's samples, each made on first use. May be called from many threads at once.
 class PhotonMaps {
  public:
   std::shared_ptr<const PhotonMap> of_sample(const Tracer& tracer, uint32_t index);

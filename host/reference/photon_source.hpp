@@ -1,5 +1,5 @@
-// Where photons come from: a light or surface that emits, or what is around, each as likely as paths would
-// ask it; a place by area, a direction by what is sent there.
+// The sources of photons: a light, an emitting surface, or the environment, each chosen with the probability
+// with which paths sample it. Positions are chosen by area, directions by the light emitted there.
 #pragma once
 
 #include <functional>
@@ -18,7 +18,7 @@ struct PhotonSource {
   MediaStack media{};  // that it starts in
 };
 
-// What the pairs of random numbers of a photon are for that paths do not draw.
+// The uses of a photon's pairs of random numbers that paths do not draw.
 inline constexpr uint32_t source_pair = 0, start_pair = 1, heading_pair = 2, side_pair = 3;
 // In place of a pixel, with a sample's number, for its photons.
 inline constexpr uint32_t photons_of = 0x80000000u;

@@ -1,4 +1,4 @@
-// Single photons, and what becomes of them where float32 rounds otherwise.
+// Single photons, and their ways if float32 rounds differently.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,8 @@ class PhotonTraces {
   // `tracer` must outlive it.
   explicit PhotonTraces(const Tracer& tracer) : tracer_(tracer), sources_(tracer) {}
 
-  // Photon `number` of sample `index`, its rays as `displacement` rounds them. From many threads at once.
+  // Photon `number` of sample `index`, with its rays rounded by `displacement`. May be called from many
+  // threads at once.
   PhotonTrace trace(uint32_t index, uint32_t number, const rounding::Displacement& displacement) const;
 
  private:

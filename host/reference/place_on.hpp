@@ -1,4 +1,4 @@
-// Where a surface's textures are asked.
+// The point at which a surface's textures are sampled.
 #pragma once
 
 #include "host/scene/shape.hpp"

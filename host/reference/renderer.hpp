@@ -14,20 +14,20 @@ class Renderer {
   // `scene` must outlive the renderer. The pixels do not depend on `acceleration`.
   explicit Renderer(const Scene& scene, Acceleration acceleration = Acceleration::bvh);
 
-  // Sample `index` of pixel (x, y), by the scene's integrator. The ray is `shift` pixels aside, at
-  // displacement.pivot before that.
+  // Sample `index` of pixel (x, y), by the scene's integrator. The ray is displaced by `shift` pixels; up to
+  // displacement.pivot it is displaced to that side, and beyond to the other.
   PixelSample sample(int x, int y, uint32_t index, Vec2 shift = {0, 0},
                      const rounding::Displacement& displacement = {}, const Observer& observer = {}) const;
-  // What a denoiser asks of that sample; of `path` alone.
+  // The denoiser's auxiliary values of that sample; for `path` alone.
   AuxiliarySample auxiliary(int x, int y, uint32_t index) const;
-  // What the ray through the pixel's centre hits, and the lens' where there is one, `shift` aside. Of
-  // `displacement`, its pivot and `coincident` count.
+  // The first hit of the ray through the pixel's centre, and the lens' centre if there is a lens, displaced
+  // by `shift` pixels. Only pivot and `coincident` of `displacement` count.
   FirstHit first_hit(int x, int y, Vec2 shift = {0, 0},
                      const rounding::Displacement& displacement = {}) const;
-  // The same of the eye ray of sample `index`.
+  // The first hit of the camera ray of sample `index`.
   FirstHit first_hit_of_sample(int x, int y, uint32_t index, Vec2 shift,
                                const rounding::Displacement& displacement) const;
-  // How many pixels aside float32 may take the ray through the pixel's centre, where it has come to `t`.
+  // The number of pixels by which float32 may displace the ray through the pixel's centre at `t`.
   double rounding(int x, int y, double t) const;
   // A rounding::Displacement::pivot a little behind what that ray hits: `which` of eight, modulo 8; 0 where
   // it hits nothing.

@@ -14,7 +14,7 @@ double fraction(uint32_t bits);
 
 // A number in [0, 1), a multiple of 2⁻²⁴, that depends on nothing but the four.
 double random(uint32_t pixel, uint32_t sample, uint32_t dimension, uint32_t seed);
-// The same of dimensions 2 · pair and 2 · pair + 1.
+// Two random numbers: those of dimensions 2 · pair and 2 · pair + 1.
 Vec2 random_pair(uint32_t pixel, uint32_t sample, uint32_t pair, uint32_t seed);
 
 // Ray::alpha_key of the ray that a sample's path takes after `surfaces` surfaces, number 0, or of its i-th

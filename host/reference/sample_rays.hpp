@@ -10,7 +10,7 @@
 
 namespace eyeray::engine::reference {
 
-// Where a ray hits a surface, seen from the viewer's side.
+// The point where a ray hits a surface, seen from the viewer's side.
 struct Interaction {
   SurfacePoint surface;     // both normals towards where the ray came from
   Vec3 d;                   // unit, of the ray
@@ -40,20 +40,20 @@ class SampleRays {
   SampleRays(const Tracer& tracer, const rounding::Displacement& displacement, const Observer& observer)
       : tracer_(tracer), scene_(tracer.scene()), displacement_(displacement), observer_(observer) {}
 
-  // What the ray, which is in `media`, hits; nothing where it hits nothing. `throughput`: the share of its
-  // light that arrives in the pixel.
+  // The interaction at the hit of the ray, which is in `media`; empty if it hits nothing. `throughput`: the
+  // share of its light that arrives in the pixel.
   std::optional<Interaction> hit(const Ray& ray, const MediaStack& media, const Vec3& throughput);
-  // The same in two steps. `dimming`: what the medium leaves of the light on its way.
+  // The function hit() in two steps. `dimming`: the share of light that the medium leaves on the way.
   std::optional<Hit> trace(const Ray& ray);
   Interaction interaction(const Ray& ray, const Hit& hit, const MediaStack& media, const Vec3& throughput,
                           const Vec3& dimming);
   // The innermost.
   Medium medium(const MediaStack& media) const;
-  // How long the ray up to t would be in that medium with the same transmittance, if the medium had the same
-  // coefficients all along; and the t where that is `length`.
+  // The length of the ray up to t if the medium had constant coefficients and the same transmittance; and the
+  // t at which that length is `length`.
   double medium_length(const MediaStack& media, const Ray& ray, double t) const;
   double medium_distance(const MediaStack& media, const Ray& ray, double length) const;
-  // What a ray in that unit direction sees where it hits nothing.
+  // The light seen by a ray in that unit direction if it hits nothing.
   Vec3 surroundings(const Vec3& d) const;
   // The unit direction as float32 may round it.
   Vec3 rounded(const Vec3& d) const;
@@ -61,21 +61,23 @@ class SampleRays {
   Ray start_ray(const Ray& ray);
   // A ray that leaves the surface, as float32 may round it.
   Ray spawn_ray(const SurfacePoint& point, const Vec3& d, Leaving leaving = Leaving::straight);
-  // The same to a light at that distance from the point; both change where the ray starts elsewhere.
+  // A ray that leaves the surface towards a light at that distance from the point. Direction and distance
+  // change if the ray starts elsewhere.
   Ray spawn_to_light(const SurfacePoint& point, const Vec3& l, Leaving leaving, double& distance);
-  // Where a shadow ray in direction l to a place of a lamp may end: as far off it as rays start off surfaces.
+  // The end of a shadow ray in direction l to a point of an area light: as far off the light as rays start
+  // off surfaces.
   Vec3 end_before(const Vec3& place, const Vec3& normal, const Vec3& l) const;
-  // Whether a light in direction l at that distance stands before the surface. In its plane float32 may say
-  // either.
+  // True if a light in direction l at that distance is in front of the surface. For a light in its plane
+  // float32 may decide either way.
   bool faces(const SurfacePoint& point, const Vec3& l, double distance) const;
-  // Whether it stands on the side of the surface where the viewer is.
+  // True if the light is on the viewer's side of the surface.
   bool is_before(const SurfacePoint& point, const Vec3& l, double distance) const;
   // The share of light that a shadow ray to `t_end` brings.
   double shadow(const Ray& ray, double t_end);
-  // The same where only panes and interfaces let light through. `media`: those that the ray begins in.
+  // The transmittance if only panes and interfaces let light through. `media`: those in which the ray begins.
   Vec3 through_panes(Ray ray, double t_end, bool has_extent, MediaStack media);
 
-  // What the path decides on its way, in order.
+  // Records a decision of the path, in order.
   void decided(Event kind, uint64_t value);
 
   PixelSample sample(const Vec3& color) const;

@@ -1,5 +1,5 @@
-// Where in a pixel its samples lie, in float64. A sampler is one .cpp here, one .glsl in shaders/samplers and
-// one row in samplers/rows.h.
+// The positions of samples in a pixel, in float64. A sampler is one .cpp here, one .glsl in shaders/samplers
+// and one row in samplers/rows.h.
 #pragma once
 
 #include <string_view>
@@ -11,7 +11,8 @@ namespace eyeray::engine::reference {
 
 struct Sampler {
   std::string_view manual;  // Markdown
-  // Where in its pixel, counted along the rows, sample `index` of `samples` lies: each in [0, 1).
+  // The position of sample `index` of `samples` in its pixel, which is counted along the rows: both
+  // coordinates in [0, 1).
   Vec2 (*place)(int samples, uint32_t pixel, uint32_t index, uint32_t seed);
   // The random numbers of a path, a pair for each use (path.cpp says which): each in [0, 1), a multiple of
   // 2^-24.
@@ -20,8 +21,8 @@ struct Sampler {
 
 const Sampler& sampler(SamplePattern pattern);
 
-// Where around pixel (x, y) its sample `index` lies, by pattern and filter, in pixels from the pixel's top
-// left corner.
+// The position of sample `index` of pixel (x, y), by pattern and filter, in pixels from the pixel's top left
+// corner.
 Vec2 sample_position(const ImageSettings& image, uint32_t seed, int x, int y, uint32_t index);
 
 }  // namespace eyeray::engine::reference

@@ -105,8 +105,8 @@ std::optional<Hit> Tracer::coincident_with(const Ray& ray, const Hit& hit) const
   const SurfacePoint point = surface(ray, hit);
   const double cosine = std::max(0.01, std::abs(glm::dot(ray.d, point.normal_geometric)));
   const double apart = 8 * 0x1p-24 * glm::length(point.position - scene_.camera.eye) / cosine;
-  // Where both lie at the very same place, no ray this way tells them apart. Seen from beyond, the farther
-  // one comes first.
+  // If both lie at exactly the same t, no ray this way distinguishes them. Seen from beyond, the farther one
+  // comes first.
   if (auto found = trace({ray.o + (hit.at.t + apart) * ray.d, -ray.d, ray.alpha_key});
       found && found->primitive != hit.primitive && found->at.t <= 2 * apart) {
     found->at.t = hit.at.t + apart - found->at.t;

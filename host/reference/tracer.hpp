@@ -1,4 +1,4 @@
-// What a ray hits: a shape, or a triangle of an instance, perhaps of a group.
+// Finds the hit of a ray: a shape, or a triangle of an instance, perhaps of a group.
 #pragma once
 
 #include <deque>
@@ -53,7 +53,7 @@ class Tracer {
   const Scene& scene() const { return scene_; }
   // The scene's, where its integrator chooses one light; else empty.
   const LightChoice& light_choice() const { return light_choice_; }
-  // Whether paths of the scene may cross an interface (scene/interfaces.hpp).
+  // True if paths of the scene may cross an interface (scene/interfaces.hpp).
   bool any_interface() const { return any_interface_; }
   // The photon map of sample `index`, if the scene's integrator emits photons. May be called from many
   // threads at once.

@@ -1,4 +1,4 @@
-// What a random path decides on its way, as the shaders put it (integrators/trail.glsl): events, and the
+// The decisions of a random path, in the shaders' encoding (integrators/trail.glsl): events, and the
 // fingerprint of all.
 #pragma once
 

@@ -49,13 +49,14 @@ struct Similarity {
 // `transform` as a similarity (to 1e-6, so that matrices may be written by hand); nothing when it is none.
 std::optional<Similarity> similarity(const Mat4& transform);
 
-// How much the map stretches one direction more than another, at least 3: its Frobenius norm times that of
-// its inverse. Beyond `worst_condition` the float32 inverse that the shaders use has no correct digit left.
+// The ratio by which the map stretches one direction more than another, at least 3: its Frobenius norm times
+// that of its inverse. Beyond `worst_condition` the float32 inverse that the shaders use has no correct digit
+// left.
 double condition(const Mat3& linear);
 inline constexpr double worst_condition = 1e7;
 
-// What is left at least of an area over the square of its size, or of a volume over the cube: |det| / σ³, σ
-// being no less than the greatest stretch.
+// The least share left of an area over the square of its size, or of a volume over the cube: |det| / σ³. σ is
+// no less than the greatest stretch.
 double thinning(const Mat3& linear);
 
 // Why the map cannot be undone in float32, such as "it shrinks everything to a point", or "".

@@ -1,4 +1,4 @@
-// What every camera answers, in float64. A camera is one .cpp in host/cameras, one .glsl in shaders/cameras
+// The interface of cameras, in float64. A camera is one .cpp in host/cameras, one .glsl in shaders/cameras
 // and one row in cameras/rows.h.
 #pragma once
 
@@ -17,7 +17,7 @@ namespace formula {
 class Formula;  // formula/formula.hpp
 }
 
-// Where a camera stands, and its axes: unit, image right, image up, the way it looks.
+// The position of a camera, and its unit axes: image right, image up, viewing direction.
 struct CameraAxes {
   Vec3 eye, u, v, w;
 };
@@ -26,7 +26,8 @@ struct CameraAxes {
 enum class FovAxis { horizontal, vertical, shorter, diagonal };
 inline constexpr std::string_view fov_axis_names[] = {"horizontal", "vertical", "shorter", "diagonal"};
 
-// Where rays start: on a disk, or on a polygon, around the eye. What stands in the plane at `focus` is sharp.
+// The aperture, from which rays start: a disk or a polygon around the eye. Points in the plane at `focus` are
+// sharp.
 struct Aperture {
   double radius = 0;  // 0: all rays come from the eye. Of a polygon that of the circle through its corners.
   double focus = 1;   // from the eye along the way it looks
@@ -75,19 +76,19 @@ class Projection {
 
   // Its number in cameras/rows.h: shader::CAMERA_NAME.
   virtual uint32_t kind() const = 0;
-  // What the shaders' `right`, `up` and `forward` are as multiples of the axes. X·right + Y·up, with X and Y
-  // in [−1, 1], spans the picture.
+  // The lengths of the shaders' `right`, `up` and `forward` as multiples of the axes. X·right + Y·up, with X
+  // and Y in [−1, 1], spans the picture.
   virtual Vec3 scale(const Vec2& size) const = 0;
   // The ray, its direction unit, at `place`: from the picture's middle to the right and up, in half widths;
   // and from `lens`, to the right and up of the eye, where rays start on an aperture. The reference's half:
   // written from the mathematics, not from `scale` and the shader.
   virtual Ray ray(const CameraAxes& camera, const Vec2& place, const Vec2& lens, const Vec2& size) const = 0;
-  // Whether anything is seen there; else the picture is black.
+  // True if anything is seen there; else the picture is black.
   virtual bool sees(const Vec2& /*place*/, const Vec2& /*lens*/, const Vec2& /*size*/) const { return true; }
-  // What it is computed by, of one that a scene brings.
+  // The function of a camera that is defined by a scene; else null.
   virtual std::shared_ptr<const formula::Formula> function() const { return nullptr; }
   virtual Aperture aperture() const { return {}; }
-  // The same with `factor` times the width of a picture of this size in view, at the same scale in both
+  // The projection with `factor` times the width of a picture of this size in view, at the same scale in both
   // directions.
   virtual std::shared_ptr<const Projection> widened(double factor, const Vec2& size) const = 0;
   virtual std::vector<CameraFact> facts(const Vec2& size) const = 0;

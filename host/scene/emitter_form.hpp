@@ -29,15 +29,15 @@ EmitterForm mapped(const EmitterForm& form, const Affine& map);
 
 // The area of one side of the form.
 double area_of(const EmitterForm& form);
-// Whether its angles are right ones: so nearly that places chosen on it as if they were are as even as
-// float32 tells.
+// True if its angles are right angles, within float32: points chosen as if they were are uniform as far as
+// float32 resolves.
 bool is_rectangle(const ParallelogramForm& it);
 // The share of a cylinder's area that its side has.
 double share_of_side(const CylinderForm& cylinder);
 // Without its power.
 LightBounds bounds_of(const EmitterForm& form);
-// Whether it lies in a plane; and then its normal, by right hand from the first edge or axis to the second,
-// and a point of it.
+// True if the form lies in a plane. Below: its normal, by the right-hand rule from the first edge or axis to
+// the second, and a point of it.
 bool is_flat(const EmitterForm& form);
 Vec3 normal_of(const EmitterForm& form);
 Vec3 point_of(const EmitterForm& form);

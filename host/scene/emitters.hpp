@@ -13,7 +13,7 @@ class Material;
 struct TextureContext;
 struct Scene;
 
-// What a triangle's light varies by, at its corners.
+// The values at a triangle's corners on which its light depends.
 struct EmitterCorners {
   std::array<Vec2, 3> uv, second_uv;
   std::array<Vec3, 3> colors;
@@ -31,16 +31,16 @@ struct Emitter {
   std::shared_ptr<const EmitterCorners> corners = nullptr;  // of a triangle that varies
 };
 
-// What of a scene emits.
+// The emitting surfaces of a scene.
 struct Emitters {
   std::vector<Emitter> sampled;           // in the order of their primitives
-  std::vector<SourcePosition> unsampled;  // of shapes and meshes that emit, and are found by chance alone
+  std::vector<SourcePosition> unsampled;  // of emitting shapes and meshes that only random paths find
 };
 
 // Error (bad_input) where more than 2²⁰ surfaces emit.
 Emitters emitters(const Scene& scene);
 
-// What a place of a surface emits.
+// The radiance emitted at a point of a surface.
 Vec3 emitted(const Material& material, const TextureContext& place, const Vec3& color);
 
 }  // namespace eyeray::engine

@@ -1,4 +1,5 @@
-// What is around the scene: a picture of all directions, and how likely a path chooses each place in it.
+// The environment of the scene: a picture of all directions, and the probability with which a path chooses
+// each texel.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +18,7 @@ struct EnvironmentCells {
   std::vector<uint32_t> row_ends;     // as whole_shares() has them
   std::vector<uint32_t> column_ends;  // of each row's cells, row after row
 
-  // Whether there is any light.
+  // True if there is any light.
   bool lit() const { return row_ends.back() > 0; }
 };
 
@@ -45,7 +46,8 @@ class EnvironmentMap {
   EnvironmentCells cells_;
 };
 
-// How many of choice_numbers choose the environment, beside lights or alone; 0 for none or a black one.
+// The number of choice_numbers that choose the environment, beside lights or alone; 0 for none or a black
+// one.
 uint32_t environment_numbers(const EnvironmentMap* environment, bool lights);
 
 }  // namespace eyeray::engine

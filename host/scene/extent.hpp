@@ -6,7 +6,7 @@ namespace eyeray::engine {
 
 struct Scene;
 
-// Whether a box has an end on all sides. An empty one has none.
+// True if a box ends on all sides. An empty box does not.
 bool is_finite(const Bounds& box);
 // A box around all shapes that have an end; empty where there is none.
 Bounds extent(const Scene& scene);

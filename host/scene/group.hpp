@@ -13,7 +13,7 @@
 
 namespace eyeray::engine {
 
-// Shapes and meshes in a space of their own. None is without bounds, and none is in two groups.
+// Shapes and meshes in the group's object space. None is without bounds, and none is in two groups.
 struct Group {
   std::vector<std::unique_ptr<Shape>> shapes;
   std::vector<Instance> instances;  // their transforms lead into the group's space
@@ -23,8 +23,7 @@ struct Group {
 struct GroupInstance {
   int group = 0;        // index in Scene::groups
   Mat4 transform{1.0};  // group to world: affine, and can be undone
-  // How many of Scene::shapes and of Scene::instances it stands behind: where it would be, were it no
-  // instance.
+  // The numbers of Scene::shapes and of Scene::instances before it: its place if it were no instance.
   size_t shapes_before = 0;
   size_t instances_before = 0;
   SourcePosition position;

@@ -21,7 +21,7 @@ void check_image_file(const std::filesystem::path& path);
 ImageTexture load_image_texture(const std::filesystem::path& path, image::PixelBudget& budget,
                                 std::vector<std::string>& warnings);
 
-// The same from memory; `name` stands in messages.
+// Decodes an image from memory. `name` stands in messages.
 ImageTexture decode_image_texture(std::span<const std::byte> bytes, const std::string& name,
                                   image::PixelBudget& budget, std::vector<std::string>& warnings);
 

@@ -15,14 +15,14 @@ enum class IntegratorType : uint32_t {
 #undef X
 };
 
-// As `integrator` in [render] names them.
+// The values of `integrator` in [render].
 inline constexpr std::string_view integrator_names[] = {
 #define X(name, ...) #name,
     INTEGRATORS(X)
 #undef X
 };
 
-// Where a path hits something, shadow rays go to these; to one, chosen among lights and surfaces that emit.
+// The targets of shadow rays at a hit of a path. one_light: chosen among lights and emitting surfaces.
 enum class ShadowRays { no_light, each_light, one_light };
 
 struct IntegratorTraits {
@@ -39,13 +39,13 @@ constexpr IntegratorTraits traits_of(IntegratorType type) {
   return traits[uint32_t(type)];
 }
 
-// Whether its paths draw random numbers on their way. They find what light comes through glass; so shadow
-// rays, which else pass through it weakened, end there.
+// True if its paths draw random numbers on their way. Such paths find the light that comes through glass. So
+// their shadow rays end at glass, while those of other integrators pass through it weakened.
 constexpr bool walks_at_random(IntegratorType type) {
   return traits_of(type).shadow_rays == ShadowRays::one_light;
 }
 
-// Whether lights send out photons, which its paths gather (scene/photons.hpp).
+// True if lights emit photons, which its paths gather (scene/photons.hpp).
 constexpr bool sends_photons(IntegratorType type) {
   return type == IntegratorType::sppm;
 }

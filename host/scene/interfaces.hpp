@@ -5,8 +5,8 @@
 
 namespace eyeray::engine {
 
-// Whether paths of the scene may cross one: where a medium has the index of its surroundings, or of another
-// medium and one of both scatters. Two clear glasses that touch are left alone.
+// True if paths of the scene may cross an interface: where a medium has the index of its surroundings, or of
+// another medium and one of both scatters. Two clear glasses that touch are left alone.
 bool any_interface(const Scene& scene);
 
 }  // namespace eyeray::engine

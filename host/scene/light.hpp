@@ -1,4 +1,4 @@
-// What every light answers, in float64. A light is one .cpp in host/lights, one .glsl in shaders/lights and
+// The interface of lights, in float64. A light is one .cpp in host/lights, one .glsl in shaders/lights and
 // one row in lights/rows.h.
 #pragma once
 
@@ -37,7 +37,8 @@ struct DirectionalLight {
   double angle = 0;  // under which it is seen, in radians
 };
 
-// As glTF has it: full within the inner angle from its axis, and none beyond the outer one.
+// A spot light as in glTF: full intensity within the inner angle from its axis, and none beyond the outer
+// one.
 struct SpotLight {
   Vec3 position{0.0};
   Vec3 direction{0, -1, 0};  // unit, the way that its light travels

@@ -135,7 +135,7 @@ class Builder {
   // Sorts the range so that what is before the place is one child's.
   size_t place_of_split(size_t begin, size_t end, int level) {
     if (end - begin == 2) return begin + 1;
-    // As many levels as are left must do for the larger half.
+    // The levels that are left must suffice for the larger half.
     if (end - begin > size_t{1} << (LightBvh::deepest - level - 2)) return halves(begin, end);
     Bounds centers;
     for (size_t i = begin; i < end; ++i) centers.include(lights_[order_[i]].center);
@@ -181,7 +181,7 @@ class Builder {
     return std::clamp(int(share * bins), 0, bins - 1);
   }
 
-  // As many lights in one as in the other, along the longest axis.
+  // Both halves have equally many lights, along the longest axis.
   size_t halves(size_t begin, size_t end) {
     Bounds centers;
     for (size_t i = begin; i < end; ++i) centers.include(lights_[order_[i]].center);

@@ -14,8 +14,9 @@
 
 namespace eyeray::engine {
 
-// Where light comes from, and which way it goes: from within the sphere, along normals that are no more than
-// `spread` from the axis, and from there no more than `reach`. Angles in radians; a spread of π is every way.
+// Bounds of the origins and directions of light: it comes from within the sphere, along normals that are no
+// more than `spread` from the axis, and at no more than `reach` from those. Angles in radians; a spread of π
+// is every way.
 struct LightBounds {
   Vec3 center{0};
   double radius = 0;

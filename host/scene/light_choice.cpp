@@ -74,7 +74,7 @@ double strength(const Light& light) {
   if (const auto* point = std::get_if<PointLight>(&form)) return M_PI * luminance(point->intensity);
   return 0;
 }
-// A convex body shows a quarter of its area on the mean.
+// A convex body shows a quarter of its area on average.
 double strength(const Emitter& emitter) {
   return (is_flat(emitter.form) ? 1 : 0.25) * emitter.area * luminance(emitter.radiance);
 }

@@ -1,5 +1,5 @@
-// How likely each light of a scene is chosen: for integrators that cast one shadow ray at each vertex of a
-// path.
+// The probability of choosing each light of a scene, for integrators that cast one shadow ray at each vertex
+// of a path.
 #pragma once
 
 #include "host/scene/emitters.hpp"
@@ -15,14 +15,15 @@ struct LightChoice {
   std::vector<uint32_t> ends;
   LightBvh bvh = {};
 
-  // How likely light i is chosen, if it is not in `bvh`.
+  // The probability of choosing light i, if it is not in `bvh`.
   double share(size_t i) const { return (ends[i] - (i == 0 ? 0 : ends[i - 1])) * 0x1p-24; }
   // By how many numbers the BVH is chosen.
   uint32_t bvh_numbers() const;
 };
 
-// As the scene's `light_sampler` says: evenly, or by power, a sixteenth of it evenly; by the BVH those that
-// have a place, and all others by power. Error (bad_input) where more than 2²⁰ surfaces emit.
+// The choice that the scene's `light_sampler` sets: uniform, or by power with a sixteenth of it uniform, or
+// by the BVH for lights that have a position and by power for all others. Error (bad_input) where more than
+// 2²⁰ surfaces emit.
 LightChoice light_choice(const Scene& scene);
 
 }  // namespace eyeray::engine

@@ -1,4 +1,4 @@
-// What every material answers, in float64. A material is one .cpp in host/materials, one .glsl in
+// The interface of materials, in float64. A material is one .cpp in host/materials, one .glsl in
 // shaders/materials and one row in materials/rows.h.
 #pragma once
 
@@ -16,9 +16,9 @@ namespace records {
 class Packer;  // records/packer.hpp
 }
 
-// What fills a closed shape, or all that is outside of them. Light is weakened by exp(−absorption ·
-// distance), and for paths also by scattering, which sends it elsewhere. By Henyey and Greenstein: g, the
-// mean cosine of the angle by which it is turned.
+// The medium in a closed shape, or outside of all. Light is weakened by exp(−absorption · distance), and for
+// paths also by scattering into other directions. The phase function is Henyey's and Greenstein's: g is the
+// mean cosine of the scattering angle.
 struct Medium {
   double ior = 1.0;
   Vec3 absorption{0.0};  // per unit of length, as scattering
@@ -27,7 +27,7 @@ struct Medium {
 };
 constexpr double most_anisotropy = 0.99;
 
-// How a surface point scatters light towards the viewer, after Whitted 1980.
+// The light that a surface point scatters towards the viewer, after Whitted 1980.
 struct Scattering {
   Vec3 ambient{0.0};   // × the scene's ambient light
   Vec3 diffuse{0.0};   // × light · cos θ
@@ -36,10 +36,10 @@ struct Scattering {
   bool blinn = false;     // lobe (n·h)^shininess instead of Phong's (r·l)^shininess
   Vec3 reflected{0.0};    // × what the mirror direction sees
   Vec3 transmitted{0.0};  // × what the refracted direction sees; 0 under total internal reflection
-  Vec3 emitted{0.0};      // light of its own
+  Vec3 emitted{0.0};      // radiance that the point emits
 };
 
-// What a material may depend on at a point.
+// The values at a point on which a material may depend.
 struct ScatteringContext {
   TextureContext place;
   double cos_view;  // cosine between the shading normal and the direction back along the ray, in [0, 1]
@@ -49,9 +49,9 @@ struct ScatteringContext {
   Vec3 coat_normal{0, 0, 1};  // in the surface's own frame, whose z is the shading normal
 };
 
-// Where the alpha, times that of a mesh's vertices, is below a limit, there is no surface: below `cutoff`, or
-// where the material blends below a random number of each ray, which so hits it with a probability of its
-// alpha.
+// There is no surface where the alpha, times that of a mesh's vertices, is below a limit. The limit is
+// `cutoff`, or for a material that blends a random number of each ray, so that a ray hits it with a
+// probability of alpha.
 struct AlphaMask {
   TexturePtr alpha;     // by Texture::alpha_at
   double cutoff = 0.5;  // above 0
@@ -87,12 +87,12 @@ class Material {
   virtual Bsdf bsdf(const ScatteringContext& context, const Scattering& scattering) const;
   // The colour that `raycast` shades.
   virtual Vec3 base_color(const TextureContext& place) const = 0;
-  // Whether it has light of its own, and that light where it is the same everywhere.
+  // True if the material emits. Below: the emitted light if it is constant.
   virtual bool emits() const { return false; }
   virtual std::optional<Vec3> constant_emission() const { return std::nullopt; }
   // Set for materials that fill their shape and let rays through.
   virtual std::optional<Medium> medium() const { return std::nullopt; }
-  // Whether paths take it for a pane, which has no inside, whatever `medium` says.
+  // True if paths take it for a pane, which has no inside, whatever `medium` is.
   virtual bool thin() const { return false; }
   // The share of a shadow ray's light that passes a shape of this material, however often it crosses it.
   virtual double shadow_transmittance() const { return 0.0; }
@@ -100,7 +100,7 @@ class Material {
   virtual void pack(records::Packer& packer) const = 0;
 
   std::string name;
-  bool emits_in_front = false;    // light of its own only where normals point; else on both sides
+  bool emits_in_front = false;    // emits only on the side of the normals; else on both sides
   bool front_only = false;        // of meshes: rays from behind do not hit it, and it emits in front
   std::optional<AlphaMask> mask;  // never where there is a medium
   std::optional<NormalMap> normal_map;

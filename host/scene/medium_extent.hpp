@@ -13,9 +13,9 @@ struct MediumExtent {
   double scale_height = std::numeric_limits<double>::infinity();
   double base = 0;
 
-  // Whether the medium fills all space evenly.
+  // True if the medium fills all space evenly.
   bool endless() const;
-  // Whether a ray in direction d, from a point of the medium, never leaves it.
+  // True if a ray in direction d, from a point of the medium, never leaves it.
   bool endless_towards(const Vec3& d) const;
   // The box that holds the medium for all executors: that of min and max, less what lies more than 40 scale
   // heights above `base`, where the density is below 1e-17.

@@ -13,9 +13,9 @@
 
 namespace eyeray::engine {
 
-// Triangles that share their vertices, in a space of their own. Whoever makes one sees to it that indices are
-// in range, that every value is finite, that no triangle is without area, and that the normal at each corner
-// is on the side of its triangle's own, which is where the corners run counter-clockwise.
+// Triangles that share their vertices, in object space. The code that makes a mesh must ensure that indices
+// are in range, that every value is finite, that no triangle is without area, and that the normal at each
+// corner is on the side of its triangle's own, which is where the corners run counter-clockwise.
 struct Mesh {
   std::string name;  // for messages: the file, and what the file calls it
   std::vector<Vec3> positions;

@@ -1,4 +1,4 @@
-// What a scene's file calls its shapes, meshes and groups.
+// The names of shapes, meshes and groups in a scene's file.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ class Names {
   // "cart/wheel 3": the names of its groups, then its own; "" for none.
   std::string path(int32_t index) const;
 
-  // How many add() took in.
+  // The number of names added.
   size_t size() const { return entries_.size(); }
 
  private:

@@ -1,4 +1,4 @@
-// What primitive indices stand for: which shape, or which triangle of which mesh, by the words of the file.
+// The objects that primitive indices stand for: a shape, or a triangle of a mesh, named as in the file.
 #pragma once
 
 #include "host/scene/primitive_ids.hpp"
@@ -40,7 +40,7 @@ class Objects {
 
 // The names of its groups, then its own; "" where there are none.
 std::string path(const Object& object, const Names& names);
-// As describe() of a name.
+// Describes an object, like describe() of a name.
 std::string describe(const Object& object, const Names& names);
 
 }  // namespace eyeray::engine

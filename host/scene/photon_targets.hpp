@@ -1,4 +1,5 @@
-// What photons are aimed at: what bundles light into caustics, and is hit by few photons where it is small.
+// The targets at which photons are aimed: objects that focus light into caustics, and are hit by few photons
+// if they are small.
 #pragma once
 
 #include <vector>
@@ -23,7 +24,7 @@ inline constexpr size_t most_photon_targets = 16;
 // of what has no end, or is wider than half of `reach`, the scene's radius: photons find that by themselves.
 std::vector<PhotonTarget> photon_targets(const Scene& scene, double reach);
 
-// Whether photons may stay on it: its roughness may be a texture's, which may be anything.
+// True if the material may store photons. A roughness from a texture may have any value.
 bool scatters_widely(const Material& material);
 
 }  // namespace eyeray::engine

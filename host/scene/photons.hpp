@@ -1,4 +1,5 @@
-// What photons are sent out and gathered by (docs/photon-mapping.md): numbers that all executors share.
+// The settings by which photons are emitted and gathered (docs/photon-mapping.md): numbers that all executors
+// share.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +18,7 @@ struct PhotonSettings {
   std::vector<PhotonTarget> targets = {};  // that photons are aimed at
 };
 
-// What became of a photon.
+// The decisions of a photon, and the points where it is stored.
 struct PhotonWay {
   uint32_t trail = 0;  // what it decided on its way, as PixelSample::trail
   Vec3 places{0};      // the sum of those where it stays
@@ -33,8 +34,8 @@ struct LeftOutPhotons {
   }
 };
 
-// Where the scene names no radius, it is two pixels wide as seen at the middle of all that has an end, or, if
-// nothing has, where the camera looks.
+// If the scene sets no radius, it is two pixels wide as seen at the middle of all bounded objects, or at the
+// camera's target if there are none.
 PhotonSettings photon_settings(const Scene& scene);
 
 // The radius of sample `index`. Variance grows as it shrinks, and bias falls; by this choice the mean of all

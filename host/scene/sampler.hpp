@@ -15,7 +15,7 @@ enum class SamplePattern : uint32_t {
 #undef X
 };
 
-// As `pattern` in [image] names them.
+// The values of `pattern` in [image].
 inline constexpr std::string_view sample_patterns[] = {
 #define X(name, ...) #name,
     SAMPLERS(X)

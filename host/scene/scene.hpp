@@ -63,7 +63,7 @@ struct RenderSettings {
   Vec3 ambient{0.0};         // light that reaches every point from everywhere
 };
 
-// What `eyeray verify` is told of a scene.
+// A scene's settings for `eyeray verify`.
 struct VerifySettings {
   double max_explained = 0.005;  // the share of pixels that may differ for a reason
 };

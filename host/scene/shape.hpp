@@ -33,7 +33,7 @@ struct Intersection {
   double u = 0;
   double v = 0;
   uint32_t part = 0;             // of a CSG object, whose surface it is
-  bool iteration_limit = false;  // it hits nothing up to t; beyond, the steps allowed did not suffice to tell
+  bool iteration_limit = false;  // it hits nothing up to t; beyond, the allowed steps did not suffice
 };
 
 // A stretch of a ray's line, from where it enters a closed shape to where it leaves it.
@@ -105,7 +105,7 @@ struct PlaneForm {
 struct TriangleForm {
   std::array<Vec3, 3> vertices;
 };
-// The rest in a space of their own, which `to_world` maps.
+// The other forms are in object space, which `to_world` maps.
 struct BoxForm {  // the cube from −1 to 1
   Mat4 to_world;
 };
@@ -156,7 +156,7 @@ using ShapeForm =
     std::variant<std::monostate, SphereForm, PlaneForm, TriangleForm, BoxForm, DiskForm, CapsuleForm,
                  QuadricForm, TorusForm, SuperellipsoidForm, PolygonForm, ExtrusionForm, BezierForm, CsgForm>;
 
-// A formula that bounds a shape: negative within, on one side of a box of its own space.
+// A formula that bounds a shape: negative within, in a box of object space.
 struct FormulaUse {
   std::shared_ptr<const formula::Formula> formula;
   Bounds box;

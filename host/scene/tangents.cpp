@@ -26,7 +26,7 @@ uint32_t split(Mesh& mesh, uint32_t vertex) {
   return uint32_t(mesh.positions.size() - 1);
 }
 
-// What lies along `d` in the plane square to the unit `n`; 0 where nothing does.
+// The normalised component of `d` perpendicular to the unit `n`; 0 if there is none.
 Vec3 across(const Vec3& d, const Vec3& n) {
   const Vec3 left = d - n * glm::dot(n, d);
   return magnitude(left) > 1e-12 * magnitude(d) ? unit(left) : Vec3(0);

@@ -37,7 +37,7 @@ class Texture {
   virtual Vec3 at(const TextureContext& place) const = 0;
   // The colour of one that is the same everywhere.
   virtual std::optional<Vec3> constant() const { return std::nullopt; }
-  // As an alpha.
+  // The texture's value as an alpha.
   virtual double alpha_at(const TextureContext& place) const { return at(place).x; }
   // The same with the codes of pictures as they are, for what is no colour; null: there are none.
   virtual TexturePtr as_data() const { return nullptr; }

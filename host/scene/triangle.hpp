@@ -30,7 +30,8 @@ struct UvGradients {
   Vec3 u, v;
 };
 UvGradients uv_gradients(const Corners& corners, const std::array<Vec2, 3>& uv);
-// How a point of it moves with each of the two: the same the other way round; 0 where that is not one to one.
+// The derivatives of a point of the triangle by u and v, the inverse of the gradients; 0 if the mapping is
+// not one to one.
 std::pair<Vec3, Vec3> along_uv(const Corners& corners, const std::array<Vec2, 3>& uv);
 // Those of a triangle without any: the weights of the second and third corner.
 inline constexpr std::array<Vec2, 3> corner_weights{Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)};
