@@ -2,7 +2,7 @@
 
 namespace eyeray::engine {
 
-// How an executor finds hits; which hits they are does not depend on it.
+// The method by which an executor finds hits. The hits themselves do not depend on it.
 enum class Acceleration {
   automatic,    // a BVH, unless there is next to nothing to leave out
   bvh,          // a BVH over all that has bounds

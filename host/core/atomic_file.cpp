@@ -72,7 +72,7 @@ AtomicFile::AtomicFile(const fs::path& path, unsigned mode) : named_(path), path
   if (replaces && !S_ISREG(replaced.st_mode))
     throw Error(ExitCode::file_io, "cannot write {}: it is not a regular file", printable(named_.string()));
 
-  // A name of its own, even where one program writes a file twice at once or a killed one left its part.
+  // The name is unique, even if one program writes a file twice at once or a killed one left its part.
   const std::string stem = path_.string() + ".part." + std::to_string(::getpid());
   part_ = stem;
   UnfinishedFiles unfinished;

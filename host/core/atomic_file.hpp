@@ -26,7 +26,7 @@ class AtomicFile {
   void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
   // At `offset` from the file's start; places never written read as 0.
   void write_at(uint64_t offset, std::span<const std::byte> bytes);
-  // What was written there.
+  // Reads bytes that were written at `offset`.
   void read_at(uint64_t offset, std::span<std::byte> bytes) const;
   // Syncs and renames; nothing may be written afterwards.
   void commit();

@@ -6,8 +6,8 @@
 
 namespace eyeray::engine {
 
-// CRC-32 (that of zip, PNG and IEEE 802.3) of `bytes`, after what `so_far` is the sum of. Tells damage, not
-// malice.
+// CRC-32 (that of zip, PNG and IEEE 802.3) of `bytes`, which follow the bytes that `so_far` is the sum of. It
+// detects damage, not malice.
 uint32_t crc32(std::span<const std::byte> bytes, uint32_t so_far = 0);
 
 }  // namespace eyeray::engine

@@ -1,4 +1,4 @@
-// What is wrong with a text that a person wrote (scene or shader), shown the way compilers show it.
+// An error in a text that a person wrote (scene or shader), shown in the way of compilers.
 #pragma once
 
 #include <span>

@@ -44,7 +44,7 @@ class DiagnosticLog {
   void set_damaged() { damaged_ = true; }
   bool damaged() const { return damaged_; }
 
-  // Whether what is added from now on is only counted, so that its words need no care.
+  // True if diagnostics added from now on are only counted, so that their text does not matter.
   bool full() const;
 
   bool has_errors() const { return errors_ > 0; }

@@ -1,4 +1,4 @@
-// What was compiled once, kept for the next start.
+// A cache on disk of compiled code, kept for the next start.
 #pragma once
 
 #include <filesystem>
@@ -26,7 +26,7 @@ class DiskCache {
   // Warnings, a sentence each: that the folder, or one in it, is there and not used, and why.
   std::vector<std::string> warnings() const;
 
-  // What was stored under `name`, a file name.
+  // The bytes stored under `name`, a file name. Empty if there are none.
   std::optional<std::string> load(std::string_view name) const;
   void store(std::string_view name, std::string_view bytes) const;
 

@@ -9,8 +9,8 @@ namespace eyeray::engine {
 // Every file of shaders/, "shapes/sphere.glsl", as it was when eyeray was built.
 std::span<const EmbeddedFile> embedded_shaders();
 
-// What they need to be compiled as C++, beside the standard library: the program's own files, GLM's, and what
-// CMake writes. Names are paths below a folder that has them under "shaders".
+// The files that shaders need to be compiled as C++, beside the standard library: the program's own files,
+// GLM's, and what CMake writes. Names are paths below a folder that has them under "shaders".
 std::span<const EmbeddedFile> twin_sources();
 
 }  // namespace eyeray::engine

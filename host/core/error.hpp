@@ -10,7 +10,7 @@
 
 namespace eyeray::engine {
 
-// What the process answers to its caller; docs/command-line.md lists the same numbers.
+// The exit codes of the process. docs/command-line.md lists the same numbers.
 enum class ExitCode : int {
   ok = 0,
   comparison_failed = 1,
@@ -41,7 +41,8 @@ class Error : public std::runtime_error {
 // A fault of eyeray's own (internal), with the request to report it: nobody else can mend it.
 Error own_fault(const std::string& what);
 
-// What work() gives, which reads nothing of the user's: bad input there is a fault of eyeray's own.
+// Returns the result of work(), which reads no input of the user's: an error of bad input there is a fault of
+// eyeray itself.
 template <typename Work>
 auto of_own_input(const Work& work) {
   try {

@@ -1,4 +1,4 @@
-// Which files a file may refer to: those in the folder trees that were allowed, links followed.
+// The files that a file may refer to: those in the allowed folder trees, links followed.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@ class FolderTrees {
   // Allows everything below `folder`; "" is the working directory. A folder that does not exist has nothing
   // in it.
   void allow(const std::filesystem::path& folder);
-  // Whether `file`, which need not exist, lies in one of the trees once its links are followed.
+  // True if `file`, which need not exist, lies in one of the trees once its links are followed.
   bool hold(const std::filesystem::path& file) const;
 
  private:

@@ -1,11 +1,11 @@
-// What to do about too little memory where nobody can catch std::bad_alloc: in a driver and its threads.
+// Handles a shortage of memory where nobody can catch std::bad_alloc: in a driver and its threads.
 #pragma once
 
 #include <cstddef>
 
 namespace eyeray::engine {
 
-// Whether so many bytes of address space can still be had (ulimit -v).
+// True if so many bytes of address space can still be mapped (ulimit -v).
 bool address_space_left(size_t bytes);
 
 // From now on a std::bad_alloc that nobody catches, and a crash with hardly any memory left, is a message and

@@ -1,4 +1,4 @@
-// What executors produce for a pixel: the currency in which they are compared.
+// The results of executors for a pixel, by which they are compared.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,8 @@ struct PixelSample {
   bool cut_off = false;            // whether `max_depth` ended its path; of those that walk at random
 };
 
-// What a denoiser asks of one sample of one pixel: of the first vertex of its path that sends light in more
-// than a direction or two. Of what shines, the sky included, the albedo is 1; of the sky the normal is 0.
+// A denoiser's auxiliary values of one sample: those of the first vertex of its path that scatters light into
+// more than a direction or two. The albedo of emitters, the sky included, is 1. The normal of the sky is 0.
 struct AuxiliarySample {
   Vec3 albedo{0.0};
   Vec3 normal{0.0};  // world, unit, shading normal towards where the path comes from
@@ -46,7 +46,7 @@ struct SearchCost {
   int64_t tests = -1;  // primitives tested
 };
 
-// What the eye ray through the centre of a pixel hits first.
+// The first hit of the camera ray through the centre of a pixel.
 struct FirstHit {
   double t = std::numeric_limits<double>::infinity();  // infinity where nothing is hit
   Vec3 position{0.0};                                  // world

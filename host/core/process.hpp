@@ -30,14 +30,14 @@ class Process {
   bool wait_for_error_text(const std::string& text, double seconds, size_t from = 0);
   void send_signal(int number);
 
-  // What it has written so far.
+  // The process's output so far.
   const std::string& out() const { return out_; }
   const std::string& err() const { return err_; }
   // The exit code, or 128 + the signal that ended it; nothing while it runs.
   std::optional<int> code() const { return code_; }
-  // What all its threads took of the processors; 0 while it runs.
+  // Processor time of all its threads in seconds; 0 while it runs.
   double processor_seconds() const { return processor_seconds_; }
-  // How often memory was new to it; 0 while it runs.
+  // The number of its page faults; 0 while it runs.
   long page_faults() const { return page_faults_; }
   pid_t pid() const { return pid_; }
 

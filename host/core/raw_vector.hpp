@@ -29,7 +29,7 @@ struct RawAllocator : std::allocator<T> {
   }
 };
 
-// Whoever calls resize() writes every new element.
+// A caller of resize() must write every new element.
 template <typename T>
 using RawVector = std::vector<T, RawAllocator<T>>;
 

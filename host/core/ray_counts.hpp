@@ -1,4 +1,4 @@
-// How many rays of each kind were traced, as the statistics of ray tracers are published.
+// The numbers of rays traced, by kind, as statistics of ray tracers are published.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ struct RayCounts {
   // Adds a sample of an executor that counts rays by kind.
   void add(const PixelSample& sample) {
     ++eye;
-    // Whatever an eye ray leads to begins with what it hits.
+    // A sample counts hits only if its camera ray hits something.
     eye_hits += sample.hits > 0;
     reflected += sample.reflected;
     refracted += sample.refracted;
@@ -30,7 +30,7 @@ struct RayCounts {
     shadow += uint64_t{sample.rays} - 1 - sample.reflected - sample.refracted;
   }
 
-  // Those of other samples.
+  // Adds the counts of other samples.
   void add(const RayCounts& other) {
     eye += other.eye;
     eye_hits += other.eye_hits;

@@ -28,7 +28,7 @@ void RayRecorder::back(uint32_t depth) {
 
 void RayRecorder::value(ProbedValue value) {
   if (!has_room()) return;
-  // As in pictures there is no −0: its sign is the compiler's choice.
+  // There is no −0, as in pictures: its sign is the compiler's choice.
   for (double& number : value.numbers) number += 0.0;
   tree_.rays[current_].values.push_back(std::move(value));
 }

@@ -1,7 +1,7 @@
 // The program's end before its time: a signal, or a driver that does not come back.
 //
-// Work that takes long asks interrupted() between its pieces and ends of its own accord. What cannot ask is
-// left where it is: a thread watches, and ends the process a third of a second after it was asked to.
+// Long work calls interrupted() between its pieces, and ends by itself. Code that cannot call it is left
+// where it is: a watching thread ends the process a third of a second after it was asked to end.
 #pragma once
 
 #include <atomic>
@@ -14,17 +14,17 @@ namespace eyeray::engine {
 // Starts the watch; main calls it, once, and so does a forked child that is to have one. SIGINT, SIGTERM and
 // SIGHUP (unless that is ignored, as under nohup) then end the process from whatever state it is in,
 // UnfinishedFiles removed; a second one does so even while something is saved. Signals within a tenth of a
-// second are one: timeout(1) sends its signal to the process and then to the group. `report` is told why, by
-// the watching thread, if standard output and error take it.
+// second are one: timeout(1) sends its signal to the process and then to the group. The watching thread calls
+// `report` with the reason, if standard output and error take it.
 void watch_for_termination(std::function<void(const Error&)> report);
 
 // From now on a signal ends the process without a word: who sent it knows.
 void end_silently();
 
-// Whether a signal has asked the process to end. Safe from any thread.
+// True if a signal has asked the process to end. Safe from any thread.
 bool signalled();
 
-// Whether a signal has asked to stop, or whoever calls eyeray as a library. Safe from any thread.
+// True if a signal, or a program that uses eyeray as a library, has asked to stop. Safe from any thread.
 bool interrupted();
 
 // While one is alive, interrupted() asks `stop` too. One at a time; `stop` must outlive it.
@@ -41,7 +41,7 @@ inline void stop_if_interrupted() {
   if (interrupted()) throw Error(ExitCode::interrupted, "interrupted");
 }
 
-// What the process answers to its caller: the code, and where that is `interrupted` 128 + the signal.
+// The exit status of the process: the code, or 128 + the signal if the code is `interrupted`.
 int exit_status(ExitCode code);
 
 // Why a command ends that has too little memory.
@@ -60,9 +60,10 @@ class Saving {
   Saving& operator=(const Saving&) = delete;
 };
 
-// A call of something that does not ask and may not come back, a driver say. If it takes longer than
-// `seconds`, in which the process ran, it is to end with `error`; at once where the call does not return,
-// else when what is worth it is saved. One at a time; without the watch only passed() tells.
+// A call that cannot be interrupted and may not return, of a driver for instance. If it takes longer than
+// `seconds` of the process's running time, the process ends with `error`: at once if the call does not
+// return, else when the results worth saving are saved. One call at a time. Without the watch only passed()
+// reports it.
 class ForeignCall {
  public:
   ForeignCall(double seconds, Error error);

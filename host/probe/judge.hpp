@@ -1,5 +1,5 @@
-// Which lines of an overlay agree: gpu and twin in every bit, each of them with the reference within verify's
-// tolerances, or within what the reference shows around the pixel.
+// Judges which lines of an overlay agree: gpu and twin in every bit, and each of them with the reference
+// within verify's tolerances, or within the range that the reference shows around the pixel.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 
 namespace eyeray::engine::probe {
 
-// What a value means, by its name. `scale`: the reference's FirstHit::t_scale, for the judge alone.
+// The meaning of a value, by its name. `scale`: the reference's FirstHit::t_scale, for the judge alone.
 enum class Meaning { point, distance, direction, uv, color, scale, other };
 Meaning meaning_of(std::string_view name);
 // Before the names of what the kernel of first hits says, which the pixel has besides.

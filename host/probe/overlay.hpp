@@ -17,7 +17,7 @@ namespace eyeray::engine::probe {
 // reference itself is as far apart within a few thousandths of a pixel.
 enum class Verdict { agrees, explained, differs };
 
-// What the reference shows around the pixel.
+// The range of the reference's values around the pixel.
 struct Range {
   std::array<double, 4> low, high;
   std::vector<double> whole;  // of whole numbers and truths, each that occurs
@@ -74,7 +74,7 @@ class Overlay {
     }
     for (; next < below.size(); ++next) in_order(ray, line, below[next]);
   }
-  // How many rays lead to it; 0 for the eye's.
+  // The number of rays that lead to it; 0 for the camera ray.
   int depth(size_t ray) const;
 
  private:

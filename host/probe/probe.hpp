@@ -39,7 +39,8 @@ struct Findings {
   Overlay overlay{0};
   std::vector<std::string> hits;  // what each ray of the overlay hits, by `sphere "left eye", scene.toml:12`
 
-  // What differs first, in the order of a ray's life: a ray that not all have, or a line of it; none.
+  // The first difference in the order of a ray's life: a ray that not all executors have, or a line of a ray;
+  // or none.
   struct Place {
     size_t ray;
     std::optional<size_t> line;

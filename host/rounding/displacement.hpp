@@ -1,5 +1,5 @@
-// What float32 may do to the rays, surfaces and numbers that the reference computes in float64. By how much,
-// why, and who asks for it: docs/rounding.md.
+// The effects of float32 on the rays, surfaces and numbers that the reference computes in float64.
+// docs/rounding.md gives their amounts, their reasons, and the code that uses them.
 #pragma once
 
 #include <cstdint>
@@ -18,10 +18,10 @@ struct Displacement {
   bool along_normal = false;  // they always leave along it; and what a ray runs along shows its other side
   uint32_t seed = 0;          // of the shifts
   TextureChoice textures = TextureChoice::at_hit;
-  bool coincident = false;   // of two surfaces that float32 cannot tell apart, the farther one is hit
+  bool coincident = false;   // the farther of two surfaces that float32 cannot distinguish is hit
   uint32_t numbers = 0;      // unless 0, a seed of how far each random number is off, by some units of 2^-24
   double off = 1;            // the least height above the surface, in shares; shifts take all of it
-  double photon_nearer = 0;  // by this share of the radius, of those gathered the one that tells most
+  double photon_nearer = 0;  // by this share of the radius, the gathered photon that contributes most
   double room = 0;           // and that far inside of the edges of the surface that they leave
   double pivot = 0;          // unless 0, the eye's ray turns about the point at this distance
 };
@@ -30,7 +30,7 @@ struct Displacement {
 inline constexpr double float32_share = 24 * 0x1p-24;
 // Its room, in shares (shaders/geometry/edges.glsl).
 inline constexpr double float32_room = 16 * float32_share;
-// How far a photon may lie from the reference's, as a share of the radius.
+// The largest distance of a photon from the reference's, as a share of the radius.
 inline constexpr double photon_aside = 1e-3;
 
 }  // namespace eyeray::engine::rounding

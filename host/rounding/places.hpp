@@ -1,4 +1,5 @@
-// How far beside a pixel's own place the reference is asked: where float32 may put the eye's ray.
+// The displaced positions of a pixel at which the reference is evaluated: where float32 may put the camera
+// ray.
 #pragma once
 
 #include <cstddef>

@@ -13,7 +13,7 @@ namespace eyeray::engine::verify {
 namespace {
 
 // The words that this process was started with, as a shell takes them.
-// As a shell runs it, wherever it is.
+// The command as a shell runs it, in any folder.
 std::string own_command_line() {
   const std::vector<std::string> words = own_command();
   std::string line = fmt::format("cd {} && {}", shell_word(fs::current_path().string()),

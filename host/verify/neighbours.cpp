@@ -14,7 +14,7 @@ uint64_t mix(uint64_t hash, uint64_t value) {
   return (hash ^ value) * 0x9e3779b97f4a7c15u + std::rotl(hash, 23);
 }
 
-// Adds to a neighbour's fingerprints what one sample's eye ray hits.
+// Adds the hit of one sample's camera ray to a neighbour's fingerprints.
 void add_first_hit(compare::Neighbour& neighbour, const Scene& scene, const FirstHit& hit) {
   neighbour.first_surfaces = mix(neighbour.first_surfaces, uint64_t(hit.primitive));
   if (hit.primitive < 0) return;

@@ -24,12 +24,12 @@ struct Apart {
   uint32_t number;
   PhotonWay twin, reference;
 
-  bool parted() const { return twin.trail != reference.trail; }  // by another way; else it lies aside
+  bool parted() const { return twin.trail != reference.trail; }  // it took another path; else it is displaced
   double aside() const { return glm::length(twin.places - reference.places); }
 };
 
-// Whether the reference knows of it, rounded otherwise: it goes all of the twin's way, or its own and then
-// lies half as far aside or more.
+// True if the reference explains the photon by other rounding: it takes all of the twin's path, or its own
+// path and is then displaced at least half as far.
 bool explained(const Apart& photon, const reference::PhotonTraces& traces, uint32_t index,
                uint32_t first_seed, uint32_t last_seed) {
   const auto explains = [&](const rounding::Displacement& rounded) {

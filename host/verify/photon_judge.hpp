@@ -14,10 +14,9 @@ struct JudgedPhotons {
   compare::PhotonTally tally;
 };
 
-// Those of all samples of the scene that go another way than the reference's, or the same way to other
-// places: each lights a disk of pixels. The reference must know of each, by photons of its own that are
-// rounded as float32 may round them. `renderer` is the scene's, and `ways(index)` are the twin's photons of a
-// sample.
+// The photons of all samples of the scene that take another path than the reference's, or the same path to
+// other points: each lights a disk of pixels. The reference must explain each, by photons of its own rounded
+// as float32 may round them. `renderer` is the scene's, and `ways(index)` are the twin's photons of a sample.
 JudgedPhotons judge_photons(const Scene& scene,
                             const std::function<std::vector<PhotonWay>(uint32_t index)>& ways,
                             const reference::Renderer& renderer);
