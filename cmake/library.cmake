@@ -1,5 +1,5 @@
-# eyeray for other programs: a shared library whose only symbols are those of its header, so that what it is made of (glslang, toml++, TBB's
-# templates …) meets nothing of the program's own. `find_package(eyeray)` finds what is installed (docs/library.md).
+# eyeray for other programs: a shared library whose only symbols are those of its header, so that its dependencies (glslang, toml++, TBB's
+# templates …) do not clash with the program's own. `find_package(eyeray)` finds the installed library (docs/library.md).
 configure_file(include/eyeray/version.hpp.in ${GENERATED}/include/eyeray/version.hpp @ONLY)
 target_include_directories(library PUBLIC ${CMAKE_SOURCE_DIR}/include ${GENERATED}/include)
 if(NOT EYERAY_LIBRARY)

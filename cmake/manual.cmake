@@ -1,4 +1,4 @@
-# Man pages and completions, made by the program of its own options.
+# Man pages and completions, which the program generates from its options.
 set(manual ${CMAKE_BINARY_DIR}/manual)
 add_custom_command(OUTPUT ${manual}/man1/eyeray.1 ${manual}/eyeray.bash ${manual}/_eyeray ${manual}/eyeray.fish
   COMMAND eyeray manual ${manual}/man1

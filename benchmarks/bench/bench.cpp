@@ -102,7 +102,7 @@ Report measure(const Options& options, const Listener& listener) {
     }
     return report;
   }
-  // Look at everything that may be wrong before measuring for minutes.
+  // Check everything that may be wrong before measuring for minutes.
   const bool named = !options.scenes.empty();
   const std::vector<std::string> scenes = named ? options.scenes : all_scenes();
   for (const std::string& backend : options.pictures.backends) executors::parse_backend(backend);

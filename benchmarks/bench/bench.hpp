@@ -1,5 +1,5 @@
-// What `eyeray-bench` measures: rays a second beside Embree on the same rays, and how long whole pictures and
-// their stages take beside POV-Ray.
+// The measurements of `eyeray-bench`: rays a second beside Embree on the same rays, and how long whole
+// pictures and their stages take beside POV-Ray.
 #pragma once
 
 #include <filesystem>
@@ -24,7 +24,7 @@ inline constexpr std::string_view path_scene = "scenes/path/cornell_box.toml";
 struct Options {
   std::vector<std::string> scenes;  // files, and names of standard scenes; none: all of these and the default
   PictureOptions pictures;          // `backends`, `defines`, `device`, the size and `runs` hold for rays too
-  std::vector<std::string> incoherent{""};  // ProfileOptions::incoherent, each for a gpu executor of its own
+  std::vector<std::string> incoherent{""};  // ProfileOptions::incoherent, one gpu executor for each
   // In place of rays and pictures, of path-traced scenes; without a name of path_scene.
   std::optional<PathOptions> paths;
   bool with_rays = true;
@@ -37,7 +37,7 @@ struct Report {
   std::vector<PathReport> paths;
 };
 
-// Who is told of each finding as soon as it is there. All are to be set.
+// Callbacks for each finding, called as soon as it is there. All must be set.
 struct Listener {
   std::function<void(const SceneReport&)> rays;
   std::function<void(const PictureReport&)> picture;
@@ -54,7 +54,7 @@ nlohmann::ordered_json to_json(const Report& report);
 // A report out of such an answer, as far as `changes` compares it. Error (file_io) where it cannot be read,
 // Error (bad_input) where it is something else.
 Report read_report(const std::filesystem::path& file);
-// What changed from `old` to `now`: a line for each contender that both have; "" when there is none.
+// The changes from `old` to `now`: a line for each contender that both have; "" if there is none.
 std::string changes(const Report& old, const Report& now);
 
 }  // namespace eyeray::engine::bench

@@ -1,4 +1,4 @@
-// How long `eyeray dev` takes from a save to the first new pixels.
+// Measures the time that `eyeray dev` takes from a save to the first new pixels.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -1,4 +1,4 @@
-// What a race on one or more scenes found: the figures that the table, the JSON and --compare show.
+// The findings of a race on one or more scenes: the figures that the table, the JSON and --compare show.
 #pragma once
 
 #include <filesystem>
@@ -16,7 +16,7 @@ struct BatchReport {
   std::vector<Timing> timings;
 };
 
-// What a contender made of the scene before it traced it.
+// A contender's preparation of the scene before it traces it.
 struct Build {
   std::string contender;
   double seconds = 0;
@@ -37,7 +37,7 @@ using FieldReport = std::vector<SceneReport>;
 double rate(const BatchReport& batch, const Timing& timing);
 // The fastest timing of a kind, or nullptr.
 const Timing* fastest(const BatchReport& batch, ContenderKind kind);
-// How many times as fast a timing is as the fastest of a kind; 0 where that side did not run.
+// The speed of a timing as a multiple of the fastest of a kind; 0 if that side did not run.
 double times_as_fast(const BatchReport& batch, const Timing& timing, ContenderKind kind);
 
 nlohmann::ordered_json to_json(const FieldReport& report);
@@ -45,10 +45,9 @@ nlohmann::ordered_json to_json(const FieldReport& report);
 // (bad_input) where it is something else.
 FieldReport read_field_report(const std::filesystem::path& file);
 
-// As a table, for people.
+// The report as a table, for people.
 std::string to_text(const FieldReport& report);
-// What changed from `old` to `report`: a line for each contender that both have built or on
-// a batch.
+// The changes from `old` to `report`: a line for each contender that both have built or on a batch.
 std::string changes(const FieldReport& old, const FieldReport& report);
 
 }  // namespace eyeray::engine::bench

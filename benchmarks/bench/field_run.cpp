@@ -27,7 +27,7 @@ SceneReport run_field(const std::string& name, const std::string& family, const 
        {contenders::EmbreeCalls::packets_of_8, contenders::EmbreeCalls::packets_of_16})
     contenders.push_back(contender(embree, calls));
 
-  // What the eye rays hit is where the other two batches start.
+  // The other two batches start at the hits of the camera rays.
   Batch primary = primary_batch(scene, options.width, options.height);
   std::vector<QueryHit> hits(primary.rays.size());
   embree.query(primary.rays, primary.kind, hits, contenders::EmbreeCalls::packets_of_8, true);

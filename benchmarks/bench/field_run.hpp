@@ -5,7 +5,7 @@
 namespace eyeray::engine::bench {
 
 struct FieldOptions {
-  int width = 1024;  // of the picture whose eye rays are traced
+  int width = 1024;  // of the picture whose camera rays are traced
   int height = 1024;
   int runs = 5;
   uint32_t seed = 0;  // of the bounced rays

@@ -12,13 +12,13 @@ namespace eyeray::engine::bench {
 
 class OwnContenders {
  public:
-  // Those of `backends`; of gpu one for each of `incoherent` (ProfileOptions::incoherent). The scene must
-  // outlive them. Error as make_executor.
+  // The contenders of `backends`. For gpu there is one for each of `incoherent` (ProfileOptions::incoherent).
+  // The scene must outlive them. Error as make_executor.
   OwnContenders(const Scene& scene, const std::vector<std::string>& backends,
                 const std::vector<std::string>& incoherent, const std::string& device);
 
   const std::vector<Contender>& contenders() const { return contenders_; }
-  // What they spent on packing the scene, once they have raced: some of it is done when it is first needed.
+  // The contenders' cost of packing the scene, known after the race: some of it is done on first use.
   std::vector<Build> builds() const;
 
  private:

@@ -1,5 +1,5 @@
-// How fast path-traced pictures lose their noise: paths and rays a second, the error that is left after so
-// many samples and what it cost, and the same of other renderers of the scene.
+// Measures how fast the noise of path-traced pictures falls: paths and rays a second, the error left after so
+// many samples and its cost, and the same figures of other renderers of the scene.
 #pragma once
 
 #include <filesystem>
@@ -31,9 +31,9 @@ struct PathLevel {
   Spread processor;        // seconds of all threads, of rendering alone
   Spread whole_processor;  // … and of the whole process
   uint64_t rays = 0;       // of a run; 0 where unknown
-  // Mean squared over pixels and channels: the variance over the runs, which is the error of whoever is right
-  // on the mean, or what differs from PathReport::reference; and that over the squared mean of each channel,
-  // plus 0.01.
+  // Mean squared error over pixels and channels: the variance over the runs, which is the error of an
+  // unbiased renderer, or the squared difference from PathReport::reference. Below: the same over the squared
+  // mean of each channel, plus 0.01.
   double error = 0;
   double relative_error = 0;
 
@@ -54,7 +54,7 @@ struct PathSeries {
   double error_after(double processor) const;
 };
 
-// How much the means over the regions of a picture differ from ours, in the longest runs.
+// The difference from our means over the regions of a picture, in the longest runs.
 struct Likeness {
   std::string name;
   int regions = 0;              // times three channels
@@ -92,7 +92,7 @@ EqualTime at_equal_time(const PathSeries& first, const PathSeries& second);
 // likeness there, or is not for `path`.
 PathReport measure_paths(const std::string& scene, const PathOptions& options);
 
-// As a table, for people.
+// The report as a table, for people.
 std::string to_text(const PathReport& report);
 nlohmann::ordered_json to_json(const PathReport& report);
 // The path reports of an answer of `eyeray-bench --json`, as far as path_changes compares them. Error as

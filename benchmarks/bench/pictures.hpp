@@ -1,4 +1,5 @@
-// Whole pictures: every run a process of its own, contenders in turns, POV-Ray among them.
+// Measures whole pictures: every run is a separate process, and contenders, POV-Ray among them, run
+// alternately.
 #pragma once
 
 #include <filesystem>
@@ -27,7 +28,7 @@ struct PictureOptions {
   uint64_t primitives = 0;             // of the scene, to say what memory each takes; 0: not said
 };
 
-// What the runs of one contender took.
+// The times of one contender's runs.
 struct SeriesReport {
   std::string name;                                    // "gpu", "povray", "cold start"
   std::string device;                                  // "gpu: llvmpipe …"
@@ -38,7 +39,7 @@ struct SeriesReport {
 };
 
 struct PictureReport {
-  // How much less time the gpu takes than POV-Ray.
+  // The ratio of POV-Ray's time to the gpu's.
   struct PovrayRatio {
     double tracing = 0, whole_process = 0;
   };
@@ -56,7 +57,7 @@ struct PictureReport {
 PictureReport measure_pictures(const std::string& name, const std::filesystem::path& scene,
                                const PictureOptions& options);
 
-// As a table, for people.
+// The report as a table, for people.
 std::string to_text(const PictureReport& report);
 nlohmann::ordered_json to_json(const PictureReport& report);
 // The pictures of an older answer of `eyeray-bench --json`, as far as picture_changes compares them. Error

@@ -8,7 +8,7 @@
 namespace eyeray::engine::bench {
 namespace {
 
-// As measure_pictures names them.
+// The names that measure_pictures gives to stages.
 constexpr std::string_view starts[] = {"cold start", "warm start"};
 
 std::string format_spread(const Spread& spread) {

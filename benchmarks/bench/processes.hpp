@@ -1,4 +1,4 @@
-// What a picture or an animation costs, by how many processes render it.
+// Measures the cost of a picture or an animation by the number of processes that render it.
 #pragma once
 
 #include <filesystem>

@@ -12,7 +12,7 @@
 
 namespace eyeray::engine::bench {
 
-// What one run took.
+// The cost of one run.
 struct TimedRun {
   std::vector<std::pair<std::string, double>> seconds;  // by stage, "whole process" first
   uint64_t rays = 0;
@@ -51,7 +51,7 @@ void check_blender();
 TimedRun run_povray(const std::filesystem::path& scene, int width, int height,
                     const std::filesystem::path& output);
 
-// The same by radiosity, to an .hdr.
+// Renders the scene by POV-Ray's radiosity, to an .hdr.
 TimedRun run_povray_radiosity(const std::filesystem::path& scene, int width, int height,
                               const std::filesystem::path& output);
 // Blender on a script of contenders/cycles_scene.hpp. Error when it fails.

@@ -24,7 +24,7 @@ struct Contender {
   std::function<double(const Batch&, std::span<QueryHit>)> query;
 };
 
-// What one contender did on one batch.
+// The timing of one contender on one batch.
 struct Timing {
   std::string contender;
   ContenderKind kind = ContenderKind::ours;
@@ -35,7 +35,7 @@ struct Timing {
 // Whether two hits are the same to within 1e-3 of t. Primitives are not compared: on an edge either is right.
 bool agree(const QueryHit& a, const QueryHit& b);
 
-// One round that is not timed, whose hits are compared, then `runs` that are. Error (interrupted) after
+// Runs each contender once untimed, to compare hits, then `runs` times timed. Error (interrupted) after
 // Ctrl-C.
 std::vector<Timing> race(const Batch& batch, std::span<const Contender> contenders, int runs);
 

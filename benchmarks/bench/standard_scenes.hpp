@@ -15,7 +15,7 @@ struct StandardScene {
   std::string_view name;    // "terrain-1m"
   std::string_view family;  // "terrain": the same at another size
   Scene (*make)();          // in memory: nothing is written
-  // The same as a scene file, "NAME.toml", with a mesh beside it as .ply. Error (file_io).
+  // Writes the scene as a scene file, "NAME.toml", with a mesh beside it as .ply. Error (file_io).
   void (*write)(const std::filesystem::path& file);
 };
 

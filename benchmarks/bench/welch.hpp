@@ -1,4 +1,4 @@
-// Whether two renderers agree on the mean, judged by several runs of each under other seeds.
+// Tests whether two renderers agree on average, by several runs of each with different seeds.
 #pragma once
 
 #include <span>
@@ -21,7 +21,7 @@ struct WelchTest {
 };
 WelchTest welch(const Moments& a, const Moments& b);
 
-// How likely |t| or more is with so many degrees of freedom: Student's distribution, both sides.
+// The probability of |t| or more with so many degrees of freedom: Student's distribution, both sides.
 double student_tails(double t, double freedom);
 
 }  // namespace eyeray::engine::bench

@@ -78,7 +78,7 @@ ExitCode BenchCommand::run() const {
   };
   if (dev) return say(bench::measure_dev_loop(options.pictures.runs));
   if (frames > 0 || shards > 0) return say(process_report());
-  // Look at everything that may be wrong before measuring for minutes.
+  // Check everything that may be wrong before measuring for minutes.
   for (const std::string& backend : options.pictures.backends) executors::parse_backend(backend);
   const bench::Report old = older.empty() ? bench::Report() : bench::read_report(older);
 

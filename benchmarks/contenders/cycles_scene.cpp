@@ -57,7 +57,7 @@ std::string triangles(const std::vector<std::array<uint32_t, 3>>& corners) {
   return text + "\"\"\")";
 }
 
-// The same at any place, and seen from anywhere: what Blender is told is one colour.
+// The BSDF must be the same at every point, from every direction: Blender gets one colour.
 Bsdf only_bsdf(const Material& material) {
   const auto fail = [&](const char* what) {
     throw Error(ExitCode::bad_input, "material \"{}\" {}, which is not written for Blender", material.name,

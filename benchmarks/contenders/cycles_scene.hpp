@@ -20,7 +20,7 @@ inline constexpr std::string_view cycles_environment_file = "environment.exr";
 // spots and lenses.
 std::string cycles_scene(const Scene& scene, int width, int height);
 
-// What the script takes for the environment; nothing where there is none.
+// The script's picture of the environment; empty if there is none.
 std::optional<image::Image> cycles_environment(const Scene& scene);
 
 }  // namespace eyeray::engine::contenders

@@ -17,7 +17,7 @@ namespace {
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr size_t rays_at_once = 4096;  // a piece of parallel work
 
-// As rays and hits lie in memory between a renderer's stages.
+// The layout of rays and hits in memory between a renderer's stages.
 struct FloatRay {
   float o[3];
   float t_max;

@@ -13,7 +13,7 @@ namespace eyeray::engine::contenders {
 
 class EmbreeWorld;
 
-// How rays are handed to Embree.
+// The way in which rays are passed to Embree.
 enum class EmbreeCalls { one, packets_of_8, packets_of_16 };
 std::string_view name(EmbreeCalls calls);
 
@@ -27,13 +27,13 @@ class Embree {
   Embree(const Embree&) = delete;
   Embree& operator=(const Embree&) = delete;
 
-  // What each ray hits, and the seconds that tracing took on all cores: from float32 rays in memory to hits
-  // in memory. `coherent` is Embree's own hint.
+  // Writes the hit of each ray, and returns the seconds that tracing took on all cores: from float32 rays in
+  // memory to hits in memory. `coherent` is Embree's own hint.
   double query(std::span<const Query> rays, QueryKind kind, std::span<QueryHit> hits, EmbreeCalls calls,
                bool coherent) const;
 
   double build_seconds() const;
-  // What Embree has allocated: its copy of the geometry and its BVH.
+  // The bytes that Embree has allocated: its copy of the geometry and its BVH.
   uint64_t bytes() const;
   // "Embree 3.13.5".
   static std::string version();

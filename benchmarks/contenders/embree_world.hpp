@@ -18,7 +18,7 @@ struct EmbreeRelease {
   void operator()(RTCSceneTy* scene) const;
 };
 
-// Which of the scene's primitives an Embree geometry holds.
+// The primitives of the scene that an Embree geometry holds.
 struct EmbreePart {
   int64_t first = 0;                // the primitive of index 0 …
   std::vector<int64_t> primitives;  // … unless they are listed
@@ -39,7 +39,7 @@ class EmbreeWorld {
  public:
   explicit EmbreeWorld(const Scene& scene);
 
-  // What nearest hits are sought in, and what occludes: all that lets no light through.
+  // The scene in which nearest hits are searched. Below: the scene of occluders, which let no light through.
   RTCSceneTy* all() const { return all_.get(); }
   RTCSceneTy* opaque() const { return opaque_ ? opaque_.get() : all_.get(); }
 

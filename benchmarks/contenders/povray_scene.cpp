@@ -35,7 +35,7 @@ struct CameraText {
   CameraFrame frame = camera_frame(scene.camera, size);
   CameraAxes axes = camera_axes(scene.camera);
 
-  // POV-Ray's aperture is twice the lens' diameter, found by trial; its lenses are round.
+  // POV-Ray's aperture is twice the lens' diameter, found by trial. Its lenses are circular.
   std::string operator()(const PerspectiveCamera& camera) const {
     std::string text = plane_camera("perspective", frame);
     if (camera.aperture.radius == 0) return text;

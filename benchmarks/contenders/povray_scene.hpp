@@ -11,8 +11,8 @@ namespace eyeray::engine::contenders {
 // stands for all of them) and coloured highlights (white ones of their mean). Glass is glass, without
 // nesting. Error (bad_input) for a shape that POV-Ray has no primitive for, and for cutouts.
 std::string povray_scene(const Scene& scene, int width, int height);
-// The same lit by radiosity too, that is by what its surfaces emit and throw on each other. Error (bad_input)
-// for an environment as well.
+// The scene lit by radiosity too, that is by the light that its surfaces emit and scatter onto each other.
+// Error (bad_input) for an environment as well.
 std::string povray_radiosity(const Scene& scene, int width, int height);
 
 }  // namespace eyeray::engine::contenders
