@@ -86,7 +86,7 @@ void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* it
   for (size_t i = 0; i < count; ++i) leaf->all[i] = number_of(items[i]);
   std::sort(leaf->all, leaf->all + count);
 
-  // Lone items part from the others at nodes of their own.
+  // Separate nodes split lone items from the others.
   const uint32_t first_lone = static_cast<const BvhOptions*>(user)->first_lone;
   leaf->items = uint32_t(std::lower_bound(leaf->all, leaf->all + count, first_lone) - leaf->all);
   leaf->nodes = leaf->count - leaf->items - (leaf->items == 0 ? 1 : 0);

@@ -20,8 +20,8 @@ class BvhHistory {
  public:
   // The BVHs that follow are another scene's.
   void begin_scene() { next_ = 0; }
-  // As build_bvh, of what was built at this place of the scene before: refitted if it is over the same items
-  // and costs rays little more than it did when it was built.
+  // Builds a BVH like build_bvh, from the one built before for this part of the scene. That one is refitted
+  // if it has the same items and costs rays little more than when it was built.
   Bvh build(std::span<const Box> boxes, const BvhOptions& options);
 
  private:

@@ -1,4 +1,4 @@
-// Cameras whose columns go round the eye by equal angles: the width of the picture spans `fov`.
+// Cameras whose columns surround the eye at equal angles: the width of the picture spans `fov`.
 #pragma once
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// eyeray completion, eyeray manual: what the program knows of its own options, for shells and for man.
+// eyeray completion, eyeray manual: the program's options, for shells and for man.
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>

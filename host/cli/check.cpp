@@ -43,7 +43,7 @@ struct Inventory {
   size_t light_nodes = 0;          // of the BVH by which it does
   size_t mesh_triangles = 0;       // each mesh's, however often it is shown
   size_t bytes = 0;                // on the device, pixels not counted
-  size_t named = 0;                // shapes and meshes that have a name of their own
+  size_t named = 0;                // shapes and meshes that have their own name
   std::vector<std::string> names;  // of the first few of them: `sphere "left eye"`
 };
 

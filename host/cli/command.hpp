@@ -43,7 +43,7 @@ void add_merge(CLI::App& app, Run& run);
 // `sbatch_words`: those that stood behind --.
 void add_slurm(CLI::App& app, Run& run, const std::vector<std::string>& sbatch_words);
 void add_new(CLI::App& app, Run& run);
-// These tell of `app` itself, all of whose commands are added when they run.
+// These commands describe `app` itself, to which all commands are added before they run.
 void add_completion(CLI::App& app, Run& run);
 void add_manual(CLI::App& app, Run& run);
 
@@ -59,13 +59,13 @@ class SceneOptions {
   // The options that were given, to be pasted into another command: " -s 96x72 --spp 4".
   std::string as_written() const;
   const std::string& file() const { return file_; }
-  // The same options, with more values laid over the scene.
+  // These options, with more values that override the scene's.
   SceneOptions with_defines(const std::vector<std::string>& defines) const {
     SceneOptions options = *this;
     options.defines_.insert(options.defines_.end(), defines.begin(), defines.end());
     return options;
   }
-  // The same options for another scene.
+  // These options for another scene.
   SceneOptions for_file(const std::string& file) const {
     SceneOptions options = *this;
     options.file_ = file;

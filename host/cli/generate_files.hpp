@@ -35,9 +35,9 @@ struct Generated {
 // Error (bad_input) beyond what a mesh may have.
 void check_triangles(double triangles);
 
-// Writes the mesh, then the scene, so that no scene names a mesh that is not there, and tells what it was.
-// `make` is called once the files are known to be writable. Error: file_io where they are not, or hold what
-// somebody else made, unless forced.
+// Writes the mesh, then the scene, so that no scene names a missing mesh, and prints a summary. `make` is
+// called once the files are known to be writable. Error: file_io where they are not, or hold what somebody
+// else made, unless forced.
 void write_generated(const GenerateOutput& output, bool with_mesh, const std::function<Generated()>& make);
 
 }  // namespace eyeray::engine::cli

@@ -1,4 +1,4 @@
-// eyeray new: a small project of one's own to start from. Its files are those of host/cli/project.
+// eyeray new: creates a small project to start from. Its files are those of host/cli/project.
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <nlohmann/json.hpp>

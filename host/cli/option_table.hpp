@@ -1,5 +1,5 @@
-// The commands and options as the command line was told of them, which --help prints: what man pages and
-// completions are made of.
+// The commands and options as registered with the command line, which --help prints. Man pages and
+// completions are made from them.
 #pragma once
 
 #include <string>

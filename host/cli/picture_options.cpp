@@ -50,7 +50,7 @@ void PictureOptions::check_outputs() {
   }
 }
 
-// A part is whole pixels of the picture, in a file of its own.
+// A part is a separate file of whole pixels of the picture.
 void PictureOptions::check_shard() {
   if (classic)
     throw Error(

@@ -1,4 +1,4 @@
-// What commands say of a picture that they made.
+// The text that commands print about a picture that they made.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What there is to see: the supervisor writes it, the threads of the web server read it.
+// The state shown on the page: the supervisor writes it, the threads of the web server read it.
 #pragma once
 
 #include <condition_variable>
@@ -15,7 +15,7 @@ namespace eyeray::engine::dev {
 
 class Board {
  public:
-  // The status: one JSON object that the page is told whenever it changes. `change` is called with it.
+  // The status: one JSON object that is sent to the page whenever it changes. `change` is called with it.
   template <typename Change>
   void update(const Change& change) {
     const std::lock_guard lock(mutex_);
@@ -23,12 +23,13 @@ class Board {
     publish();
   }
 
-  // How far a row has come: with the picture of which request, up to which sample, of how many pixels one.
+  // The progress of a row: the request whose picture it is, the last sample, and the number of pixels for
+  // each rendered one.
   struct Row {
     int64_t generation = -1, sample = -1, stride = 0;
     bool operator==(const Row&) const = default;
   };
-  // What a view shows: colours, or data, which is shown in false colour.
+  // The picture of a view: colours, or data, which is shown in false colour.
   struct Picture {
     image::Image image;
     std::optional<image::FalseColor> shown_as;
@@ -40,9 +41,9 @@ class Board {
   void put_rows(const Message& message);
   // A copy of a view's picture; nothing where there is none.
   std::optional<Picture> picture(const std::string& view) const;
-  // How far the colours of "gpu" and "reference" are from each other: 0 where both are no number, infinity
-  // where one is. NaN in rows of which one has come farther than the other: their difference would say
-  // nothing. Nothing where there are no two pictures of one size.
+  // The difference of the colours of "gpu" and "reference": 0 where both are NaN, infinity where one is. NaN
+  // in rows that one of them has rendered further than the other: their difference would mean nothing. Empty
+  // if there are no two pictures of one size.
   std::optional<Picture> difference() const;
 
   // The answer to the last probe.

@@ -122,7 +122,7 @@ std::set<std::string> FileWatcher::take_changes() {
 std::set<std::string> FileWatcher::wait() {
   while (!interrupted()) {
     if (std::set<std::string> changed = take_changes(); !changed.empty()) return changed;
-    // A signal that comes just before poll() begins does not end it: look at the flag now and then.
+    // A signal that comes just before poll() begins does not end it: check the flag now and then.
     pollfd polled{fd_, POLLIN, 0};
     ::poll(&polled, 1, int(std::min(settles_in().value_or(0.1), 0.1) * 1000) + 1);
   }

@@ -12,7 +12,7 @@
 
 namespace eyeray::engine::dev {
 
-// What to watch. A file that does not exist (yet) counts as changed once it appears.
+// The files to watch. A file that does not exist (yet) counts as changed once it appears.
 struct WatchList {
   std::vector<std::filesystem::path> files;
   std::vector<std::filesystem::path> folders;  // everything below them whose name has one of `endings`
@@ -41,7 +41,7 @@ class FileWatcher {
   std::set<std::string> wait();
 
  private:
-  // What matters in a watched folder.
+  // The names of interest in a watched folder.
   struct Interest {
     std::set<std::string> names;
     bool endings = false;

@@ -36,7 +36,7 @@ struct Answer {
 
 class HttpServer {
  public:
-  // Answers a whole request. It is called on a thread of its own, several at a time; an exception from it
+  // Answers a whole request. It is called on separate threads, several at a time; an exception from it
   // becomes status 400.
   using Handler = std::function<Answer(Request)>;
 

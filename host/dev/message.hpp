@@ -1,4 +1,4 @@
-// What the supervisor and its worker tell each other.
+// Messages between the supervisor and its worker.
 #pragma once
 
 #include <nlohmann/json.hpp>

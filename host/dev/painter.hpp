@@ -11,7 +11,7 @@
 
 namespace eyeray::engine::dev {
 
-// What is looked at: the colours of an executor, or an AOV of the GPU's.
+// The picture that is viewed: the colours of an executor, or an AOV of the GPU's.
 struct View {
   executors::Backend backend = executors::Backend::gpu;
   film::Channel aov = nullptr;

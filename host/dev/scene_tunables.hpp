@@ -22,7 +22,7 @@ struct SceneTunable {
   std::array<double, 3> written{};  // of which a vec3 has three
 };
 
-// Those of a scene file's text, where each stands on a line of its own.
+// The tunables of a scene file's text, where each stands on a separate line.
 std::vector<SceneTunable> scene_tunables(std::string_view text);
 
 }  // namespace eyeray::engine::dev

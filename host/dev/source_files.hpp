@@ -15,8 +15,9 @@ class SourceFiles {
   // By the clock of files' times.
   static Clock::time_point now();
 
-  // Which files, read since `began`. Of those that are new to it, their bytes now are what later ones are
-  // compared with. What was read of a file that was written since is not known: it counts as changed, once.
+  // Sets the watched files, read since `began`. Bytes of files that are new to it are compared with later
+  // ones. If such a file was written since `began`, it is unknown which bytes were read: it counts as
+  // changed, once.
   void set(const std::set<std::filesystem::path>& files, Clock::time_point began);
   const std::set<std::filesystem::path>& files() const { return files_; }
   // Whether there is such a file.
@@ -24,12 +25,12 @@ class SourceFiles {
 
   // Those whose bytes are others than at the last call: saving what was there counts for nothing.
   std::set<std::filesystem::path> changed();
-  // The same where nobody tells of changes, on network file systems say: for every second or so. A file
-  // counts once it has stayed as it is from one call to the next.
+  // The changed files where no notifications arrive, on network file systems for instance. To be called about
+  // every second. A file counts once it has not changed between two calls.
   std::set<std::filesystem::path> changed_unnoticed();
 
  private:
-  // What tells a file's bytes without reading them; all 0 where there is none.
+  // Identifies a file's bytes without reading them; all 0 if there is no file.
   struct Stamp {
     uint64_t inode = 0, size = 0;
     int64_t seconds = 0, nanoseconds = 0;

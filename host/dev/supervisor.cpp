@@ -24,7 +24,7 @@ constexpr double patience = 5;  // beyond the worker's own time-out
 // How long what is outdated may go on: the worker may be in a driver's compiler, or wait for a device.
 constexpr double grace = 1.5;
 
-// All shaders below a folder: what might be read, where nobody could tell what is.
+// All shaders below a folder: the files that might be read, if the files read are unknown.
 std::set<fs::path> shaders_in(const fs::path& folder) {
   std::set<fs::path> found;
   std::error_code error;
@@ -98,7 +98,7 @@ ExitCode Supervisor::run() {
 void Supervisor::wait() {
   std::vector<pollfd> polled{{watcher_.descriptor(), POLLIN, 0}, {wake_, POLLIN, 0}};
   if (worker_.running()) polled.push_back({worker_.socket().descriptor(), POLLIN, 0});
-  // A signal that comes just before poll() begins does not end it: look at the flag now and then.
+  // A signal that comes just before poll() begins does not end it: check the flag now and then.
   const double longest = std::min(watcher_.settles_in().value_or(0.1), 0.1);
   ::poll(polled.data(), polled.size(), int(longest * 1000) + 1);
 }

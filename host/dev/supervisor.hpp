@@ -30,10 +30,9 @@ struct SupervisorOptions {
 
 class Supervisor {
  public:
-  // What happened, on the supervisor's thread: the worker's "stage", "rows", "done" and "failed"
-  // (render_server.hpp), and
-  // {"event": "changed", "files": […]} or {"event": "listening", "address": …}. A failure's "message" is
-  // ready for a terminal.
+  // Receives events, on the supervisor's thread: the worker's "stage", "rows", "done" and "failed"
+  // (render_server.hpp), and {"event": "changed", "files": […]} or {"event": "listening", "address": …}. A
+  // failure's "message" is ready for a terminal.
   using Report = std::function<void(const Json&)>;
   Supervisor(SupervisorOptions options, Report report);
 
@@ -70,7 +69,7 @@ class Supervisor {
   SourceFiles files_;
   std::set<std::filesystem::path> scene_files_, shader_files_;  // that the last pictures were made of
   SourceFiles::Clock::time_point began_;
-  Stopwatch since_look_;  // at files without being told
+  Stopwatch since_look_;  // at files without a notification
 
   int64_t revision_ = 0;         // of files and defines
   int64_t generation_ = 0;       // of requests

@@ -31,7 +31,7 @@ std::string path_in_environment(const std::string& program) {
   return "";
 }
 
-// Where the compiler keeps a file of its own; nothing where it has none of that name.
+// The path of one of the compiler's own files; empty if it has none of that name.
 std::string own_file(Words compiler, const std::string& name) {
   compiler.push_back("-print-file-name=" + name);
   std::string path = run_process(compiler, compiler_environment()).out;
@@ -79,7 +79,7 @@ std::vector<std::string> module_flags(const Words& compiler, const std::string& 
   Words flags{"-std=c++20", "-shared", "-fPIC", "-fvisibility=hidden", "-w", "-g3", "-O0"};
   if (const char* const own = std::getenv("CXXFLAGS"))
     for (const std::string& word : words_of(own)) flags.push_back(word);
-  // As cmake/layers.cmake has it for our own, so that the bits are the same.
+  // The flags of cmake/layers.cmake for our own code, so that the bits are the same.
   flags.insert(flags.end(),
                {"-fno-fast-math", "-ffp-contract=off", "-DEYERAY_USERS_TWIN", "-DGLM_FORCE_XYZW_ONLY"});
   if (sanitizers.empty()) return flags;

@@ -18,11 +18,11 @@ std::vector<std::string> require_cpp_compiler();
 std::vector<std::string> module_flags(const std::vector<std::string>& compiler,
                                       const std::string& sanitizers);
 
-// What it runs in: its own tools are not for what is preloaded for a module.
+// The compiler's environment, without the libraries that are preloaded for a module.
 Environment compiler_environment();
 
-// What a process must have been started with whose module has these sanitizers. Error (bad_input) where there
-// is no compiler, or none that has them.
+// The environment that a process needs from its start if its module has these sanitizers. Error (bad_input)
+// where there is no compiler, or none that has them.
 Environment sanitizer_environment(const std::string& sanitizers);
 
 }  // namespace eyeray::engine::executors

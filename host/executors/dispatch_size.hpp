@@ -8,7 +8,7 @@ namespace eyeray::engine::executors {
 // The most pixels of one dispatch: 32 MiB of samples.
 inline constexpr int64_t most_pixels = 1 << 20;
 
-// How many pixels to dispatch at a time, learnt from how long the last ones took.
+// The number of pixels to dispatch at a time, learnt from the durations of the last dispatches.
 class DispatchSize {
  public:
   int rows(int width) const { return int(std::max<int64_t>(1, pixels_ / width)); }

@@ -29,12 +29,12 @@ struct Probed {
   RayTree rays;
 };
 
-// What is known of an executor, beside its samples.
+// Facts about an executor, beside its samples.
 struct ExecutorFacts {
   // For people: "gpu: llvmpipe (LLVM 15.0.6, 256 bits), driver …", "twin: 2 threads".
   std::string description;
-  // What of the device decides bits, as its self-test found it: where that is the same, so are the samples of
-  // the same program. A device whose arithmetic is not exact is named with its driver.
+  // The properties of the device that decide bits, as found by its self-test: if they are equal, so are the
+  // samples of the same program. A device whose arithmetic is not exact is named with its driver.
   std::string arithmetic = "of the program itself";
   // The device that it is on, for executors to come (GpuOptions::open_device); null of a CPU's.
   std::shared_ptr<OpenDevice> device;
@@ -54,13 +54,13 @@ class Executor {
   // (scene/integrator.hpp). Returns false when interrupted, and both are then undefined.
   virtual bool sample(const Grid& grid, uint32_t index, std::span<PixelSample> out,
                       std::span<AuxiliarySample> auxiliaries = {}) = 0;
-  // What the ray through the centre of every pixel of `tile` hits; out.size() = tile.pixels().
+  // The first hit of the ray through the centre of every pixel of `tile`. out.size() = tile.pixels().
   virtual void first_hits(const Rect& tile, std::span<FirstHit> out) = 0;
   // Sample `index` of one pixel, and what is to be seen along its rays. Positions are the shaders', relative
   // to the eye, but the reference's. Only where ExecutorOptions::ray_kinds.
   virtual Probed probe(int x, int y, uint32_t index) = 0;
-  // What each ray hits, and the seconds that tracing alone took: by the device's clock where it has one,
-  // without the copying of rays and hits. hits.size() = batch.rays.size().
+  // Writes the hit of each ray, and returns the seconds that tracing alone took: by the device's clock where
+  // it has one, without the copying of rays and hits. hits.size() = batch.rays.size().
   virtual double query(const QueryBatch& batch, std::span<QueryHit> hits) = 0;
 
   const ExecutorFacts& facts() const { return facts_; }

@@ -9,17 +9,17 @@ namespace eyeray::engine::executors {
 // The twin can say what its samples decided, too.
 class Twin : public Executor {
  public:
-  // What the random path of that sample decides, event by event (shaders/integrators/trail.glsl). From many
-  // threads at once.
+  // The decisions of that sample's random path, event by event (shaders/integrators/trail.glsl). May be
+  // called from many threads at once.
   virtual std::vector<uint32_t> events(int x, int y, uint32_t index) const = 0;
-  // Where the scene's integrator sends out photons: the ways of those of sample `index`.
+  // The ways of the photons of sample `index`, if the scene's integrator emits photons.
   virtual std::vector<PhotonWay> photon_ways(uint32_t index) = 0;
 };
 
 std::unique_ptr<Executor> make_gpu_executor(const Scene& scene, const ExecutorOptions& options);
 std::unique_ptr<Twin> make_twin_executor(const Scene& scene, const ExecutorOptions& options);
 std::unique_ptr<Executor> make_reference_executor(const Scene& scene, const ExecutorOptions& options);
-// The same by a renderer that others use too: its BVHs are built once.
+// The reference executor with a shared renderer, whose BVHs are built once.
 std::unique_ptr<Executor> make_reference_executor(std::shared_ptr<const reference::Renderer> renderer);
 
 }  // namespace eyeray::engine::executors

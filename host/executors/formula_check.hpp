@@ -1,4 +1,4 @@
-// What can be found wrong with the formulas of a scene before anything is rendered.
+// Checks of a scene's formulas before anything is rendered.
 #pragma once
 
 #include <vector>

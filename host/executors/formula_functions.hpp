@@ -1,5 +1,5 @@
 // The GLSL of a scene's formulas: colours for textures/formula.glsl, and for shapes/implicit.glsl surfaces,
-// each with a march of its own.
+// each with its own march.
 #pragma once
 
 #include <string>

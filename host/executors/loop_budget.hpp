@@ -1,4 +1,4 @@
-// How often loops go round, for drivers that end long ones and say nothing (docs/lavapipe.md).
+// Limits on loop iterations, for drivers that silently end long loops (docs/lavapipe.md).
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace eyeray::engine::executors {
 
-// How many loop iterations a ray takes at most through what is in no BVH. Through a BVH it takes far fewer
-// than there are primitives, nobody knows how many.
+// The largest number of loop iterations of a ray through the primitives that are in no BVH. Through a BVH it
+// takes an unknown number, far fewer than there are primitives.
 uint64_t trace_iterations(const records::PackedScene& scene, bool unrolled);
 
 // Specialisation::loop_budget for such a driver. Error (no_device), which names it, where one ray may need

@@ -1,4 +1,4 @@
-// How executors are made.
+// Options for making executors.
 #pragma once
 
 #include <filesystem>
@@ -16,7 +16,7 @@ class Tunables;
 
 struct GpuOptions {
   std::string device = "auto";              // auto | cpu | gpu | INDEX | part of a NAME
-  std::shared_ptr<OpenDevice> open_device;  // taken as it is, and left open; null: one of its own
+  std::shared_ptr<OpenDevice> open_device;  // taken as it is, and left open; null: it opens one
   std::string validation;                   // "", "core" or "sync"
   double timeout_seconds = 60;              // the longest wait for one dispatch
   double least_compile_seconds = 0;         // if that is more, the longest that a kernel may compile

@@ -24,7 +24,7 @@ class PhotonKernel {
   bool send_out(uint32_t index, std::span<const uint32_t> left_out);
   // Gives the kernel what there is.
   void bind(gpu::Kernel& kernel) const;
-  // What may be wrong with any of the last that were sent out: SampleFlags.
+  // SampleFlags of the photons that were emitted last.
   uint32_t flags() const { return flags_; }
 
  private:

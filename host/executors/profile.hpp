@@ -1,4 +1,4 @@
-// How kernels are made for a device: none of it changes a hit, all of it how fast hits are found
+// The choices in making kernels for a device. They change no hit, only the speed of finding hits
 // (docs/performance.md).
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace eyeray::engine::executors {
 
-// How rays are traced: each alone on its lane (kernels/query.comp.glsl), many together
+// The ways of tracing rays: each alone on its lane (kernels/query.comp.glsl), many together
 // (kernels/cooperative/packet.comp.glsl), or each by four lanes (kernels/cooperative/bvh4.comp.glsl).
 enum class Rays { lanes, packets, cooperative };
 

@@ -1,4 +1,4 @@
-// What may be chosen about how hits are found; which hits are found does not depend on any of it.
+// Options on how hits are found. The hits do not depend on them.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What of a packed scene is uploaded, and to which binding: the one list of it.
+// The one list of the parts of a packed scene that are uploaded, and of their bindings.
 #pragma once
 
 #include <array>
@@ -18,15 +18,15 @@ struct SceneBuffer {
   bool texels;    // whether the profile may have it as a texel buffer (kernels/bindings.glsl)
   bool geometry;
 
-  // A shader may look at the first record of an empty list in a branch that is masked out.
+  // A shader may read the first record of an empty list in a branch that is masked out.
   size_t size() const { return bytes.empty() ? record : bytes.size(); }
 };
 
 // `scene` must stay.
 std::array<SceneBuffer, 16> scene_buffers(const records::PackedScene& scene);
-// What kernels need that load formulas' numbers; `words` must stay.
+// The buffer for kernels that load formulas' numbers. `words` must outlive it.
 SceneBuffer formula_numbers_buffer(std::span<const uint32_t> words);
-// What kernels/cooperative/bvh4.comp.glsl needs besides; `nodes` must stay.
+// The additional buffer of kernels/cooperative/bvh4.comp.glsl. `nodes` must outlive it.
 SceneBuffer bvh4_buffer(std::span<const shader::uvec4> nodes);
 
 }  // namespace eyeray::engine::executors

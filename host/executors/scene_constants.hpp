@@ -9,7 +9,7 @@
 
 namespace eyeray::engine::executors {
 
-// Whether these are so few that the code does not outgrow what it saves.
+// True if the records are so few that making them constants saves more than the larger code costs.
 bool few_shading_records(const records::PackedScene& scene);
 bool few_primitives(const records::PackedScene& scene);
 
@@ -17,7 +17,7 @@ bool few_primitives(const records::PackedScene& scene);
 // unrolls. Not of images: each of them is far more code than what chooses between them.
 std::string shading_as_constants(const records::PackedScene& scene, const std::set<uint32_t>& materials_used);
 
-// What is the same for all pixels, as a constant.
+// The values that are the same for all pixels, as a constant.
 std::string frame_as_constant(const shader::Frame& frame);
 
 // Geometry as constants, and the list of primitives that bvh/traverse.glsl unrolls, in the order of their

@@ -27,7 +27,7 @@ bool any_flag(const records::PackedScene& scene, uint32_t flag) {
                              [&](const shader::Material& material) { return (material.flags & flag) != 0; });
 }
 
-// Whether any material may send rays on.
+// True if any material may reflect or transmit rays.
 bool any_reflects(const records::PackedScene& scene) {
   return transmits(scene) || std::ranges::any_of(scene.materials, [&](const shader::Material& material) {
            return !is_black(scene.textures[material.reflected]);

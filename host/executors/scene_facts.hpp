@@ -1,4 +1,4 @@
-// What of a packed scene decides which code its kernels need.
+// The facts about a packed scene that decide which code its kernels need.
 #pragma once
 
 #include <set>
@@ -30,11 +30,11 @@ bool any_dims(const records::PackedScene& scene);
 bool any_scatters(const records::PackedScene& scene);
 // Whether a light is seen under an angle.
 bool any_light_disk(const records::PackedScene& scene);
-// How often a path may go on: 0 where no material sends rays on, or the integrator none.
+// The largest number of bounces of a path: 0 if no material, or not the integrator, continues rays.
 uint32_t most_bounces(const records::PackedScene& scene);
 // Whether a path may go on in two ways at once.
 bool splits(const records::PackedScene& scene);
-// How many each hit takes.
+// The number of shadow rays at each hit.
 uint32_t shadow_rays(const records::PackedScene& scene);
 // Whether paths draw random numbers on their way.
 bool walks_at_random(const records::PackedScene& scene);

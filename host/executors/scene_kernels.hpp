@@ -26,7 +26,7 @@ inline constexpr const char* trace_entries[] = {
 
 class SceneKernels {
  public:
-  // What they are made of and with; all of it must outlive them.
+  // The parts and tools that kernels are made from. All must outlive the kernels.
   struct Workshop {
     OpenDevice& device;
     StageTimes& times;

@@ -1,5 +1,5 @@
-// Where shader text comes from: made for the scene, a folder laid over the embedded shaders, or the embedded
-// shaders.
+// The sources of shader text: text made for the scene, a folder that overrides embedded shaders, and the
+// embedded shaders.
 #pragma once
 
 #include <filesystem>
@@ -23,9 +23,9 @@ class ShaderFiles {
   std::optional<std::string> read(std::string_view name);
   // For a file of the folder: eyeray's own text, empty where eyeray has no such file. Else nothing.
   std::optional<std::string_view> replaced(std::string_view name) const;
-  // As people know it: the path in the folder if the text came from there, else the name.
+  // The name for people: the path in the folder if the text came from there, else the name.
   std::string shown(const std::string& name) const;
-  // Whether any text came from the folder: without, what does not compile is a fault of eyeray's own.
+  // True if any text came from the folder. If none did, an error of compilation is a fault of eyeray itself.
   bool gave_users() const { return gave_users_; }
   // The paths in the folder that were looked for, there or not: what a watcher watches.
   const std::set<std::filesystem::path>& looked_for() const { return looked_for_; }

@@ -17,14 +17,14 @@ class ShaderProbe {
   // `files`: name → text.
   explicit ShaderProbe(const std::map<std::string, std::string, std::less<>>& files);
 
-  // What makes of kernels/render.comp.glsl one that records.
+  // The defines that make kernels/render.comp.glsl record.
   std::string defines() const;
-  // How many records BINDING_PROBE's buffer has.
+  // The number of records in BINDING_PROBE's buffer.
   static constexpr size_t capacity = size_t{RayRecorder::most} + 1;
-  // The tree that they tell.
+  // The tree of rays that the records describe.
   RayTree tree(std::span<const shader::ProbeRecord> records) const;
 
-  // Says of each value from which file it comes, as its name and line tell.
+  // Sets the file of each value, found by the value's name and line.
   void name_files(RayTree& tree) const;
 
  private:

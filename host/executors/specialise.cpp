@@ -131,7 +131,7 @@ std::string defines(const records::PackedScene& scene, const Used& used, const S
     define(fmt::format("UV_{}", shape.name), used.with_uv.contains(shape.number) ? "true" : "false");
   }
   text += "#define KIND_FIRST(name) FIRST_##name\n#define KIND_END(name) END_##name\n";
-  // Whoever looks at hits looks at uv too.
+  // Kernels that need hits need uv too.
   text +=
       "#if defined FIRST_HITS || defined PROBING\n#define UV_OF(name) true\n#else\n#define UV_OF(name) "
       "UV_##name\n#endif\n";

@@ -22,7 +22,7 @@ struct Specialisation {
   uint32_t group_stride = 1;  // kernels/render.comp.glsl: runs of workgroups
   bool ray_kinds = false;     // count reflected and refracted rays
   bool search_cost = false;   // of first hits
-  // Where formulas put their numbers, for BINDING_FORMULA_NUMBERS; null: into the text.
+  // The numbers of formulas, for BINDING_FORMULA_NUMBERS; null: they go into the text.
   expression::LoadedNumbers* formula_numbers = nullptr;
 };
 

@@ -58,7 +58,7 @@ TracePlan plan_tracing(const Profile& profile, const ProfileOptions& asked, cons
   // gather photons mostly end at once.
   plan.wavefront = packets && (asked_for_packets || pays) && !scene.panes &&
                    !sends_photons(IntegratorType(scene.frame.integrator));
-  // Most rays that leave a mesh hit no more of it: not worth kernels of their own (docs/performance.md).
+  // Most rays that leave a mesh hit no more of it: separate kernels do not pay (docs/performance.md).
   plan.bounced = only_triangles(scene) && !profile.incoherent ? Rays::lanes : plan.incoherent;
   return plan;
 }

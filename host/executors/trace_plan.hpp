@@ -10,7 +10,7 @@ namespace eyeray::engine::executors {
 struct TracePlan {
   Rays coherent = Rays::lanes;  // or packets
   Rays incoherent = Rays::lanes;
-  bool wavefront = false;      // whether pictures take the wavefront, whose eye rays go in packets
+  bool wavefront = false;      // whether pictures take the wavefront, whose camera rays go in packets
   Rays bounced = Rays::lanes;  // later bounces of a wavefront
 };
 
@@ -18,9 +18,9 @@ struct TracePlan {
 TracePlan plan_tracing(const Profile& profile, const ProfileOptions& asked, const ImageSettings& image,
                        const records::PackedScene& scene, uint32_t subgroup_size);
 
-// Whether a CPU makes the picture sooner with vectors of 512 bits, each ray alone on its lane: it has so many
-// samples that compiling for them pays, and is none that packets in vectors of 256 bits serve better. That is
-// known before a device is open, whose driver is to be told (gpu/vector_width.hpp).
+// True if a CPU makes the picture sooner with vectors of 512 bits, each ray alone on its lane. Then it has so
+// many samples that compiling for them pays, and packets in vectors of 256 bits are not better. The answer is
+// known before a device is open, since it is passed to the device's driver (gpu/vector_width.hpp).
 bool wants_wide_vectors(const ProfileOptions& asked, const ImageSettings& image,
                         const records::PackedScene& scene);
 

@@ -1,4 +1,4 @@
-// What people who measure may choose: how kernels are made and how they find hits. No choice changes a pixel.
+// Choices for people who measure: how kernels are made and how they find hits. No choice changes a pixel.
 #pragma once
 
 #include <span>

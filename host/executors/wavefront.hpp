@@ -1,4 +1,4 @@
-// Pictures by wavefronts: all pixels of a tile a bounce at a time, each step a kernel. Eye rays and their
+// Pictures by wavefronts: all pixels of a tile a bounce at a time, each step a kernel. Camera rays and their
 // shadow rays, which are coherent, are traced in packets; the rays of a later bounce as the profile says; and
 // every bounce is shaded by kernels/wavefront.comp.glsl, which lists the pixels whose paths go on.
 #pragma once
@@ -17,11 +17,11 @@ namespace eyeray::engine::executors {
 
 struct WavefrontOptions {
   uint32_t shadow_rays = 0;  // of each hit
-  uint32_t bounces = 0;      // at most, after the eye ray
-  // Whether rays split in two. Then kernels/render.comp.glsl starts those pixels anew whose paths go on.
+  uint32_t bounces = 0;      // at most, after the camera ray
+  // True if rays split in two. Then kernels/render.comp.glsl restarts the pixels whose paths go on.
   bool splits = false;
-  // How the rays of later bounces are traced, and their shadow rays: `lanes` while they are shaded, or
-  // `cooperative` by kernels of their own.
+  // The way of tracing the rays of later bounces and their shadow rays: `lanes` while they are shaded, or
+  // `cooperative` by separate kernels.
   Rays bounced = Rays::lanes;
   Workgroups workgroups;
 };
@@ -39,7 +39,8 @@ class Wavefront {
   std::optional<double> run(shader::Dispatch push, gpu::Buffer& results);
 
  private:
-  // What a bounce takes: its rays, their shadow rays, and what they come to. Null where another one does it.
+  // The kernels of a bounce: for its rays, their shadow rays, and their shading. Null if another kernel does
+  // the step.
   struct Bounce {
     std::shared_ptr<gpu::Kernel> trace, shadow, shade;
   };

@@ -1,4 +1,4 @@
-// How many workgroups of 64 a dispatch takes.
+// The number of workgroups of 64 in a dispatch.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct Workgroups {
   }
 
  private:
-  // As many as make runs of equal length.
+  // The number of workgroups that makes runs of equal length.
   uint32_t in_runs(uint32_t items, uint32_t a_group) const {
     const uint32_t groups = (items + a_group - 1) / a_group;
     return (groups + stride - 1) / stride * stride;

@@ -1,5 +1,5 @@
-// What a picture may have beside its colour, a channel a row in channels.cpp: what the rays through pixels'
-// centres hit, and what is summed over pixels' samples. Users know channels as AOVs (arbitrary output
+// The data that a picture may have beside its colour, a channel a row in channels.cpp: values of the first
+// hits at pixels' centres, and sums over pixels' samples. Users know channels as AOVs (arbitrary output
 // variables).
 #pragma once
 
@@ -19,7 +19,7 @@
 
 namespace eyeray::engine::film {
 
-// What every sample of a pixel is added to. Checkpoints hold it as it lies in memory.
+// The sums of a pixel's samples. Checkpoints contain them as they lie in memory.
 struct PixelTotals {
   Vec3 color{0.0};
   uint32_t hits = 0;
@@ -29,8 +29,8 @@ struct PixelTotals {
   uint32_t finished : 1 = 0;  // whether it takes no more (render/adaptive.hpp)
 };
 
-// Where a channel's values come from: the first hit of a pixel's centre, of whose three as many count as it
-// has components; the legend's entry that it is of; or the pixel's samples.
+// The sources of a channel's values: the first hit at a pixel's centre, of whose three numbers as many count
+// as the channel has components; the hit's entry in the legend; or the pixel's samples.
 using ValueOfHit = Vec3 (*)(const FirstHit& hit);
 struct EntryOfLegend {};
 struct OfSamples {
@@ -41,10 +41,10 @@ struct OfSamples {
   void (*mean)(const PixelTotals& totals, const double* sums, float* values) = nullptr;
 };
 
-// What executors count only where it is asked for.
+// Values that executors compute only on request.
 enum class Needs { nothing, ray_kinds, search_cost, auxiliary };
 
-// What pixels have that are made of samples at their four corners (render/corners.hpp).
+// The value of pixels that are made from samples at their four corners (render/corners.hpp).
 enum class OfCorners { nothing, mean, any_bit };
 
 struct ChannelType {
@@ -56,7 +56,7 @@ struct ChannelType {
   std::variant<ValueOfHit, EntryOfLegend, OfSamples> values;
   Needs needs = Needs::nothing;
   OfCorners of_corners = OfCorners::nothing;
-  // What ids stand for; `scene` must outlive it. Null where values are no ids.
+  // The meaning of ids. `scene` must outlive it. Null if the values are no ids.
   std::unique_ptr<LegendEntries> (*legend)(const Scene& scene) = nullptr;
 
   // Null where it is of first hits.
@@ -81,8 +81,8 @@ bool contains(const Channels& channels, Channel channel);
 Channels with(Channels channels, std::initializer_list<std::string_view> names);
 bool any_of_first_hits(const Channels& channels);
 bool any_needs(const Channels& channels, Needs what);
-// Those that a scene has: Error (bad_input) for AOVs that its integrator does not make, which are left out
-// where all are wanted.
+// The wanted channels that a scene has. Error (bad_input) for AOVs that its integrator does not make; these
+// are left out if all are wanted.
 Channels channels_of(const Scene& scene, Channels wanted);
 
 // The components of its layer of an .exr: "normal.X" and so on; no more than it has, and fewer where its last

@@ -48,14 +48,14 @@ class Film {
   void finish(const Rect& part);
   bool finished(int x, int y) const { return pixel(x, y).finished; }
   uint64_t samples() const;  // of all pixels
-  // How far pixels may be off, relative to how bright they are: half the width of a pixel's 95 % interval,
-  // 1.96 √(s²/n) of luminance, the root of the mean square over the block, by the mean luminance plus 1 % of
-  // what is shown as 1. NaN where a pixel has one sample, or none has any; others without are none. Samples
+  // The error of pixels relative to their brightness: half the width of a pixel's 95 % interval, 1.96 √(s²/n)
+  // of luminance, as a root mean square over the block, divided by the mean luminance plus 1 % of the
+  // luminance shown as 1. NaN where a pixel has one sample, or none has any; others without are none. Samples
   // of one pixel that are spread evenly, as Sobol's, are better than that as a rule. Only with the channel
   // `noise`.
   double noise(const Rect& block) const;
 
-  // As a checkpoint keeps them, one after the other, each row by row (render/checkpoint.hpp).
+  // The sums in the order of a checkpoint, one after the other, each row by row (render/checkpoint.hpp).
   std::vector<std::span<std::byte>> parts();
   std::vector<std::span<const std::byte>> parts() const;
 

@@ -1,4 +1,4 @@
-// What the ids of an AOV stand for: a JSON file beside its picture.
+// The legend of an AOV's ids: a JSON file beside its picture.
 #pragma once
 
 #include <filesystem>
@@ -16,13 +16,13 @@ namespace eyeray::engine::film {
 
 using Json = nlohmann::ordered_json;
 
-// What may be hit, by the ids of one AOV.
+// The objects that may be hit, by the ids of one AOV.
 class LegendEntries {
  public:
   virtual ~LegendEntries() = default;
 
   virtual size_t size() const = 0;
-  // Which of them a hit is of.
+  // The index of the entry of a hit.
   virtual size_t of(const FirstHit& hit) const = 0;
   // Its ids, its name, where the file has it and its colour in the picture.
   virtual Json entry(size_t index) const = 0;
@@ -34,8 +34,8 @@ std::unique_ptr<LegendEntries> legend_of_shapes(const Scene& scene);
 std::unique_ptr<LegendEntries> legend_of_primitives(const Scene& scene);
 std::unique_ptr<LegendEntries> legend_of_materials(const Scene& scene);
 
-// What hits were of, by the index of the entry, and how many pixels: legends of parts of a picture, put
-// together.
+// The entries that were hit, by index, and their numbers of pixels. Legends of parts of a picture are merged
+// in it.
 struct LegendTally {
   struct Entry {
     std::string text;  // LegendEntries::entry as JSON
@@ -57,7 +57,7 @@ class Legend {
 
   const LegendEntries& entries() const { return *entries_; }
   void see(std::span<const FirstHit> hits);
-  // As write_legend, without holding the text of all entries.
+  // Writes the legend as write_legend does, without holding the text of all entries.
   std::filesystem::path write(const std::filesystem::path& picture) const;
   LegendTally tally() const;
 

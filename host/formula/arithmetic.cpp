@@ -152,7 +152,7 @@ std::optional<Value> arithmetic(Expression& expression, spv::Op op, const std::v
     case spv::OpConvertUToF:
       return at(0);
     case spv::OpTranspose:
-      // A square one, or one whose shape the result does not tell: 2×3 and the like are refused.
+      // A square matrix, or one whose shape the result does not show: 2×3 and the like are refused.
       if (const auto rows = size_t(std::lround(std::sqrt(double(size)))); rows * rows == size)
         return transpose(at(0), rows);
       return std::nullopt;

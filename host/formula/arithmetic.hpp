@@ -1,4 +1,4 @@
-// What SPIR-V's instructions that compute mean on a expression. Private to this layer.
+// The meaning of SPIR-V's arithmetic instructions on an expression. Private to this layer.
 #pragma once
 
 #include <optional>
@@ -23,8 +23,8 @@ using Value = std::vector<Term>;
 std::optional<Value> arithmetic(Expression& expression, spv::Op op, const std::vector<Value>& from,
                                 size_t size);
 
-// The same for whole numbers. Beside comparisons only what is known beforehand can be computed with, since
-// the rest would wrap around.
+// The arithmetic of whole numbers. Beside comparisons, only constants can be computed with, since other
+// numbers would wrap around.
 std::optional<Value> whole_arithmetic(Expression& expression, spv::Op op, const std::vector<Value>& from,
                                       bool is_signed);
 

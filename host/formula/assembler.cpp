@@ -79,8 +79,8 @@ class Assembler {
     return frame;
   }
 
-  // Writes down what the function does with `arguments`. Where nobody can tell, a parameter is its argument;
-  // else it is copied, and back.
+  // Writes down what the function does with `arguments`. Where the difference cannot be observed, a parameter
+  // is its argument; else it is copied, and back.
   void call(Frame& frame, const std::vector<Slots>& arguments) {
     std::vector<std::pair<Slots, Slots>> back;  // to, from
     for (size_t i = 0; i < arguments.size(); ++i) {

@@ -1,4 +1,4 @@
-// What the text of a formula defines for those who ask it.
+// The functions that a formula's text defines for its callers.
 #pragma once
 
 #include <string_view>

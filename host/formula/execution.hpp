@@ -1,5 +1,5 @@
-// Runs a function on terms instead of numbers. Loops are followed as often as they go round, both sides of an
-// if where its condition is no constant, and where paths join again each variable is chosen by the condition.
+// Runs a function on terms instead of numbers. Loops are followed for all their iterations, and both sides of
+// an if whose condition is no constant. Where paths join again, the condition selects each variable.
 // Private to this layer.
 #pragma once
 
@@ -14,8 +14,8 @@ class Execution {
  public:
   Execution(const Module& module, Expression& expression);
 
-  // What the function of this name gives for a point of which the inputs 0, 1, 2 are the coordinates.
-  // InputError with the line for what cannot be followed.
+  // The result of the function of this name at the point whose coordinates are the inputs 0, 1, 2. InputError
+  // with the line of code that cannot be followed.
   Term run(std::string_view function);
 
  private:

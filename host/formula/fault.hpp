@@ -1,4 +1,4 @@
-// What is wrong with a formula's text.
+// An error in a formula's text.
 #pragma once
 
 #include <string>

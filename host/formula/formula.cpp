@@ -92,7 +92,7 @@ std::vector<uint32_t> spirv_of(FormulaKind kind, bool has_other, const std::stri
 }
 
 // InputError for what glslang finds wrong with the text as it was written. The module is of the text as it is
-// spelled for us alone: what glslang computes of constants, it computes in float64 and by rules of its own.
+// spelled for us alone: glslang folds constants in float64 and by its own rules.
 Module module_of(FormulaKind kind, const Text& text, const std::vector<FormulaParameter>& parameters) {
   (void)spirv_of(kind, text.has_other, constants(parameters, "const"), text.glsl());
   std::string before = constants(parameters, "");

@@ -55,10 +55,10 @@ class Formula {
   // Instructions, with functions written where they are called: what a kernel's compiler has to do with it.
   double instructions() const;
 
-  // What the text must define, `float NAMEf(vec3 p)` say, and what it has beside that, as GLSL for kernels
-  // that have shaders/math/formula.glsl. Loops ask `bool formula_turn(uint turns)`, if there are any
-  // that must (loops()). With `numbers`, constants are loaded: then formulas whose parameters differ mostly
-  // have the same text.
+  // The formula as GLSL for kernels that have shaders/math/formula.glsl: the required function, for instance
+  // `float NAMEf(vec3 p)`, and the others of the text. Loops that must be counted (loops()) call `bool
+  // formula_turn(uint turns)`. With `numbers`, constants are loaded: then formulas that differ only in
+  // parameters mostly have the same text.
   std::string kernel(const std::string& name, expression::LoadedNumbers* numbers = nullptr) const;
   bool loops() const;
 
@@ -77,7 +77,8 @@ class Formula {
   // A colour's, likewise.
   std::array<float, 3> color(const std::array<float, 2>& uv) const;
   std::array<double, 3> color(const std::array<double, 2>& uv) const;
-  // A camera's, of a place in the picture and one on the lens; without a function of its own the origin is 0.
+  // A camera's ray, for a point in the picture and one on the lens. The origin is 0 if the text does not
+  // define it.
   std::array<float, 3> direction(const std::array<float, 4>& at) const;
   std::array<double, 3> direction(const std::array<double, 4>& at) const;
   std::array<float, 3> origin(const std::array<float, 4>& at) const;
@@ -100,10 +101,10 @@ class Formula {
   mutable expression::StraightLine straight_line_;
 };
 
-// Whether a constant may be called so.
+// True if a constant may have this name.
 bool is_formula_name(const std::string& name);
 
-// What is said of a formula whose loops do not end.
+// The message for a formula whose loops do not end.
 std::string endless_formula(const std::string& title);
 
 }  // namespace eyeray::engine::formula

@@ -114,7 +114,7 @@ struct Instruction {
   ArrayId array = 0, other = 0;
 };
 
-// Where a value lies: its numbers, those of a matrix by columns; or an array.
+// The position of a value: its numbers, by columns for a matrix; or an array.
 struct Place {
   std::vector<Operand> numbers{};
   bool is_array = false;
@@ -134,10 +134,10 @@ struct Branch {
   Operand condition;
   Block yes, no;
 };
-// Goes round until it is left; `next` follows each turn.
+// Repeats until it is left. `next` follows each iteration.
 struct Loop {
   Block body, next;
-  uint32_t turns = 0;   // how often it goes round at most, if that is known and needs no counting; else 0
+  uint32_t turns = 0;   // most iterations, if that is known and needs no counting; else 0
   uint32_t weight = 0;  // what a turn counts where turns are counted
 };
 enum class Jump : uint8_t { leave, next, give_back };  // of the innermost loop; of the function

@@ -1,4 +1,5 @@
-// How large a formula is, with all that it calls, and how long it may take. Private to this layer.
+// The size of a formula with all functions that it calls, and a limit on its running time. Private to this
+// layer.
 #pragma once
 
 #include <string>
@@ -12,7 +13,7 @@ struct Size {
   double instructions = 0;
   double branches = 0;  // and loops
   double memory = 0;    // numbers in arrays
-  // Instructions of one call, a loop that is counted gone round once. docs/security.md tells the limits.
+  // Instructions of one call, with one iteration of each counted loop. docs/security.md lists the limits.
   double work = 0;
 };
 

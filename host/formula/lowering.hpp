@@ -27,8 +27,8 @@ class FunctionLowering {
   ir::Function run(const Instruction& instruction);
 
  private:
-  // Where a variable or a part of it lies. In an array at `offset`, or, where its index is not known
-  // beforehand, at the whole number `address`.
+  // The position of a variable or a part of it: in an array at `offset` or, if its index is no constant, at
+  // the whole number `address`.
   struct Pointer {
     uint32_t variable = 0;
     ir::Place place;
@@ -47,7 +47,7 @@ class FunctionLowering {
     size_t count = 0;
     size_t last = 0;
   };
-  // What is done to a variable, at (block, instruction).
+  // The accesses to a variable, as (block, instruction).
   struct Accesses {
     std::set<size_t> blocks{};
     std::map<size_t, std::set<size_t>> writes{};  // by block
@@ -113,7 +113,7 @@ class FunctionLowering {
   std::map<uint32_t, Uses> uses_;
   std::map<uint32_t, std::vector<std::pair<uint32_t, uint32_t>>> phis_;  // by the block left: result, value
   std::vector<LoopLabels> loops_;
-  std::set<uint32_t> computed_;  // values each number of which has an instruction of its own
+  std::set<uint32_t> computed_;  // values each of whose numbers has its own instruction
   size_t block_ = 0, at_ = 0;    // what is lowered now
 };
 

@@ -195,7 +195,7 @@ void FunctionLowering::copy(const ir::Place& to, const ir::Place& from, ir::Bloc
   }
 }
 
-// All at once: what is overwritten before it is read is kept aside.
+// All at once: numbers that would be overwritten before they are read are saved first.
 void FunctionLowering::assign(const std::vector<ir::Operand>& to, std::vector<ir::Operand> from,
                               ir::Block& out) {
   const auto move = [&](ir::Operand into, ir::Operand source) {

@@ -1,6 +1,5 @@
-// Runs a formula on the CPU. Nothing of it is machine code: an interpreter goes through a list of
-// instructions that name numbers in a file of its own, so that whatever the formula says it can reach nothing
-// else. Private to this layer.
+// Runs a formula on the CPU. Nothing of it is machine code: an interpreter executes a list of instructions on
+// a private file of numbers, so that no formula can reach anything else. Private to this layer.
 #pragma once
 
 #include <array>
@@ -18,19 +17,19 @@ class Machine {
   // `function`: of the program, of one vector; limit() must have found nothing.
   Machine(const ir::Program& program, uint32_t function);
 
-  // What the function of `input` gives, all its numbers. In float32 by the shaders' own functions
-  // (math/formula.glsl), so that the bits are a kernel's; in float64 by those of C's library. False where
-  // loops that are counted make more turns than FORMULA_TURNS; `turns`, if given, grows by those made.
+  // Writes all numbers of the function's result for `input`. In float32 it uses the shaders' functions
+  // (math/formula.glsl), so that the bits are a kernel's; in float64 those of C's library. False if counted
+  // loops take more iterations than FORMULA_TURNS. `turns`, if given, grows by the number of iterations.
   // Thread-safe.
   bool run(std::span<const float> input, float* result, uint64_t* turns = nullptr) const;
   bool run(std::span<const double> input, double* result, uint64_t* turns = nullptr) const;
-  // What a function without an input gives in float32, of any type.
+  // The result of a function without an input in float32, of any type.
   std::vector<uint32_t> bits() const;
 
  private:
   friend class Assembler;
 
-  // What an instruction does, beside ir::Op's.
+  // Operations of instructions, beside ir::Op's.
   enum Control : uint16_t {
     jump = 256,
     jump_if,

@@ -29,18 +29,18 @@ struct Text {
   };
   std::vector<Unset> unset{};  // in the order of their tokens
 
-  // Where a token of glsl() stands in the text; both from 1.
+  // The position of a token of glsl() in the text; both numbers from 1.
   struct Place {
     int line, column;
     int source_column;
   };
-  // What a compiler is given: the tokens alone, each on its own line of the text, with user_prefix before
-  // each name. Comments, line continuations and whatever else two readers might read in two ways are gone.
+  // The text for a compiler: the tokens alone, each on its own line of the text, with user_prefix before each
+  // name. Comments, line continuations and everything else that two readers might read differently are gone.
   std::string glsl() const;
   std::vector<Place> places() const;
-  // The same program, which must have passed a compiler as glsl(), line by line, so spelled that a compiler
-  // computes nothing of it beforehand: its constants are global variables, and every variable is given the 0
-  // that it begins with. `zeros`: declarations that it wants before it.
+  // The same program, line by line, in a form that a compiler folds nothing of: its constants are global
+  // variables, and every variable is initialised explicitly to 0. glsl() must have passed a compiler.
+  // `zeros`: declarations that must precede it.
   std::string unfolded(std::string& zeros) const;
 
  private:

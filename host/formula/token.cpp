@@ -118,7 +118,7 @@ class Tokenizer {
       return;
     }
     const auto byte = uint8_t(rest_[0]);
-    // A character of several bytes is told once.
+    // A character of several bytes is reported once.
     if (byte < 0x80 || byte >= 0xc0)
       faults_.push_back({line_, column_,
                          byte >= 0x20 && byte < 0x7f

@@ -1,4 +1,4 @@
-// What the scenes of Haines' Standard Procedural Databases have in common (A Proposal for Standard Graphics
+// Common parts of the scenes of Haines' Standard Procedural Databases (A Proposal for Standard Graphics
 // Environments, IEEE CG&A 7(11), 1987; package 3.14, CC0).
 #pragma once
 

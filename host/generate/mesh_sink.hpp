@@ -1,4 +1,4 @@
-// Where generated meshes go: into a file, piece by piece, or into memory.
+// Destinations of generated meshes: a file, written piece by piece, or memory.
 #pragma once
 
 #include <cstdint>

@@ -44,7 +44,7 @@ Mesh octasphere(int divisions) {
   }
   mesh.normals = mesh.positions;
 
-  // Between two rings, a quarter of the way round at a time: the longer ring has one edge more.
+  // Between two rings, one quadrant at a time: the longer ring has one edge more.
   for (int ring = 0; ring < 2 * divisions; ++ring) {
     const bool north = ring < divisions;
     const int wide = north ? ring + 1 : ring, narrow = north ? ring : ring + 1;

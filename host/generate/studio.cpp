@@ -18,7 +18,7 @@ struct Lamp {
 constexpr Lamp lamps[] = {
     {{0.27, 0.3}, {0.085, 0.15}, {7, 7.4, 8}},       // the soft box, over the left shoulder
     {{0.83, 0.36}, {0.022, 0.27}, {12, 9.5, 6.5}},   // the strip, behind to the right
-    {{0.56, 0.16}, {0.017, 0.034}, {110, 105, 95}},  // the lamp, high up
+    {{0.56, 0.16}, {0.017, 0.034}, {110, 105, 95}},  // the area light, high up
     {{0.5, 0.52}, {0.13, 0.012}, {0.9, 1.05, 1.4}},  // a window's gap, low in front
 };
 

@@ -7,7 +7,8 @@ namespace eyeray::engine::generate {
 
 inline constexpr int most_studio_width = 4096;
 
-// Equirectangular, of `width` × `width` / 2: a grey room with a soft box, a strip of light and a small lamp.
+// Equirectangular, of `width` × `width` / 2: a grey room with a soft box, a strip of light and a small area
+// light.
 // The same on every machine.
 image::Image studio(int width);
 

@@ -26,7 +26,7 @@ class Buffer {
 
   size_t size() const { return bytes_; }
   const std::string& name() const { return name_; }
-  // How kernels may bind it.
+  // The kind of binding by which kernels may use it.
   BindingKind kind() const { return kind_; }
 
   // Copies `bytes` to the start of the buffer, or to `offset` (a multiple of 4, as bytes.size() must be).
@@ -53,7 +53,7 @@ class Buffer {
     return std::vector<T>(first, first + count);
   }
 
-  // Where in the Vulkan buffer the shader's bytes begin; the guards lie before and after.
+  // The offset of the shader's bytes in the Vulkan buffer. The guards lie before and after them.
   size_t payload_offset() const { return guard_; }
   const RawBuffer& raw() const { return *raw_; }
 

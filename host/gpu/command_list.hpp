@@ -34,7 +34,7 @@ class CommandList {
   // Error (bad_input) where the kernel declares push constants of another size, or a buffer that is not
   // bound. Groups are within the device's limits.
   void dispatch(const Kernel& kernel, std::span<const std::byte> push_constants, Groups groups);
-  // What earlier dispatches wrote is seen by later ones.
+  // Makes the writes of earlier dispatches visible to later ones.
   void barrier();
   // Submits, and waits. Error (timed_out), (interrupted) or (no_device); see Context::submit_and_wait.
   RunTime run();

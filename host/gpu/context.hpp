@@ -9,7 +9,7 @@
 
 namespace eyeray::engine::gpu {
 
-// What happened and was written before is there for what reads it after.
+// Makes earlier writes visible to later reads.
 void record_barrier(VkCommandBuffer commands, VkPipelineStageFlags stages, VkAccessFlags written,
                     VkPipelineStageFlags later_stages, VkAccessFlags read);
 
@@ -28,7 +28,7 @@ struct Context {
   // fails. From the submission on, the context is then abandoned.
   void submit_and_wait(std::string_view what, double timeout_seconds);
   void submit_and_wait(std::string_view what) { submit_and_wait(what, options.timeout_seconds); }
-  // That `what` took longer than the time-out.
+  // The error that `what` took longer than the time-out.
   Error time_out(std::string_view what, double seconds) const;
 
   DeviceOptions options;
@@ -43,7 +43,7 @@ struct Context {
   VkCommandPool pool = VK_NULL_HANDLE;
   VkCommandBuffer commands = VK_NULL_HANDLE;
   VkFence fence = VK_NULL_HANDLE;
-  VkQueryPool timestamps = VK_NULL_HANDLE;  // two; null where they tell nothing
+  VkQueryPool timestamps = VK_NULL_HANDLE;  // two; null where they are unsupported
   uint32_t timestamp_bits = 0;
   double timestamp_seconds = 0;  // of one tick
   bool recording = false;

@@ -60,7 +60,7 @@ struct DeviceOptions {
   double timeout_seconds = 60;   // the longest wait for one submission
   double compile_seconds = 60;   // the longest that its driver may compile one kernel
   bool wide_vectors = false;     // see set_vector_width; a process's first device decides
-  bool sets_environment = true;  // whether a process's first device may tell its driver so
+  bool sets_environment = true;  // whether a process's first device may set the environment for its driver
   bool draws = false;            // a queue for Rasterizer, too, where there is one
   bool force_staging = false;    // tests: copy through staging buffers even where memory is shared
 };
@@ -76,9 +76,9 @@ class Device {
   explicit Device(const DeviceOptions& options);
 
   const DeviceInfo& info() const;
-  // Whether the processor and the device share memory, so that a buffer's bytes need no copying.
+  // True if the processor and the device share memory, so that a buffer's bytes need no copying.
   bool shares_memory() const;
-  // What the validation layer complained about so far (warnings and errors); empty when it is off.
+  // The warnings and errors of the validation layer so far; empty if it is off.
   std::vector<std::string> validation_messages() const;
 
   const std::shared_ptr<Context>& context() const { return context_; }

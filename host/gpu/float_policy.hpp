@@ -1,5 +1,5 @@
-// How floats behave in a kernel, unless the user asks for --fast-math: decided in one place, after glslang,
-// on the SPIR-V itself.
+// The behaviour of floats in a kernel, unless the user chooses --fast-math: decided in one place, after
+// glslang, on the SPIR-V itself.
 #pragma once
 
 #include <cstdint>

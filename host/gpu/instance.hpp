@@ -11,7 +11,7 @@
 
 namespace eyeray::engine::gpu {
 
-// What the validation layer says, from whichever thread it says it.
+// The messages of the validation layer, from any thread.
 struct ValidationLog {
   std::mutex mutex;
   std::vector<std::string> messages;

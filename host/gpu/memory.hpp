@@ -14,7 +14,7 @@ enum class MemoryKind {
   host,    // mapped, for copying to and from; cached where there is such memory
 };
 
-// As much as `requirements` say, for `what` of `bytes` bytes ("buffer 'nodes'"), which are for errors. Error
+// Allocates memory that satisfies `requirements`. `what` ("buffer 'nodes'") and `bytes` are for errors. Error
 // (no_device) with the numbers when it cannot be had, (file_io) as below. The caller frees it.
 VkDeviceMemory allocate_memory(const Context& context, const VkMemoryRequirements& requirements,
                                MemoryKind kind, size_t bytes, std::string_view what);

@@ -37,7 +37,7 @@ std::string driver_id(const VkPhysicalDeviceProperties& properties, uint32_t sub
   return id;
 }
 
-// What Vulkan 1.1 tells about a device, and 1.2 about its driver and floats.
+// Vulkan 1.1's information about a device, and 1.2's about its driver and floats.
 void describe_version_1_1(VkPhysicalDevice device, uint32_t version, DeviceInfo& info) {
   auto floats = make<VkPhysicalDeviceFloatControlsProperties>(
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FLOAT_CONTROLS_PROPERTIES);

@@ -7,7 +7,7 @@
 
 namespace eyeray::engine::gpu {
 
-// What a device is and can do, and whether it will do for eyeray: Vulkan 1.1 and a compute queue.
+// A device's identity and abilities, and whether it suffices for eyeray: Vulkan 1.1 and a compute queue.
 DeviceInfo describe(VkPhysicalDevice device, int index);
 
 // A queue family that computes, one without graphics preferred; its timestamps' width is 0 when it has none.

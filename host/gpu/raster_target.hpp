@@ -1,5 +1,5 @@
-// What triangles are drawn on, an image of ids and one of depths, and the render pass that does; for the .cpp
-// files of this layer.
+// The target of drawing, an image of ids and one of depths, and its render pass; for the .cpp files of this
+// layer.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// A VkBuffer with memory of its own; for the .cpp files of this layer.
+// A VkBuffer with its own memory; for the .cpp files of this layer.
 #pragma once
 
 #include <cstddef>

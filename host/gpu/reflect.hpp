@@ -1,4 +1,4 @@
-// What a kernel's SPIR-V says of itself, so that nothing is typed twice.
+// Reads a kernel's bindings and sizes from its SPIR-V, so that nothing is typed twice.
 #pragma once
 
 #include <array>

@@ -7,10 +7,10 @@
 
 namespace eyeray::engine::gpu {
 
-// The same module, with both arms of a selection computed where neither has an effect or can fault, and
-// OpSelect in place of the OpPhi behind it. Selections within such arms go first. Variables are best in
-// registers before (SPIRV-Tools' ssa-rewrite). Every result has the same bits. Error (bad_input) for what is
-// not SPIR-V.
+// The module with flattened selections: both arms are computed if neither has a side effect or can fault, and
+// OpSelect replaces the OpPhi behind them. Selections within such arms are flattened first. Variables should
+// be in registers before (SPIRV-Tools' ssa-rewrite). Every result has the same bits. Error (bad_input) if the
+// module is not SPIR-V.
 std::vector<uint32_t> flatten_selections(std::span<const uint32_t> spirv);
 
 }  // namespace eyeray::engine::gpu

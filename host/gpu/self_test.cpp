@@ -12,7 +12,7 @@
 namespace eyeray::engine::gpu {
 namespace {
 
-// As in kernels/selftest.comp.glsl.
+// The same constants as in kernels/selftest.comp.glsl.
 constexpr uint32_t invocations = 256;
 constexpr uint32_t words_an_invocation = 8;
 constexpr uint32_t loop_iterations = 100000;

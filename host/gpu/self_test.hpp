@@ -9,7 +9,7 @@
 
 namespace eyeray::engine::gpu {
 
-// What was found out about a device that computes.
+// Measured facts about a device's arithmetic.
 struct DeviceFacts {
   uint32_t loop_iterations = 0;  // made of 100 000 asked for
   bool loop_cap = false;  // the driver ends loops early and says nothing (Mesa 22.3: after 65 535 iterations)

@@ -15,16 +15,16 @@ struct CompiledShader {
   std::vector<Diagnostic> warnings;
 };
 
-// Whether the SPIR-V says from which file and line each instruction comes.
+// Whether the SPIR-V contains the file and line of each instruction.
 enum class Lines { dropped, kept };
 
-// Compiles a shader, of the stage that its entry's name tells (NAME.vert.glsl, NAME.frag.glsl, else a compute
+// Compiles a shader, of the stage that its entry's name gives (NAME.vert.glsl, NAME.frag.glsl, else a compute
 // shader), with `preamble` (#define lines) before its first line. InputError with everything that is wrong,
 // at its file, line and column (0 when the message names nothing that can be found in the line).
 CompiledShader compile_shader(const ShaderSource& source, std::string_view preamble,
                               Lines lines = Lines::dropped);
 
-// What the result depends on besides source and preamble.
+// A name of everything that the result depends on besides source and preamble.
 std::string compiler_version();
 
 }  // namespace eyeray::engine::gpu

@@ -1,4 +1,4 @@
-// What a driver would otherwise do at every start, done once: SPIRV-Tools' passes over a module.
+// Runs SPIRV-Tools' passes over a module once, which a driver would otherwise do at every start.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 
 namespace eyeray::engine::gpu {
 
-// The same module, with functions inlined, variables that need no memory gone, and nothing left that has no
-// effect. Every result has the same bits: of arithmetic decorated NoContraction nothing is folded. A module
-// that inlining would make twice as large as our largest, or that the passes cannot take, comes back as it
-// was. Error (bad_input) for what is not SPIR-V.
+// The module with functions inlined, variables in registers where possible, and code without effect removed.
+// Every result has the same bits: arithmetic decorated NoContraction is not folded. A module that inlining
+// would make twice as large as our largest, or that the passes cannot process, is returned unchanged. Error
+// (bad_input) if the module is not SPIR-V.
 //
 // The passes know no float modes and leave a module that declares some nearly as it is; so those come after
 // them.

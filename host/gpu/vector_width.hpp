@@ -6,18 +6,18 @@
 
 namespace eyeray::engine::gpu {
 
-// Whether llvmpipe can be asked for vectors of 512 bits: the processor has them, and LP_NATIVE_VECTOR_WIDTH
-// is not set.
+// True if llvmpipe can be set to vectors of 512 bits: the processor has them, and LP_NATIVE_VECTOR_WIDTH is
+// not set.
 bool may_widen_vectors();
 
 // Whether a driver of this version makes pictures sooner with vectors of 512 bits: Mesa 22 does. Later ones
 // gain nothing from them, and take up to six times as long to compile (docs/experiments/wide-vectors.md).
 bool gains_from_wide_vectors(std::string_view driver_version);
 
-// To be called before a driver is loaded, which reads the environment then. Where `wide`, and where it may,
-// llvmpipe is to compute in vectors of 512 bits. Mesa's shader cache does not know the width of what it
-// keeps. So whoever chose a width, its kernels are kept in a folder of their own: below
-// $MESA_SHADER_CACHE_DIR, or else below eyeray's own cache.
+// To be called before a driver is loaded, which reads the environment then. If `wide`, and if possible,
+// llvmpipe computes in vectors of 512 bits. Mesa's shader cache does not record the vectors' width. So for
+// any chosen width kernels are cached in a separate folder: below $MESA_SHADER_CACHE_DIR, or else below
+// eyeray's own cache.
 void set_vector_width(bool wide);
 
 // A warning that Mesa's shader cache is then not used, since others could have changed it; "" where it is.

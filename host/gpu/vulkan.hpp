@@ -14,10 +14,10 @@ namespace eyeray::engine::gpu {
 // "VK_ERROR_DEVICE_LOST", or "VkResult N" for a result this table does not know.
 std::string result_name(VkResult result);
 
-// That `what` was tried, and failed with `result`, as an Error (no_device).
+// The Error (no_device) that `what` was tried, and failed with `result`.
 Error failure(VkResult result, std::string_view what);
 
-// That drivers took longer than `seconds` to load or to open a device, as an Error (timed_out).
+// The Error (timed_out) that drivers took longer than `seconds` to load or to open a device.
 Error late_start(double seconds);
 
 // Throws failure(result, what), unless the result is VK_SUCCESS.

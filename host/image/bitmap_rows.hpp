@@ -12,7 +12,7 @@
 
 namespace eyeray::engine::image {
 
-// As the header has it, not yet believed.
+// The size that the header states, not yet checked.
 struct BitmapSize {
   int64_t width;
   int64_t height;

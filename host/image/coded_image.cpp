@@ -100,7 +100,7 @@ CodedImage decode_coded_image(std::span<const std::byte> bytes, const std::strin
     return Error(ExitCode::file_io, "cannot read {}: {}", name, why);
   };
 
-  // Look at the size before memory is taken for it.
+  // Check the size before allocating memory for it.
   if (bytes.size() > most_coded_bytes)
     throw fail(fmt::format("it has {} bytes; the most is {} (1 GiB)", bytes.size(), most_coded_bytes));
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());

@@ -21,13 +21,13 @@ struct CodedImage {
 inline constexpr int most_coded_side = 16384;                // pixels; hence at most 2^28 of them
 inline constexpr size_t most_coded_bytes = size_t{1} << 30;  // of a file
 
-// That a scene's images have too many pixels.
+// The error that a scene's images have too many pixels.
 class TooManyPixels : public Error {
   using Error::Error;
 };
 
-// How many pixels the images of one scene may have together; they are counted where they are decoded or
-// copied.
+// The number of pixels that the images of one scene may have together. They are counted where they are
+// decoded or copied.
 struct PixelBudget {
   int64_t left = int64_t{1} << 28;  // 1 GiB
   // TooManyPixels (file_io) where fewer are left.

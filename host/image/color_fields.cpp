@@ -67,7 +67,7 @@ std::string png_colors(const std::map<std::string_view, std::string_view>& chunk
                ? ""
                : fmt::format("its colour profile (iCCP){}", taken_as_srgb);
   if (chunks.contains("sRGB")) return "";
-  // In 1/100000; gamma of 1/2.2 is how sRGB is written without a chunk of its own.
+  // In 1/100000; gamma of 1/2.2 is how sRGB is written without its own chunk.
   constexpr int64_t gamma = 45455, gamma_apart = 500, place_apart = 300;
   constexpr int64_t places[] = {31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000};
   if (const std::string_view written = chunk("gAMA"); written.size() == 4)

@@ -13,7 +13,7 @@ namespace eyeray::engine::image {
 // 1 … 8, as EXIF numbers them; 1, upright, where the file says nothing that can be read.
 // Source: CIPA DC-008 (Exif 2.3), tag 0x0112 of the first directory.
 int exif_orientation(std::span<const std::byte> jpeg);
-// The same of a TIFF block alone, as a PNG holds it.
+// The orientation in a TIFF block alone, as a PNG contains it.
 int tiff_orientation(std::string_view tiff);
 
 // Calls visit(marker, content) for each segment of a JPEG before its pixels.

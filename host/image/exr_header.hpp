@@ -1,4 +1,4 @@
-// What is asked of an OpenEXR file before the library reads it.
+// Checks of an OpenEXR file before the library reads it.
 #pragma once
 
 #include <string_view>

@@ -12,7 +12,7 @@ namespace eyeray::engine::image {
 enum class FalseColor {
   scalar,     // 1 channel: viridis from the least to the greatest finite value
   depth,      // 1 channel: viridis, near is bright; logarithmic, since depths span decades
-  ids,        // 1 channel: a colour of its own for every number ≥ 0
+  ids,        // 1 channel: a different colour for every number ≥ 0
   color,      // 3 channels: itself
   direction,  // 3 channels: (n + 1) / 2
   position,   // 2 or 3 channels: each from its least to its greatest finite value
@@ -22,8 +22,7 @@ enum class FalseColor {
 // below 0, a direction of length 0) is grey.
 Image false_color(const Image& data, FalseColor kind);
 
-// The same for a picture that is seen a few rows at a time: all of them to see(), then all of them to
-// paint().
+// Paints a picture that is passed a few rows at a time: all of them to see(), then all of them to paint().
 class FalseColorPainter {
  public:
   // `channels` as the kind wants them.

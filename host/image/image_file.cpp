@@ -37,7 +37,7 @@ Image decode(std::string_view bytes, const std::string& name, Load load, Convert
   const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
   const int size = int(bytes.size());
 
-  // Look at the size before memory is taken for it.
+  // Check the size before allocating memory for it.
   int width = 0, height = 0, channels = 0;
   if (!stbi_info_from_memory(data, size, &width, &height, &channels)) malformed(name, stbi_failure_reason());
   if (!image_size_allowed(width, height)) malformed(name, "its size is out of range");

@@ -21,7 +21,7 @@ enum class ImageFormat { png, pfm, hdr, exr };
 // The format that a file name's ending asks for; Error (bad_input) that lists the known endings otherwise.
 ImageFormat image_format(const std::filesystem::path& path);
 
-// Whether a picture may be this large: 1 … 65536 pixels each way, 2^28 in all.
+// True if a picture may be this large: 1 … 65536 pixels each way, 2^28 in all.
 bool image_size_allowed(int64_t width, int64_t height);
 
 // Writes a 1- or 3-channel image atomically.

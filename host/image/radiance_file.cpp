@@ -90,8 +90,8 @@ class Reader {
   const std::string& name_;
 };
 
-// As Radiance's own setcolr: the largest channel's exponent for all three. It has neither NaN nor negatives
-// nor infinity.
+// Encodes a colour like Radiance's own setcolr: the largest channel's exponent for all three. It has neither
+// NaN nor negatives nor infinity.
 Rgbe to_rgbe(const float* color) {
   std::array<float, 3> held{};
   for (size_t c = 0; c < 3; ++c) held[c] = color[c] > 0 ? std::min(color[c], 1e38f) : 0.0f;

@@ -15,7 +15,7 @@ class RowEncoder {
 
   // The next rows, from the top down.
   virtual void write(const Image& rows) = 0;
-  // What stands behind the last row.
+  // Writes the data behind the last row.
   virtual void finish() {}
 };
 

@@ -8,7 +8,7 @@
 namespace eyeray::engine::image {
 
 enum class ToneCurve { none, neutral };
-// As scenes name them.
+// The names of tone curves in scenes.
 inline constexpr std::string_view tone_curves[] = {"none", "neutral"};
 
 struct Tone {

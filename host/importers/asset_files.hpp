@@ -19,7 +19,7 @@ class AssetFiles {
   // Names are relative to the folder of `file`; where else than in its tree they may lie.
   AssetFiles(const std::filesystem::path& file, std::span<const std::filesystem::path> allowed_folders);
 
-  // Where the asset is: `/` and `\` both part folders. Error (bad_input) when it lies outside.
+  // The path of the asset. `/` and `\` both separate folders. Error (bad_input) when it lies outside.
   std::filesystem::path locate(std::string_view name);
   // The bytes of the asset. Error (bad_input) when it lies outside, Error (file_io) when it cannot be read;
   // `what` stands in messages, such as "the buffer".

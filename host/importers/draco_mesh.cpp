@@ -13,8 +13,8 @@ namespace eyeray::engine::importers {
 
 namespace {
 
-// How many numbers the connectivity is kept in, from the head of its data, of which `buffer` is a copy;
-// nothing where that is cut short. Sequential data have three bytes a face, and Draco looks at that.
+// The number of values that store the connectivity, from the head of its data, of which `buffer` is a copy;
+// empty if the data is cut short. Sequential data has three bytes a face, which Draco checks.
 std::optional<uint64_t> connectivity_values(const draco::MeshSequentialDecoder&, draco::DecoderBuffer) {
   return 0;
 }
@@ -55,7 +55,7 @@ bool orientations_within(uint64_t most, draco::DecoderBuffer buffer, bool plain_
   return read && orientations <= most;
 }
 
-// Draco's decoder, with a look at what the data claim before room is made for it.
+// Draco's decoder, which checks the sizes that the data claims before it allocates memory.
 template <typename Decoder>
 class BoundedDecoder : public Decoder {
  public:

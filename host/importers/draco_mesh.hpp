@@ -19,8 +19,8 @@ struct DracoResult {
   uint64_t values = 0;                      // numbers that were made: of corners and of vertices
 };
 
-// What the data say. Nothing in them is trusted: how many faces and vertices there are is a few bytes of
-// them, and nothing is allocated for more than `most_values` numbers.
+// The decoded mesh. The data is not trusted: a few of its bytes claim the numbers of faces and vertices, and
+// nothing is allocated for more than `most_values` numbers.
 DracoResult decode_draco(std::string_view data, uint64_t most_values);
 
 }  // namespace eyeray::engine::importers

@@ -22,7 +22,7 @@ struct MeshFile {
 // Each fills all but `files`. InputError for what is wrong in the file, Error for what it refers to.
 ImportedScene import_obj(MeshFile& file);
 ImportedScene import_ply(MeshFile& file);
-ImportedScene import_gltf(MeshFile& file);  // .gltf and .glb, told apart by how they begin
+ImportedScene import_gltf(MeshFile& file);  // .gltf and .glb, distinguished by their first bytes
 
 // Default angle of smoothing in degrees, for files without normals other than glTF.
 inline constexpr double default_smooth = 40;

@@ -190,7 +190,7 @@ void GltfReader::check_parents() {
   }
 }
 
-// Animations scale to 0 what is not to be seen at a moment; else it is told.
+// Animations scale to 0 the nodes that are hidden at a moment. Without one, flat nodes are reported.
 bool GltfReader::is_flat(const Mat4& world) {
   if (why_singular(world).empty()) return false;
   if (!scene_.played || Mat3(world) != Mat3(0.0)) ++flattened_;

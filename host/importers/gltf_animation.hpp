@@ -18,10 +18,10 @@ namespace eyeray::engine::importers {
 // The names of all animations; "" where one has none.
 std::vector<std::string> animation_names(const GltfObject& document);
 
-// Which of them is to be played; nothing for the file's rest.
+// The index of the animation to play; empty for the file at rest.
 std::optional<size_t> find_animation(std::span<const std::string> names, const Playing& playing);
 
-// What nodes have in place of what is written in them: by node and key ("translation", "rotation", "scale",
+// The values that replace those written in nodes: by node and key ("translation", "rotation", "scale",
 // "weights"), as many numbers as the key has. Rotations are of unit length.
 struct GltfMotion {
   std::map<std::pair<size_t, std::string>, std::vector<double>> values;

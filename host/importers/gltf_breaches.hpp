@@ -22,12 +22,12 @@ class GltfBreaches {
   // "rotations that are not of unit length, normalised: 3, the first nodes[1].rotation".
   void report(std::vector<std::string>& warnings) const;
 
-  // What an attribute of a vertex, or of a morph target, and what an animation has may be made of.
-  // InputError, of the attribute's accessor, for types by which it is not clear what its numbers mean; a
-  // breach where KHR_mesh_quantization has to be declared and is not.
+  // Checks the types of an attribute of a vertex or a morph target, and of an animation. InputError, at the
+  // attribute's accessor, for types that make the meaning of its numbers unclear. A breach if
+  // KHR_mesh_quantization must be declared and is not.
   void check_attribute(std::string_view name, size_t accessor);
 
-  // What the attributes of a primitive are called: what has another name than readers look for is lost.
+  // Checks the names of a primitive's attributes: an attribute of an unknown name is lost.
   void check_attribute_names(const GltfObject& attributes);
 
  private:

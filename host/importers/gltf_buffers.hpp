@@ -28,7 +28,7 @@ class GltfBuffers {
   GltfBuffers(const GltfObject& document, const GltfContainer& container, AssetFiles& assets,
               GltfBreaches& breaches);
 
-  // What a `uri` stands for: data in itself, or a file. Error where it is damaged or cannot be read.
+  // The bytes of a `uri`: inline data, or a file. Error if it is damaged or cannot be read.
   std::string read_uri(const GltfObject& owner, std::string_view what);
   // The bytes of a bufferView, decoded where they are coded (gltf_meshopt.hpp).
   std::string_view view(size_t index);

@@ -1,4 +1,4 @@
-// What an accessor's `componentType` and `type` say. Private to the importers.
+// The meaning of an accessor's `componentType` and `type`. Private to the importers.
 // Source: Khronos Group: glTF 2.0 Specification (2.0.1), 3.6.2.2.
 #pragma once
 
@@ -18,7 +18,7 @@ enum GltfComponent : uint64_t {
   floating = 5126
 };
 
-// What `visit` makes of a 0 of the C++ type of a component; of a float for a componentType that there is not.
+// The result of `visit` for a 0 of the C++ type of a component; of a float for an unknown componentType.
 template <typename Visit>
 constexpr auto visit_component(uint64_t component, const Visit& visit) {
   switch (component) {

@@ -1,8 +1,7 @@
-// Metallic-roughness, and for Whitted's pictures a stand-in in the terms of Phong. With F0 what the surface
-// mirrors at right angles (0.04, or the base colour of a metal) and r its roughness: what is smooth mirrors
-// F0 · (1 − r)², the lights show a Blinn highlight of exponent 2 / r⁴ − 2 (Karis: Specular BRDF Reference,
-// 2013), and what a rough metal does not mirror it scatters. What is unlit shows its base colour as light of
-// its own.
+// Metallic-roughness, and for Whitted's pictures a stand-in in the terms of Phong. F0 is the reflectance at
+// normal incidence (0.04, or the base colour of a metal), and r the roughness. A smooth surface mirrors F0 ·
+// (1 − r)², and lights show a Blinn highlight of exponent 2 / r⁴ − 2 (Karis: Specular BRDF Reference, 2013).
+// A rough metal scatters the light that it does not mirror. An unlit material emits its base colour.
 #include "host/importers/gltf_materials.hpp"
 
 #include <algorithm>

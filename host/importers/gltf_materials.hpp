@@ -14,7 +14,7 @@
 
 namespace eyeray::engine::importers {
 
-// What a file has and we leave out, counted.
+// Counts the parts of a file that the importer leaves out.
 class GltfLeftOut {
  public:
   void add(const std::string& what, size_t count = 1);
@@ -25,8 +25,8 @@ class GltfLeftOut {
   std::vector<std::pair<std::string, size_t>> counts_;
 };
 
-// Which of a mesh's sets of uv (TEXCOORD_0, …) a texture takes, and what it makes of them before they are
-// turned over: theirs starts at the top of the picture.
+// The set of uv (TEXCOORD_0, …) of a mesh that a texture takes, and its transform before v is flipped: glTF's
+// v starts at the top of the picture.
 struct GltfUv {
   uint64_t set = 0;
   glm::dmat2 linear{1.0};
@@ -35,7 +35,7 @@ struct GltfUv {
   bool operator==(const GltfUv&) const = default;
 };
 
-// What a material's pictures take of a mesh.
+// The uv of a mesh that a material's pictures use.
 struct GltfUvUse {
   std::vector<GltfUv> uv;        // at most two, for a vertex has no more
   bool second_tangents = false;  // whether TANGENT is along the second u: that of the normalTexture
@@ -72,13 +72,14 @@ class GltfMaterials {
   // `stand_in`: what Whitted's pictures show of it.
   std::unique_ptr<Material> principled(const GltfObject& source, const Surface& surface,
                                        std::unique_ptr<Material> stand_in);
-  // What Whitted's pictures show of what transmits.
+  // The stand-in of a transmissive material in Whitted's pictures.
   std::unique_ptr<Material> glass(const GltfObject& material, const Surface& surface);
   double ior(const GltfObject& material);
   Vec3 absorption(const GltfObject& material);
   std::optional<AlphaMask> mask(const GltfObject& material, bool blends);
   std::optional<NormalMap> normal_map(const GltfObject& material, const std::optional<GltfObject>& reference);
-  // What of a picture counts: its sRGB colours, its numbers, or its alpha in place of each channel.
+  // The content of a picture that counts: its sRGB colours, its numbers, or its alpha in place of each
+  // channel.
   enum class Content { color, data, alpha };
   std::shared_ptr<const ImageTexture> texture(const GltfObject& reference, Content content);
   // `factor` times the picture `map` of an extension, where that is to be had.
@@ -89,8 +90,8 @@ class GltfMaterials {
   static std::vector<GltfObject> textures_of(const GltfObject& material);
   static void add_extension_textures(const GltfObject& material, std::vector<GltfObject>& textures);
   static std::vector<GltfUv> uv_of_material(const GltfObject& material);
-  // Whether the picture takes the second of them; nothing where it takes a third, which a vertex has not:
-  // what that leaves out is counted as `what`.
+  // True if the picture takes the second set of uv. Empty if it takes a third, which a vertex does not have:
+  // the loss is counted as `what`.
   std::optional<bool> takes_second(const GltfObject& material, const GltfObject& reference, const char* what);
   void note_rest(const GltfObject& material);
   // Numbers that are shares, from 0 to 1.

@@ -23,7 +23,7 @@ class GltfMeshes {
     int mesh;
     int material;
   };
-  // Those of a mesh, as it is shown everywhere or as one node bends it.
+  // The parts of a mesh, as shown everywhere or as deformed by one node.
   const std::vector<Part>& parts(size_t index);
   std::vector<Part> posed_parts(size_t index, const GltfPose& pose);
 

@@ -13,7 +13,7 @@ namespace eyeray::engine::importers {
 Mat4 gltf_transform(const GltfObject& owner, const char* key, const Vec3& translation, const Vec4& rotation,
                     const Vec3& scale, GltfBreaches& breaches);
 
-// Whether the map of a matrix is no rotation with a scale along each axis.
+// True if the map of a matrix is no rotation with a scale along each axis.
 bool shears(const Mat3& matrix);
 
 // The nodes at the top of the scene that is shown, or of a file without scenes those without a parent.
@@ -23,7 +23,7 @@ std::vector<size_t> root_nodes(const GltfObject& document, std::vector<std::stri
 constexpr size_t no_parent = ~size_t{0};
 std::vector<size_t> parents_of_nodes(const GltfObject& document);
 
-// Whether KHR_node_visibility hides the node, and with it all that is below.
+// True if KHR_node_visibility hides the node, and with it all nodes below.
 bool is_hidden(const GltfObject& node);
 
 }  // namespace eyeray::engine::importers

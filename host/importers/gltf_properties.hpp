@@ -8,7 +8,7 @@
 
 namespace eyeray::engine::importers {
 
-// Whether the extension is read, or changes nothing that is shown.
+// True if the extension is read, or changes no picture.
 bool is_known_extension(std::string_view name);
 
 // Adds a breach for each property that does not fit the table of properties: one that glTF does not define

@@ -11,7 +11,7 @@
 
 namespace eyeray::engine::importers {
 
-// How a node bends the mesh that it shows.
+// The deformation of a mesh by the node that shows it.
 struct GltfPose {
   std::span<const Mat4> joints;  // from a vertex to the world, by each joint; empty: it has no skin
   std::vector<double> weights;   // of the morph targets; empty: the mesh's own

@@ -17,7 +17,7 @@ struct PixelBudget;  // image/coded_image.hpp
 
 namespace eyeray::engine::importers {
 
-// Which of a file's animations is shown, and when.
+// The animation of a file that is shown, and its time.
 struct Playing {
   double seconds = 0;
   // Its name, or else its number, from 0; absent: the first. The file's rest where it has none such.
@@ -28,17 +28,18 @@ struct Playing {
 };
 
 struct ImportOptions {
-  // Where a file has no normals: the greatest angle, in degrees, between faces that are shaded as one smooth
+  // For a file without normals: the greatest angle, in degrees, between faces that are shaded as one smooth
   // surface; 0: flat. Absent: 40 for OBJ and PLY; 0 for glTF, whose specification says so.
   std::optional<double> smooth = {};
-  // Where what the file names (materials, buffers, pictures) may lie beside the file's own folder tree.
+  // Folders, beside the file's own folder tree, that may contain the files it names (materials, buffers,
+  // pictures).
   std::vector<std::filesystem::path> allowed_folders = {};
   // The budget for the pictures of the scene that the file is for; null if it is for none.
   image::PixelBudget* pixels = nullptr;
   Playing playing = {};
 };
 
-// What moves in a file, from when to when, in seconds.
+// An animation of a file, with its start and end in seconds.
 struct PlayedAnimation {
   int values = 0;
   double first = 0, last = 0;
@@ -72,11 +73,11 @@ bool is_mesh_file(const std::filesystem::path& file);
 // the files.
 ImportedScene import_file(const std::filesystem::path& file, const ImportOptions& options = {});
 
-// The same from memory, for tests: `name` stands in messages and its ending says what `bytes` are. What it
-// refers to is refused.
+// Imports from memory, for tests. `name` stands in messages, and its ending gives the format of `bytes`.
+// References to other files are refused.
 ImportedScene import_bytes(std::string bytes, const std::string& name, const ImportOptions& options = {});
 
-// What is shown of meshes whose file names no materials: a light grey, or white where vertices have colours.
+// The material of meshes whose file names none: a light grey, or white if vertices have colours.
 std::unique_ptr<Material> plain_material(bool colored);
 
 }  // namespace eyeray::engine::importers

@@ -1,4 +1,4 @@
-// How importers refuse what a file holds. Private to the importers.
+// Errors with which importers refuse the contents of a file. Private to the importers.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ inline InputError malformed(const std::string& file, std::string message, int li
   return InputError({{Severity::error, {file, line, column}, std::move(message), "", 1}});
 }
 
-// The same at a byte of a text, whose line and column are counted.
+// The error at a byte of a text, whose line and column are counted.
 InputError malformed_at(const std::string& file, std::string_view text, size_t byte, std::string message);
 
 }  // namespace eyeray::engine::importers

@@ -17,7 +17,7 @@ inline constexpr uint32_t no_index = 0xffffffff;
 
 using IndexTriangle = std::array<uint32_t, 3>;
 
-// What was left out or mended, over all meshes of a file.
+// The parts left out or repaired, over all meshes of a file.
 struct MeshCounts {
   size_t not_finite = 0;    // faces
   size_t without_area = 0;  // faces

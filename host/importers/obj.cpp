@@ -161,7 +161,7 @@ void ObjReader::read_vertex() {
       count < 6 ? Vec3(1) : color_from_display({numbers[first], numbers[first + 1], numbers[first + 2]}));
 }
 
-// As many numbers as there are, up to `most`; what follows them is left.
+// Reads numbers, up to `most`; text that follows them is left.
 int ObjReader::read_numbers(std::array<double, 7>& numbers, int most) {
   int count = 0;
   for (; count < most; ++count) {

@@ -13,7 +13,7 @@
 
 namespace eyeray::engine::importers {
 
-// Where a material's maps lie: a vertex's uv times `scale` plus `offset`, by the options -s and -o.
+// The uv transform of a material's maps: a vertex's uv times `scale` plus `offset`, by the options -s and -o.
 struct ObjUv {
   Vec2 scale{1.0};
   Vec2 offset{0.0};
@@ -25,8 +25,8 @@ class ObjMaterials {
   ObjMaterials(AssetFiles& assets, image::PixelBudget& pixels)
       : assets_(assets), textures_(assets, pixels, warnings) {}
 
-  // Reads the .mtl files of an `mtllib` statement, which are parted by spaces or one whose name has some. One
-  // that cannot be read, or what of it has no counterpart here, is a warning.
+  // Reads the .mtl files of an `mtllib` statement, which are separated by spaces, or one file whose name
+  // contains spaces. A warning if one cannot be read, or has parts without a counterpart here.
   void load(std::string_view names);
   // Takes the materials of a .mtl file's text.
   void parse(std::string text);

@@ -270,7 +270,7 @@ uint32_t PlyReader<Values>::read_index(PlyType type) {
   return static_cast<uint32_t>(index);
 }
 
-// Each corner makes a triangle with the two before it, every other one turned round; −1 starts anew.
+// Each corner makes a triangle with the two before it, every other one reversed; −1 starts anew.
 template <typename Values>
 void PlyReader<Values>::read_strip(uint64_t count, PlyType type) {
   std::array<uint32_t, 2> before{};

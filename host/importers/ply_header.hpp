@@ -1,4 +1,4 @@
-// What a PLY file says it holds. Private to the importers.
+// The contents of a PLY file, as its header states them. Private to the importers.
 // Source: Turk: The PLY Polygon File Format, 1994; http://paulbourke.net/dataformats/ply/
 #pragma once
 

@@ -1,4 +1,4 @@
-// The polygons of a PLY file, and what each has of its own. Private to the importers.
+// The polygons of a PLY file, and the values of single polygons. Private to the importers.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,8 @@ struct PlyPolygons {
   std::vector<uint32_t> pictures;  // indices of PlyHeader::pictures, one a polygon; or empty
 };
 
-// Adds what faces have of their own to the pool; strips, where a file has both, have none. Colours of
-// vertices count more than those of faces.
+// Adds the values of single faces to the pool; strips, where a file has both, have none. Colours of vertices
+// count more than those of faces.
 void add_values_of_faces(PlyPolygons& polygons, VertexPool& vertices, std::vector<std::string>& warnings);
 
 // The polygons as triangles: a list for each picture that they show, or a single one. `own_uv`: the pool's uv

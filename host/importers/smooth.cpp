@@ -178,8 +178,7 @@ void add_smooth_normals(Mesh& mesh, std::span<const Vec3> faces, double degrees)
   const Smoother smoother(mesh, faces, degrees);
 
   // Split each vertex into one for each surface that it is on. (Where surfaces and seams of uv cross, a
-  // vertex may be made more than once.) The smoother looks at a corner of the mesh before that corner
-  // changes.
+  // vertex may be made more than once.) The smoother reads a corner of the mesh before that corner changes.
   std::vector<uint32_t> made(smoother.surfaces(), no_vertex);  // the last vertex made for a surface …
   std::vector<uint32_t> from;                                  // … and which vertex each was made from
   from.reserve(mesh.positions.size());

@@ -26,7 +26,7 @@ class TextureFiles {
 
   // The picture in a file; null, with a warning, where it cannot be had. TooManyPixels beyond the budget.
   std::shared_ptr<const ImageTexture> load(const std::string& name);
-  // The same for a picture that `decode` makes the first time that `name` is asked for.
+  // The picture called `name`, which `decode` makes on first use.
   std::shared_ptr<const ImageTexture> load(const std::string& name, const Decode& decode);
 
  private:

@@ -35,7 +35,7 @@ class InsideCall {
 // inside another call, as from its `progress`.
 void call_engine(const std::function<void()>& work, const std::atomic<bool>* stop = nullptr);
 
-// The same with an answer.
+// Makes a call that returns a result.
 template <typename Work>
 auto ask_engine(const Work& work, const std::atomic<bool>* stop = nullptr) {
   std::optional<decltype(work())> answer;

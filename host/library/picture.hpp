@@ -1,4 +1,4 @@
-// What stands behind the library's pictures.
+// The implementation of the library's pictures.
 #pragma once
 
 #include <eyeray/eyeray.hpp>

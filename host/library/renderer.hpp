@@ -1,4 +1,4 @@
-// What stands behind the library's renderers.
+// The implementation of the library's renderers.
 #pragma once
 
 #include <eyeray/eyeray.hpp>
@@ -30,8 +30,8 @@ namespace eyeray::engine::library {
 
 executors::Backend backend_of(v0::Backend backend);
 Rect rect_of(const v0::Rect& crop);
-// What to make executors with; for the backend gpu on the renderer's device, which is opened now if it is
-// not.
+// The options for executors. For the backend gpu they name the renderer's device, which is opened now if it
+// is not yet.
 executors::ExecutorOptions executor_options(v0::Renderer::Data& renderer, bool gpu);
 // For render::RenderOptions: `progress` asked, and its no a request of `cancellation`.
 std::function<void(const render::Progress&)> progress_of(

@@ -1,4 +1,4 @@
-// What stands behind the library's scenes.
+// The implementation of the library's scenes.
 #pragma once
 
 #include <eyeray/eyeray.hpp>

@@ -1,4 +1,4 @@
-// A clear sky over a round, matt ground, as light from all around; and the sun in it as a light of its own.
+// A clear sky over a spherical, matt ground, as light from all around, and its sun as a separate light.
 // Hillaire: A Scalable and Production Ready Sky and Atmosphere Rendering Technique, EGSR 2020; its atmosphere
 // is that of Bruneton and Neyret: Precomputed Atmospheric Scattering, EGSR 2008.
 #pragma once
@@ -14,8 +14,7 @@ namespace eyeray::engine::lights {
 struct SkySettings {
   Vec3 to_sun{0, 1, 0};  // unit; also below the horizon
   Vec3 ground{0.3};      // its albedo
-  Vec3 scale{
-      1};  // beyond the atmosphere a surface square to the sun gets the light of an intensity of `scale`
+  Vec3 scale{1};  // irradiance perpendicular to the sun beyond the atmosphere, for an intensity of `scale`
 };
 
 struct Sky {

@@ -82,7 +82,7 @@ std::unique_ptr<Light> parse(TableReader& table) {
   const double length = glm::length(direction);
   if (table.valid("direction") && !(length > 1e-15)) table.error("direction", "`direction` has no length");
   const double inner = table.number("inner_angle"), outer = table.number("outer_angle");
-  // So near to each other their cosines cannot be told apart.
+  // Cosines of closer angles cannot be distinguished.
   if (table.valid("inner_angle") && table.valid("outer_angle") && !(outer - inner >= 0.001))
     table.error(
         table.has("outer_angle") ? "outer_angle" : "inner_angle",

@@ -1,4 +1,4 @@
-// A twisted column with round edges. f is negative inside, and never changes faster than `lipschitz` in the scene says.
+// A twisted column with rounded edges. f is negative inside. The scene's `lipschitz` bounds its slope.
 float f(vec3 p) {
   float angle = twist * p.y;
   float c = cos(angle);
