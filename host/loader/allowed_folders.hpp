@@ -1,4 +1,4 @@
-// Which other files a scene may read: those in its own folder tree, and in trees that the user allowed.
+// The other files that a scene may read: those in its own folder tree, and in trees that the user allowed.
 // Private to the loader.
 #pragma once
 
@@ -23,7 +23,7 @@ class AllowedFolders {
   // The file that the value `name` of `key`, written in the file `from`, stands for; it need not exist. Error
   // (bad_input) where the name is none, or leads out of the allowed folders, links followed.
   File find(std::string_view key, const std::string& name, const std::filesystem::path& from) const;
-  // The same for a value at a position. One that stands in none of the scene's `sources`, such as an
+  // Finds the file named by a value at a position. A value in none of the scene's `sources`, such as an
   // override, is relative to the scene's folder.
   File find(std::string_view key, const std::string& name, const std::string& from,
             std::span<const std::filesystem::path> sources) const;

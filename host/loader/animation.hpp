@@ -1,5 +1,5 @@
-// What moves in a scene: tracks of keyframes, laid over its values as they are at one frame. Private to the
-// loader.
+// The animation of a scene: tracks of keyframes, whose values at one frame replace the scene's. Private to
+// the loader.
 #pragma once
 
 #include <toml++/toml.h>

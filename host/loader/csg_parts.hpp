@@ -1,4 +1,4 @@
-// What cannot be part of a CSG object, and why. Private to the loader.
+// The shapes that cannot be part of a CSG object, and why. Private to the loader.
 #pragma once
 
 #include <memory>

@@ -10,7 +10,7 @@
 
 namespace eyeray::engine::loader {
 
-// What is around a scene, and what shines from there; of both there may be none.
+// The environment of a scene, and the lights from it; either may be absent.
 struct Surroundings {
   std::shared_ptr<EnvironmentMap> map;
   std::unique_ptr<Light> sun;

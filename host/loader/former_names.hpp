@@ -7,7 +7,7 @@
 
 namespace eyeray::engine::loader {
 
-// What `key` of a table is called today: `key` itself, but for a former name.
+// The current name of `key` of a table: `key` itself, unless it is a former name.
 std::string_view name_today(std::string_view key);
 
 // Gives each table in `root` that has a former name the one it has today.

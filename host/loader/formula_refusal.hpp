@@ -1,4 +1,4 @@
-// Scenes that may bring no functions of their own. Private to the loader.
+// Refuses functions in scenes that may not define any. Private to the loader.
 #pragma once
 
 #include <toml++/toml.h>

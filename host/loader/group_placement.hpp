@@ -15,7 +15,7 @@ class GroupPlacer {
   // from what is in it to its space.
   int keep(Group group, double stretch);
 
-  // Whether all of it can surely stand there, shape by shape. If not, each has to be looked at.
+  // True if all shapes of the group can surely stand there. If not, each must be checked.
   bool surely_fits(int group, const Mat4& transform) const;
   // Shows the group once more.
   void place(int group, const Mat4& transform, const SourcePosition& position, const NameRef& name);

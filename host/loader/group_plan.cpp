@@ -15,13 +15,13 @@ namespace {
 
 // What is kept, one by one, shown or not.
 constexpr double most_kept = 0x4000000;
-// Primitives are told apart by 31 bits.
+// Primitives are identified by 31 bits.
 constexpr double most_shown = std::numeric_limits<int32_t>::max();
 constexpr int deepest = 64;
 
 // An instance takes as much memory as about this many shapes.
 constexpr double instance_cost = 2;
-// Rays in a group of its own go each alone: memory has to be worth it.
+// Rays in a separate group are traced alone: the saved memory must be worth it.
 constexpr double worth_keeping_once = 0x40000;
 
 // How many of the table its batch shows; what is no sound batch counts as one.

@@ -22,13 +22,13 @@ class GroupPlan {
   // or come to more than any memory holds are errors here.
   GroupPlan(const toml::table& root, GroupStorage storage, DiagnosticLog& log);
 
-  // Whether the groups can be shown; if not, there were errors.
+  // True if the groups can be shown; if not, there were errors.
   bool sound() const { return sound_; }
 
-  // Where the group stands in the world, is it instanced?
+  // True if the group is instanced where it stands in the world.
   bool is_instanced(const toml::table& group) const;
 
-  // Whether a group stands nowhere but where instances show it.
+  // True if a group stands only where instances show it.
   static bool is_pattern(const toml::table& group);
 
   // The group of that name that is in no other, or null.
@@ -48,7 +48,7 @@ class GroupPlan {
       double count;  // how often it stands in one of these
     };
     std::vector<Member> members;
-    double own = 0;       // shapes and meshes of its own, …
+    double own = 0;       // its own shapes and meshes, …
     double items = 0;     // … with those of its groups, …
     double objects = 0;   // … and with the groups themselves
     bool bounded = true;  // all of it

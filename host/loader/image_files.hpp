@@ -36,7 +36,7 @@ class ImageFiles final : public reading::ImageSource {
   DiagnosticLog& log_;
   std::vector<std::filesystem::path> files_;
   struct Entry {
-    // The same texels with each filter, wrap and colour space that was asked for.
+    // The texels with each requested filter, wrap and colour space.
     std::vector<std::shared_ptr<const ImageTexture>> variants;
     std::string refused;  // why there are none
   };

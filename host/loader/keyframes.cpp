@@ -26,7 +26,7 @@ bool is_number(const toml::node& node) {
   return node.is_integer() || node.is_floating_point();
 }
 
-// As TOML that is read as a number of the same kind and value.
+// The number as TOML text that is read back as a number of the same kind and value.
 std::string number_text(double value, bool integer) {
   if (integer && value == std::floor(value) && std::abs(value) < 0x1p53) return fmt::format("{:.0f}", value);
   const std::string text = fmt::format("{}", value);

@@ -1,4 +1,4 @@
-// Tables whose `type` says which of several kinds they are: each kind has keys of its own.
+// Tables whose `type` selects one of several kinds. Each kind has its own keys.
 #pragma once
 
 #include <fmt/format.h>

@@ -57,7 +57,7 @@ std::string textures_manual() {
   return text;
 }
 
-// The values of a key that have a page of their own.
+// The values of a key that have their own page.
 template <typename Manual>
 std::string values_manual(std::string_view key, std::span<const std::string_view> names,
                           const Manual& manual) {

@@ -18,7 +18,7 @@ std::string one_sentence(const InputError& error) {
   return fmt::format("{}:{}:{}: {}", at.file, at.line, at.column, first.message);
 }
 
-// What a scene that shows the file is told of it.
+// The warnings for a scene that shows the file.
 std::vector<std::string> warnings_of(const importers::ImportedScene& scene, const fs::path& file) {
   std::vector<std::string> all = scene.warnings;
   const size_t lights = scene.lights.size();

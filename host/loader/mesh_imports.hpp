@@ -14,7 +14,7 @@
 
 namespace eyeray::engine::loader {
 
-// What `animation` of [[mesh]] says for a file at rest.
+// The value of `animation` in [[mesh]] for a file at rest.
 inline constexpr const char* no_animation = "none";
 
 class MeshImports {
@@ -35,18 +35,18 @@ class MeshImports {
   // The moment that animated files are shown at, in seconds; 0 until it is said.
   void show(double seconds) { seconds_ = seconds; }
 
-  // What the file holds that is named in the file `from`; the pointer stays good. Of `playing` the moment is
-  // not looked at. Error, one sentence, where it cannot be had; the same one each time.
+  // The contents of the file that the file `from` names. The pointer stays valid. The moment in `playing` is
+  // ignored. Error, one sentence, if it cannot be read; the same one each time.
   Loaded load(const std::string& name, std::optional<double> smooth, importers::Playing playing,
               const std::string& from);
 
-  // What a mesh file holds that is itself the scene; it will not be fresh again. InputError and Error as
-  // import_file's.
+  // The contents of a mesh file that is itself the scene; it will not be fresh again. InputError and Error as
+  // import_file.
   Loaded load_alone(const std::filesystem::path& file);
-  // The same file at rest, which is not shown. InputError, as from import_file, where nothing could be seen.
+  // The file at rest, which is not shown. InputError, as from import_file, if nothing could be seen.
   importers::ImportedScene rest(const std::filesystem::path& file) const;
 
-  // What moves in the files that were loaded, each once for each way in which it is shown.
+  // The animations of the loaded files, each once for each way in which it is shown.
   std::vector<importers::PlayedAnimation> played() const;
 
   // Every file that was to be read, in the order in which they were first named.
@@ -59,7 +59,7 @@ class MeshImports {
     ExitCode code = ExitCode::ok;
     bool shown = false;
   };
-  // How a file is read: by its canonical path.
+  // The way of reading a file: by its canonical path.
   struct Wanted {
     std::filesystem::path file;
     std::optional<double> smooth;

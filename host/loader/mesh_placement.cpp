@@ -58,7 +58,7 @@ std::string MeshPlacer::check(size_t index, const Mat4& transform) const {
       return "the transformed vertices are out of range (coordinates up to 1e12)";
   }
 
-  // Only where the map's worst does not settle it, look at every triangle.
+  // Check every triangle only if the map's worst case does not decide.
   if (thinnest * thinning(map.linear) >= least_thickness) return "";
   const Mesh& mesh = scene_.meshes[index];
   for (const auto& triangle : mesh.triangles) {

@@ -25,12 +25,12 @@ class MeshPlacer {
   std::string check(size_t mesh, const Mat4& transform) const;
 
  private:
-  // Where in the scene the meshes and materials of a file are; −1 before they are.
+  // The indices in the scene of the first mesh and material of a file; −1 before they are added.
   struct Place {
     int first_mesh = -1;
     int first_material = -1;
   };
-  // What it takes to say whether a map leaves a mesh sound.
+  // The facts that decide whether a map leaves a mesh sound.
   struct Extent {
     Bounds bounds;
     double thinnest;  // triangle, see thickness()

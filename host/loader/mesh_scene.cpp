@@ -48,8 +48,8 @@ importers::ImportedCamera framing(const importers::ImportedScene& import) {
   each_point(import, [&](const Vec3& p) { box.include(p); });
   const Vec3 centre = box.min + (box.max - box.min) / 2.0;
 
-  // Four planes through the eye bound what is seen. Push each towards the points until it touches one: two
-  // that face each other then meet where the nearest eye is by that direction. The farther one of both
+  // Four planes through the eye bound the view. Push each towards the points until it touches one: two that
+  // face each other then intersect at the nearest possible eye for that direction. The farther one of both
   // directions sees everything, with as much room on either side.
   const Vec3 right = glm::normalize(glm::cross(Vec3(0, 1, 0), towards_eye));
   const Vec3 up = glm::cross(towards_eye, right);

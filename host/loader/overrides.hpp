@@ -15,9 +15,9 @@ namespace eyeray::engine::loader {
 // Puts each value at its place in the tree, as if it stood in the file; it is checked with all others later.
 void apply_overrides(toml::table& root, std::span<const Override> overrides, DiagnosticLog& log);
 
-// The same of a value that keyframes have made, as TOML. `at`: where `target`, the key, is written;
-// `value_at`: where its keyframes are, at which what is wrong with the value is reported. Returns the parts
-// of the key, with indices in place of names: "sphere", "0", "radius". After an error there are none.
+// Applies a value that keyframes have made, as TOML. `at`: the position of `target`, the key. `value_at`: the
+// position of its keyframes, at which errors in the value are reported. Returns the parts of the key, with
+// indices in place of names: "sphere", "0", "radius". After an error there are none.
 std::vector<std::string> apply_track(toml::table& root, std::string_view target, std::string_view value,
                                      const SourcePosition& at, const SourcePosition& value_at,
                                      DiagnosticLog& log);

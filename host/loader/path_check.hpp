@@ -1,4 +1,4 @@
-// What Whitted's pictures show and paths cannot, or not by the numbers that are given.
+// Checks for features of Whitted's pictures that paths cannot show, or not with the given numbers.
 #pragma once
 
 #include "host/core/diagnostic_log.hpp"

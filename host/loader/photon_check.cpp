@@ -14,7 +14,7 @@ namespace {
 
 // In float32 a place is in one of so many cells along an axis (shaders/integrators/photon_cells.glsl).
 constexpr double most_cells = 1 << 22;
-// A sample that looks at more takes seconds.
+// A sample that gathers more takes seconds.
 constexpr double most_gathered = 1 << 20;
 
 bool has_end(const Shape& shape) {

@@ -1,4 +1,4 @@
-// What `sppm` cannot do with a scene.
+// Checks for scenes that `sppm` cannot render.
 #pragma once
 
 #include <span>

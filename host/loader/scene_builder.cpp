@@ -326,7 +326,7 @@ std::unique_ptr<Shape> Builder::read_shape(const Section& section, const toml::t
   return parse_shape(section, reader, placing, materials_.find(reader));
 }
 
-// A shape of its own, or a part.
+// A separate shape, or a part.
 std::unique_ptr<Shape> Builder::parse_shape(const Section& section, reading::TableReader& reader,
                                             const Placing& placing, int material) {
   std::unique_ptr<Shape> shape = section.shape->parse(reader, placing.to_world);

@@ -11,7 +11,7 @@
 
 namespace eyeray::engine::loader {
 
-// Where what a scene names comes from; null where it may name no such files.
+// The sources of files that a scene names; null if it may name no such files.
 struct SceneSources {
   reading::ImageSource* images = nullptr;
   MeshImports* meshes = nullptr;

@@ -12,7 +12,7 @@ namespace eyeray::engine::loader {
 void set_value(const std::filesystem::path& file, const std::string& table, const std::string& key,
                const std::string& value);
 
-// The same in a text.
+// The text with the value changed.
 std::string with_value(std::string text, const std::string& table, const std::string& key,
                        const std::string& value);
 

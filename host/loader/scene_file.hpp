@@ -20,11 +20,11 @@ struct Override {
   std::string written = {};  // as its author did: "-s 640x480"; empty: "-D TEXT"
 };
 
-// What a scene file is trusted with.
+// The rights of a scene file.
 struct Trust {
   std::vector<std::filesystem::path> folders =
       {};  // beside its own that it may read included files, images and meshes from, with all below
-  bool formulas = true;  // whether it may bring functions of its own, or ready ones alone
+  bool formulas = true;  // whether it may define functions, or use ready ones alone
 };
 
 // Reads, includes, overrides and checks a scene, or makes one that shows a mesh file (.obj, .ply, .gltf,
@@ -32,12 +32,11 @@ struct Trust {
 // cannot be read.
 Scene load_scene(const std::filesystem::path& file, std::span<const Override> overrides = {},
                  const Trust& trust = {});
-// What stands for mesh files of a scene that is in no file: the bytes of each, by the name that the scene
-// gives.
+// The mesh files of a scene that is in no file: the bytes of each, by the name that the scene gives.
 using MemoryFiles = std::map<std::string, std::string, std::less<>>;
 
-// The same from memory; `name` stands in messages. It can neither include files nor name images, and of
-// meshes those of `files` alone. `formulas`: as Trust's.
+// Parses a scene from memory. `name` stands in messages. The scene can neither include files nor name images,
+// and can name only the meshes of `files`. `formulas`: as in Trust.
 Scene parse_scene(std::string_view text, const std::string& name, std::span<const Override> overrides = {},
                   const MemoryFiles& files = {}, bool formulas = true);
 

@@ -38,11 +38,11 @@ struct Section {
   std::string_view manual = {};              // what the manual adds to `doc`; Markdown
 
   bool many() const { return title.starts_with("[["); }
-  // Whether it stands in the world: such tables may have a batch, and may stand in a group.
+  // True if it stands in the world: such tables may have a batch, and may stand in a group.
   bool is_placed() const {
     return kind == Kind::shape || kind == Kind::mesh || kind == Kind::group || kind == Kind::instance;
   }
-  // Whether it is made of the shapes that stand in it.
+  // True if it is made of the shapes that stand in it.
   bool is_combined() const { return shape && shape->combine; }
 };
 
@@ -56,8 +56,8 @@ std::string suggest_section(std::string_view name);
 // The names of those that may stand in a group.
 std::span<const std::string_view> placed_names();
 
-// The keys that all shapes in a CSG object share, as CSG objects do: what is of no material of its own is of
-// that around it.
+// The keys that all shapes in a CSG object share, as CSG objects do: a part without a material takes that of
+// the object around it.
 std::span<const reading::Key> part_keys();
 // The table in a CSG object's of what is taken away.
 inline constexpr std::string_view minus_key = "minus";

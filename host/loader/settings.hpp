@@ -12,7 +12,7 @@ std::span<const reading::Key> image_keys();
 std::span<const reading::Key> render_keys();
 std::span<const reading::Key> verify_keys();
 
-// What the table says; what is wrong between its values is reported to it.
+// The settings of the table. Conflicts between its values are reported to the table.
 RenderSettings read_render(reading::TableReader& table);
 ImageSettings read_image(reading::TableReader& table, IntegratorType integrator);
 VerifySettings read_verify(reading::TableReader& table);

@@ -136,8 +136,7 @@ void blank(std::string& text, const Statement& statement) {
 }
 
 std::optional<Excess> find_excess(std::string_view text, TreeBudget& budget) {
-  // What toml++ takes for each, measured, in the budget's units. Each part of a key may be a table of its
-  // own.
+  // toml++'s measured cost of each, in the budget's units. Each part of a key may be a separate table.
   constexpr size_t of_comma = 1, of_list = 2, of_table = 4, of_key_part = 8;
 
   int line = 1;

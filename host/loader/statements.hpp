@@ -37,7 +37,7 @@ struct TreeBudget {
   size_t left = size_t{1} << 25;
 };
 
-// What is too much for a tree, and where.
+// The excess over a tree's limits, and its position.
 struct Excess {
   int line = 0;
   int column = 0;

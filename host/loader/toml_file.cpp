@@ -108,7 +108,7 @@ std::string read_scene_text(const std::filesystem::path& file) {
 }
 
 std::string explain_syntax(std::string_view description, std::string_view statement) {
-  // Turn "Error while parsing WHERE: WHAT" round.
+  // Swap the parts of "Error while parsing WHERE: WHAT".
   constexpr std::string_view prefix = "Error while parsing ";
   std::string where;
   std::string what(description);

@@ -21,7 +21,7 @@ std::string read_scene_text(const std::filesystem::path& file);
 toml::table parse_toml(std::string_view text, const std::string& name, TreeBudget& budget,
                        DiagnosticLog& log);
 
-// What the parser says of a statement, in the words of somebody who wants to mend it.
+// The parser's error in a statement, in the words of a person who wants to fix it.
 std::string explain_syntax(std::string_view description, std::string_view statement = {});
 
 }  // namespace eyeray::engine::loader

@@ -1,4 +1,4 @@
-// The records of all that stands in one space, the world's or one of its own: shapes, then the triangles of
+// The records of all objects in one space, world space or an object space: shapes, then the triangles of
 // meshes.
 #pragma once
 

@@ -17,13 +17,13 @@ struct CollapsedBvh {
   uint32_t stack_size = 0;         // the most that can wait while children are visited in any order
 };
 
-// Which binary nodes fall away, and which leaves grow together, is what the surface area heuristic finds
-// cheapest; boxes stay as they are. `nodes`: those of `bvh`, quantised, without instances. `children`, of a
-// node and at most in a leaf: 4, 8 or 16; a leaf has at most 8 even then.
+// The surface area heuristic decides which binary nodes are removed, and which leaves are merged. Boxes stay
+// as they are. `nodes`: those of `bvh`, quantised, without instances. `children`, of a node and at most in a
+// leaf: 4, 8 or 16; a leaf has at most 8 even then.
 CollapsedBvh collapse(std::span<const shader::uvec4> nodes, const shader::Bvh& bvh,
                       uint32_t children = bvh4_children);
 
-// Where the BVH of kernels/cooperative/packet.comp.glsl is.
+// The position of the BVH of kernels/cooperative/packet.comp.glsl.
 struct PacketBvh {
   uint32_t first_node = 0;  // among the scene's nodes: where its root's first child is
   uint32_t stack_size = 1;  // CollapsedBvh's

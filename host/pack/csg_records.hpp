@@ -1,4 +1,4 @@
-// Records of CSG objects, whose leaves are records of their own that stand with the vertices
+// Records of CSG objects, whose leaves are separate records that stand with the vertices
 // (shaders/shapes/csg.glsl).
 #pragma once
 

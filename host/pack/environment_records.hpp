@@ -5,9 +5,9 @@
 
 namespace eyeray::engine::pack {
 
-// How many texels pack_environment() writes.
+// The number of texels that pack_environment() writes.
 size_t environment_texels(const EnvironmentMap& environment);
-// As PackedScene::environment has it.
+// The environment in the form of PackedScene::environment.
 RawVector<shader::uvec4> pack_environment(const EnvironmentMap& environment);
 
 }  // namespace eyeray::engine::pack

@@ -19,8 +19,8 @@
 namespace eyeray::engine::pack {
 namespace {
 
-// Up to here testing everything is as fast as a BVH: primitives, and turns of loops of their own. Rays of
-// paths take different ways through a BVH, so more tests pay, in pictures whose samples repay their
+// Up to here testing everything is as fast as a BVH: primitives, and the iterations of their own loops. Rays
+// of paths take different ways through a BVH, so more tests pay, in pictures whose samples repay their
 // compilation.
 constexpr size_t few_tests = 24;
 constexpr size_t few_tests_of_paths = 40;
@@ -65,7 +65,7 @@ class GeometryPacker {
   }
 
  private:
-  // A mesh or a group that instances show, with a BVH of its own.
+  // A mesh or a group that instances show, with its own BVH.
   struct Blas {
     Vec3 origin;  // that its records are relative to
     BlasRecords items;

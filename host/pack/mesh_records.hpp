@@ -24,7 +24,7 @@ class MeshRecords {
 
   uint32_t size() const { return uint32_t(mesh_->triangles.size()); }
   shader::Primitive record(uint32_t triangle) const;
-  // As triangle_box(record(triangle)).
+  // The box of a triangle: triangle_box(record(triangle)).
   bvh::Box box(uint32_t triangle) const;
 
  private:

@@ -6,8 +6,8 @@
 
 namespace eyeray::engine::pack {
 
-// Whether the boxes of `bvh` stay nearly as tight with 16 bits a plane: where a part matters that is tiny
-// against the whole they do not.
+// True if the boxes of `bvh` stay nearly as tight with 16 bits a plane. They do not if a part matters that is
+// tiny against the whole.
 bool quantising_is_harmless(const bvh::Bvh& bvh);
 
 // Appends the nodes of `bvh`, as scene.quantised_nodes has them, and its BVH record. Bvh::order begins at

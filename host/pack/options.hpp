@@ -1,4 +1,4 @@
-// What may be chosen about the BVH; which hits are found does not depend on it.
+// Options of the BVH. The hits do not depend on them.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ struct PackOptions {
   Acceleration acceleration = Acceleration::automatic;
   // Spatial splits (bvh/bvh.hpp), where no primitive lets part of a shadow ray through.
   bool split = false;
-  // Where scenes come one after the other: what BVHs are refitted from. Null: each is built.
+  // The BVHs of the last scene of a sequence, from which BVHs are refitted. Null: each is built.
   std::shared_ptr<bvh::BvhHistory> history = nullptr;
 };
 

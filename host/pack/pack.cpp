@@ -15,7 +15,7 @@
 namespace eyeray::engine::pack {
 namespace {
 
-// As materials/media.glsl stacks them: a byte each, the innermost lowest.
+// The stack of media in the form of materials/media.glsl: a byte each, the innermost lowest.
 uint32_t media_stack(const std::vector<int>& media, const records::PackedScene& packed,
                      std::string_view who) {
   if (media.size() > 4)

@@ -16,7 +16,7 @@ constexpr double aim = 0.02;
 // A shape about the eye is taken to be no nearer than this share of its size.
 constexpr double least_share = 0.02;
 
-// Whether `form` is drawn, which a tessellation of the coarsest kind tells.
+// True if `form` is drawn, which the coarsest tessellation shows.
 bool is_drawn(const ShapeForm& form) {
   if (std::holds_alternative<PlaneForm>(form)) return true;
   return tessellate(form, Mat4(1.0), 1e300).has_value();

@@ -20,11 +20,11 @@ class DrawList {
   // In the order of their ids.
   void for_each(const std::function<void(const ScreenTriangle&)>& visit) const;
 
-  // Whether a primitive is drawn wherever it is seen.
+  // True if a primitive is drawn wherever it is seen.
   bool draws(uint64_t primitive) const;
-  // How far from the eye the shape, or the mesh, of a primitive reaches; 0 of planes.
+  // The largest distance from the eye of the shape, or the mesh, of a primitive; 0 for planes.
   double reach(uint64_t primitive) const;
-  // How many primitives are not, by why: "implicit", "with cutouts", "that blend".
+  // The numbers of primitives that are not drawn, by reason: "implicit", "with cutouts", "that blend".
   const std::map<std::string, uint64_t>& not_drawn() const { return not_drawn_; }
 
  private:

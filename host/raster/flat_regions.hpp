@@ -1,4 +1,4 @@
-// What outlines enclose, as triangles.
+// The regions that outlines enclose, as triangles.
 #pragma once
 
 #include <array>

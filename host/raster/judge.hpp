@@ -1,4 +1,4 @@
-// Whether the geometry allows both what a ray hits and what was drawn, at one pixel.
+// Judges whether the geometry allows both the hit of a ray and the drawn triangle, at one pixel.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace eyeray::engine::raster {
 
-// What is nearest at a pixel's centre, as the one or the other has it.
+// The nearest primitive at a pixel's centre, by rays or by the rasteriser.
 struct Seen {
   bool anything = false;
   bool in_list = true;  // one that is drawn

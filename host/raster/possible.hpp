@@ -1,5 +1,5 @@
-// What the geometry alone says may be seen at the centre of a pixel: by whoever snaps corners to a grid,
-// rounds depths, or draws a tessellation in place of its surface.
+// The primitives that the geometry alone allows at the centre of a pixel, for renderers that snap corners to
+// a grid, round depths, or draw a tessellation in place of its surface.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace eyeray::engine::raster {
 
-// How exactly triangles are drawn.
+// The precision with which triangles are drawn.
 struct Exactness {
   double snap = 0;         // pixels by which a corner may be moved
   double depth_error = 0;  // by which a drawn nearness may be wrong, as a share of the triangle's greatest …
@@ -19,7 +19,7 @@ struct Exactness {
   double t = 1e-5;         // by which a hit's t may be wrong, as a share of it: gate C's
 };
 
-// How far a triangle may lie from where it is drawn, about a pixel's centre: pixels, nearness.
+// The largest displacement of a drawn triangle about a pixel's centre: in pixels, and in nearness.
 Vec2 slack(const ScreenTriangle& triangle, const Vec2& center, const View& view, const Exactness& exactness,
            bool tessellated);
 // From a point of the picture to the triangle, in pixels; 0 within it.
@@ -36,13 +36,13 @@ class Possible {
   Possible(Viewer viewer, const Vec2& center, std::span<const ScreenTriangle> triangles, const View& view,
            const Exactness& exactness, bool tessellated);
 
-  // Whether the primitive may be seen, there.
+  // True if the primitive may be seen at that nearness.
   bool allows(uint32_t id, double nearness) const;
-  // Whether there need be nothing at all.
+  // True if it is possible that nothing is seen.
   bool allows_nothing() const { return !covered_; }
-  // Whether what is there may hide everything that is drawn.
+  // True if a primitive at that nearness may hide everything that is drawn.
   bool may_hide_all(double nearness) const;
-  // Whether the centre itself is within one of the primitive's triangles.
+  // True if the centre itself is within one of the primitive's triangles.
   bool is_within(uint32_t id) const;
 
  private:

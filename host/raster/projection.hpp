@@ -22,7 +22,7 @@ class Projection {
   const View& view() const { return view_; }
   const DrawList& list() const { return list_; }
   uint64_t triangles() const { return triangles_; }
-  // What View calls so, of a depth; of 0 it is what all others are measured from.
+  // View's nearness of a depth. The nearness of depth 0 is the one from which all others are measured.
   double nearness(float depth) const { return low_ + double(depth) * (high_ - low_); }
 
   // Calls visit(vertices, three a triangle) for Rasterizer::batch triangles at a time. Ids are the
@@ -36,7 +36,7 @@ class Projection {
   double low_ = 0, high_ = 1;  // the nearness of depths 0 and 1
 };
 
-// What draws them, as SPIR-V.
+// The shaders that draw the triangles, as SPIR-V.
 gpu::RasterShaders raster_shaders();
 
 }  // namespace eyeray::engine::raster

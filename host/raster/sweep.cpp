@@ -11,8 +11,8 @@ namespace {
 constexpr int least_sides = 8, most_sides = 1024;
 constexpr int deepest = 24;
 
-// How far the tip of the triangle that chord and tangents make is from the chord. Of a straight piece 0;
-// where a tangent is unknown, or square to the chord and beyond, the chord's length.
+// The distance from the chord of the tip of the triangle of chord and tangents. 0 for a straight piece. The
+// chord's length if a tangent is unknown, or perpendicular to the chord or beyond.
 double sagitta(const CurvePoint& a, const CurvePoint& b) {
   const Vec2 chord = b.at - a.at;
   const double length = glm::length(chord);

@@ -15,7 +15,7 @@ struct Polyline {
   double bound = 0;
 };
 
-// A point of a convex curve, and a vector square to the curve there, of any length; (0, 0) where there is
+// A point of a convex curve, and a vector perpendicular to the curve there, of any length; (0, 0) if there is
 // none.
 struct CurvePoint {
   Vec2 at, normal;
@@ -30,7 +30,7 @@ Polyline joined(std::initializer_list<Polyline> parts);
 
 // Every point (ρ, y) of `profile`, its distance from the axis and its height, with every point (x, z) of
 // `section`, which is closed: (ρ x, y, ρ z). Where ρ = 0, a point alone. `closes`: the profile's last point
-// is its first. The bound is that of its own space.
+// is its first. The bound is in object space.
 Tessellation sweep(const Polyline& profile, bool closes, const Polyline& section);
 
 // The unit circle around the axis, as a section of what is `reach` wide.

@@ -17,8 +17,8 @@ namespace {
 
 constexpr double half_turn = std::numbers::pi;
 
-// How much longer the map makes a vector at most, by Gershgorin's circles about the Gram matrix: exact where
-// the map keeps the axes square to each other.
+// The largest factor by which the map lengthens a vector, by Gershgorin's circles about the Gram matrix:
+// exact if the map keeps the axes perpendicular to each other.
 double stretch(const Mat4& map) {
   const Mat3 linear(map), gram = glm::transpose(linear) * linear;
   double most = 0;
@@ -128,7 +128,7 @@ Tessellation superellipsoid(const SuperellipsoidForm& form, double tolerance) {
                false, section);
 }
 
-// What each form is in a space of its own, and the map from there.
+// A form in object space, and the map from there.
 struct Piece {
   Tessellation tessellation;
   Mat4 map{1.0};
@@ -210,7 +210,7 @@ struct Tessellator {
     }
     return piece;
   }
-  // Its points, not those of a space of its own, are what a map takes along.
+  // The map applies to the patch's points themselves; there is no object space.
   Result operator()(const BezierForm& form) const {
     std::array<Vec3, 16> net = form.net;
     for (Vec3& point : net) point = Vec3(map * Vec4(point, 1.0));

@@ -24,9 +24,9 @@ struct Ball {
 // Around a box under `map`; nothing where that has no end.
 std::optional<Ball> ball_around(const Bounds& bounds, const Mat4& map);
 
-// `form` under `map`, its bound about `tolerance` where that does not take more triangles than a picture has
-// pixels; of what is flat the bound is 0. Nothing for what is not tessellated: quadrics that are not round,
-// CSG objects, and shapes without a form. Planes have no end, and are cut to the picture instead
+// Tessellates `form` under `map`. The bound is about `tolerance` unless that takes more triangles than a
+// picture has pixels; it is 0 for flat forms. Empty for forms that are not tessellated: quadrics that are not
+// round, CSG objects, and shapes without a form. Planes have no end, and are cut to the picture instead
 // (View::plane).
 std::optional<Tessellation> tessellate(const ShapeForm& form, const Mat4& map, double tolerance);
 

@@ -1,4 +1,5 @@
-// Where the world falls on a picture: the forward map, from points to pixels, that eye rays go the other way.
+// The projection of the world onto a picture: the forward map, from points to pixels, which camera rays
+// follow backwards.
 // Written from docs/scene-reference.md's cameras, not from the shaders and not from the reference's rays.
 #pragma once
 
@@ -37,29 +38,29 @@ class View {
   Vec3 to_camera(const Vec3& world) const;
   // A direction likewise.
   Vec3 turned(const Vec3& direction) const;
-  // Where a point before the eye, w = 1, or a direction, w = 0, falls.
+  // The pixel position of a point in front of the eye, w = 1, or of a direction, w = 0.
   Vec3 project(const Vec4& point) const;
 
-  // What greater numbers are nearer of: of perspective 1 / depth, of parallel rays −depth, depth being
-  // measured along the way that the camera looks. Either runs straight over the picture of a plane.
+  // Nearness is greater for nearer points: 1 / depth in perspective, −depth for parallel rays, where depth is
+  // measured along the viewing direction. Either is linear over the picture of a plane.
   bool perspective() const { return perspective_; }
   // The nearness of the hit at `t` along the ray through the centre of a pixel of the area.
   double nearness(int x, int y, double t) const;
-  // And back.
+  // The inverse of nearness(): t along the ray.
   double t(int x, int y, double nearness) const;
-  // How much t may be wrong, as a share of it, moves the nearness.
+  // The error of the nearness if t has the relative error `share`.
   double nearness_error(double nearness, double share) const;
-  // How many pixels a point that nearness lies before the eye moves aside, and what its nearness gains, where
-  // it is moved by `distance` in the world; infinite where that takes it behind the eye.
+  // The number of pixels by which a point of that nearness is displaced, and the gain of its nearness, if it
+  // moves by `distance` in the world; infinite if that takes it behind the eye.
   Vec2 shift(double x, double y, double nearness, double distance) const;
   // The world's size of a pixel at a depth.
   double pixel_at(double depth) const { return perspective_ ? depth / focal_ : 1 / focal_; }
-  // Whether a ball of the camera's space may be seen.
+  // True if a ball in the camera's space may be seen.
   bool may_see(const Vec3& center, double radius) const;
 
   // Calls visit(ScreenTriangle), `like` at other places, for what is left of a convex polygon before the eye
-  // and about the picture, some pictures wide, so that all corners are numbers that float32 tells apart. A
-  // cut between two polygons that share an edge is the same number in both.
+  // and about the picture, some pictures wide, so that float32 can resolve all corners. A cut between two
+  // polygons that share an edge is the same number in both.
   template <typename Visit>
   void cut(std::span<const Vec4> polygon, const ScreenTriangle& like, const Visit& visit) const {
     Polygon left(polygon);

@@ -1,6 +1,5 @@
-// Rasterised visibility as a witness of eye rays: forward mapping against inverse mapping. A scene's
-// triangles are drawn once, and what executors hit first is compared with that (docs/gates.md, gate
-// R).
+// Rasterised visibility as a witness of camera rays: forward mapping against inverse mapping. A scene's
+// triangles are drawn once, and executors' first hits are compared with them (docs/gates.md, gate R).
 #pragma once
 
 #include <string>

@@ -10,7 +10,7 @@
 
 namespace eyeray::engine::reading {
 
-// Keys by which a table brings the text of a formula, and its constants; `code`, with a doc of its own, is
+// Keys by which a table gives the text of a formula, and its constants. `code`, with a separate doc, is
 // another.
 inline constexpr Key formula_file_key{
     .name = "file",
@@ -22,15 +22,15 @@ inline constexpr Key parameters_key{.name = "parameters",
                                     .doc = "Constants that the function may use.",
                                     .optional = true};
 
-// Whether one of the keys `sources` stands in the table, and no other of them; an error where not. `owner`,
-// for messages: "[[implicit]]".
+// True if exactly one of the keys `sources` stands in the table; else an error is reported. `owner`, for
+// messages: "[[implicit]]".
 bool has_one_source(TableReader& table, std::initializer_list<std::string_view> sources,
                     std::string_view owner);
 
 // The title of the table's formula, for messages: "the function of [[implicit]] at scene.toml:12".
 std::string formula_title(const TableReader& table, std::string_view owner);
 
-// What the key `parameters` has, if it is there.
+// The value of the key `parameters`; empty if it is absent.
 std::vector<formula::FormulaParameter> formula_parameters(const TableReader& table);
 
 // The formula that `code` or `file` has, with its `parameters`; null after an error.

@@ -1,5 +1,4 @@
-// Where formulas come from that a scene names a file of. Which files may be read, and how, is the loader's
-// business.
+// The source of formulas in files that a scene names. The loader decides which files may be read, and how.
 #pragma once
 
 #include <optional>

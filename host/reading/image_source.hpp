@@ -1,5 +1,4 @@
-// Where the images come from that a scene's textures name. Which files may be read, and how, is the loader's
-// business.
+// The source of images that a scene's textures name. The loader decides which files may be read, and how.
 #pragma once
 
 #include <memory>

@@ -11,7 +11,7 @@ namespace eyeray::engine::reading {
 
 namespace {
 
-// As short as it can be written: 1e12, 65536, 0.001.
+// The shortest text of a number: 1e12, 65536, 0.001.
 std::string show(double value) {
   std::string text = fmt::format("{:g}", value);
   if (std::stod(text) != value) return fmt::format("{}", value);

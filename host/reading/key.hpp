@@ -1,5 +1,5 @@
-// What may stand in a table of a scene file. Each key is declared once, as a Key; from that one row come the
-// type, range and default checks, "did you mean", the JSON Schema and the manual.
+// The keys of a table of a scene file. Each key is declared once, as a Key; from that one row come the type,
+// range and default checks, "did you mean", the JSON Schema and the manual.
 #pragma once
 
 #include <limits>
@@ -53,7 +53,8 @@ struct Key {
   std::string_view hint = {};  // of a choice: said of a value that is none and that nothing is near to
 };
 
-// What a value of this key is, for messages and the manual: "an integer from 1 to 65536", "a number above 0".
+// Describes a value of this key, for messages and the manual: "an integer from 1 to 65536", "a number above
+// 0".
 std::string describe(const Key& key);
 
 }  // namespace eyeray::engine::reading

@@ -1,4 +1,4 @@
-// Where something stands in its file.
+// The position of something in its file.
 #pragma once
 
 #include <toml++/toml.h>

@@ -1,5 +1,5 @@
-// What stands behind a TableReader: the TOML of one table, read against its Keys. For this layer
-// and the loader.
+// The implementation of TableReader: the TOML of one table, read against its Keys. For this layer and the
+// loader.
 #pragma once
 
 #include <toml++/toml.h>

@@ -59,10 +59,9 @@ class TableReader {
   void warning(std::string_view key, std::string message);
   // Adds what is wrong within the text of a formula.
   void error(const InputError& faults);
-  // Whether the key's value, written or default, is right: false after an error in it, or where it is
-  // missing.
+  // True if the key's value, written or default, is valid: false after an error in it, or if it is missing.
   bool valid(std::string_view key) const;
-  // Whether this table has had an error so far.
+  // True if this table has had an error so far.
   bool failed() const;
   SourcePosition position() const;
   // The position of the key's value, or of the table where the key is absent.

@@ -1,4 +1,4 @@
-// What is known of a kind of texture: tables name textures among their values.
+// The facts about a kind of texture. Tables name textures among their values.
 #pragma once
 
 #include <span>
@@ -20,8 +20,8 @@ struct TextureType {
   // Only for the kind that is written as a plain color, without a table.
   TexturePtr (*of_color)(const Vec3& color) = nullptr;
 
-  // Whether its name is one of its keys and the others stand beside it, { image = "a.png", wrap = … }, or
-  // they are in a table of that name, { checker = { … } }.
+  // True if its name is one of its keys and the others stand beside it: { image = "a.png", wrap = … }. False
+  // if they are in a table of that name: { checker = { … } }.
   bool is_flat() const {
     for (const Key& key : keys)
       if (key.name == name) return true;

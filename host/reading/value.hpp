@@ -22,7 +22,7 @@ using Value =
                  std::vector<Vec3>, std::vector<Vec4>, std::vector<std::vector<Vec3>>, formula::FormulaText,
                  std::vector<formula::FormulaParameter>, TexturePtr, Mat4>;
 
-// What values are made of beside TOML.
+// The sources of values beside TOML.
 struct ValueSources {
   FormulaSource* formulas = nullptr;                  // loads the files of formulas; null: none may be named
   ImageSource* images = nullptr;                      // loads the images of textures; null: none may be named

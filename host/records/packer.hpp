@@ -30,8 +30,8 @@ struct PackedFormula {
 
 // A scene as the shaders see it; every position is relative to the camera's eye.
 struct PackedScene {
-  // By slot: of the world's own those in no BVH, by kind in registry order, then the others as leaves hold
-  // them; then those of each mesh or group with a BVH of its own.
+  // Primitives by slot: first the world's own that are in no BVH, by kind in registry order, then the others
+  // in the order of leaves; then those of each mesh or group with its own BVH.
   RawVector<shader::Primitive> primitives;
   std::vector<uint32_t> linear_ends;  // by kind, the end of those in no BVH
   // The index of the first primitive of `kind` that is in no BVH.
@@ -51,7 +51,7 @@ struct PackedScene {
   bool bent_normals = false;   // whether any material bends those of its surface
   bool vertex_colors = false;  // whether any of `vertices` have colours
   bool second_uv = false;      // … second texture coordinates
-  // How much larger, seen from the world, rounding is in a shape's own space: |linear| · |inverse|, the
+  // The factor by which rounding in a shape's object space grows in world space: |linear| · |inverse|, the
   // largest of all shapes.
   float map_growth = 1;
   std::vector<PackedFormula> formulas;     // by number
@@ -82,7 +82,8 @@ class Packer {
 
   // World to eye-relative, still in float64: only the difference is rounded to float32.
   Vec3 relative(const Vec3& world) const { return world - origin_; }
-  // What stands in a space of its own is relative to another point, of that space.
+  // Sets the point to which positions are relative. Objects in an object space are relative to a point of
+  // that space.
   void set_origin(const Vec3& origin) { origin_ = origin; }
 
   void add(const shader::Primitive& primitive) { scene.primitives.push_back(primitive); }
@@ -109,8 +110,8 @@ class Packer {
   void add_iteration_limit() { scene.may_reach_iteration_limit = true; }
   // The index of a texture; equal ones share it.
   uint32_t add(const shader::Texture& texture);
-  // Where the texels of an image begin; images of the same texels share them. Error (bad_input) where there
-  // are more than an index can tell apart. Counts them alone: write_texels() writes.
+  // The index of an image's first texel. Images of the same texels share them. Error (bad_input) if there are
+  // more than an index can address. Only counts texels: write_texels() writes them.
   uint32_t add_image(const std::shared_ptr<const ImageTexture>& image);
   // Writes the texels of all images: a second copy of them, which only executors need.
   void write_texels();

@@ -40,7 +40,7 @@ TEXTURES(X)
 CAMERAS(X)
 #undef X
 
-// How many kinds of shape there are.
+// The number of kinds of shape.
 inline constexpr uint SHAPE_KINDS = 0
 #define X(name, number) +1
     SHAPES(X)

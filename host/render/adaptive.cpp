@@ -7,7 +7,7 @@
 namespace eyeray::engine::render {
 namespace {
 
-// Blocks in a row that have left, between others that have not, take part all the same: a dispatch of its own
+// Blocks in a row that have left, between others that have not, take part all the same: a separate dispatch
 // costs a device more.
 constexpr int widest_filled_gap = 4;
 

@@ -15,7 +15,7 @@ namespace eyeray::engine::render {
 // techniques for image synthesis", SIGGRAPH 1991).
 class AdaptiveSampling {
  public:
-  // What is left are the blocks of `sums` that are not finished.
+  // Starts with the blocks of `sums` that are not finished.
   AdaptiveSampling(double target, const film::Film& sums);
 
   static constexpr uint64_t first_judgement = 64;

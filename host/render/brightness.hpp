@@ -1,4 +1,4 @@
-// How bright samples are: a count for each eighth of an octave, whatever their order.
+// A histogram of samples' brightness: a count for each eighth of an octave, independent of their order.
 #pragma once
 
 #include <array>
@@ -13,15 +13,16 @@ namespace eyeray::engine::render {
 class Brightness {
  public:
   void add(std::span<const PixelSample> samples);
-  // How many have more luminance than that, which is above 0; of those hardly brighter only some. 0 else.
+  // The number of samples with more luminance than that, which is above 0; samples that are hardly brighter
+  // are counted only in part. Else 0.
   uint64_t above(double luminance) const;
-  // How many are so much brighter than the mean of a picture of `pixels`, whose luminances come to that sum,
-  // that they make dots.
+  // The number of samples so much brighter than the mean that they make dots, in a picture of `pixels` whose
+  // luminances have that sum.
   uint64_t fireflies(double luminances, int64_t pixels) const {
     return above(times_of_fireflies * luminances / double(pixels));
   }
   static constexpr double times_of_fireflies = 1000;
-  // What another machine counted.
+  // Adds the counts of another machine.
   void add(const Brightness& other);
   std::array<uint64_t, 2048>& counts() { return counts_; }
   const std::array<uint64_t, 2048>& counts() const { return counts_; }

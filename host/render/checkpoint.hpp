@@ -36,7 +36,7 @@ struct IdentityPart {
   bool shown = true;  // whether the value means something to people, as a hash does not
 };
 
-// How far a render has come.
+// The progress of a render.
 struct RenderPosition {
   uint64_t finished_rows = 0;   // above the band, counted from the top of what is rendered
   uint64_t samples = 0;         // a pixel, in the band's sums; with adaptive sampling the most
@@ -58,8 +58,9 @@ class Checkpoint {
   const std::filesystem::path& file() const { return file_; }
   bool resumes() const { return input_ != nullptr; }
 
-  // What was read. Then the band's sums, whose size is set, and the finished rows from the top down. Error
-  // (cannot_resume) when damaged; where that is found out after rows were given, check_rows says it.
+  // The position that was read. Below: the band's sums, whose size is set, and the finished rows from the top
+  // down. Error (cannot_resume) if damaged; check_rows reports it if the damage is found after rows were
+  // returned.
   const RenderPosition& position() const { return position_; }
   void read_sums(film::Film& film);
   film::Rows read_rows(int first, int count, int width, const film::Channels& channels);
@@ -72,7 +73,7 @@ class Checkpoint {
   void save(const RenderPosition& position, const film::Film& film);
   // Why the file is not what it should be; "" when it is.
   const std::string& failure() const { return failure_; }
-  // Whether there is a file to go on from, if only an older one.
+  // True if there is a file to resume from, if only an older one.
   bool on_disk() const { return saved_ || resumes(); }
   // When the picture is done.
   void remove();

@@ -1,4 +1,4 @@
-// What samples' flags mean, for people.
+// The meaning of samples' flags, for people.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Whether a picture shows anything: what share of it is beyond white, and whether there is more than
-// background.
+// Checks whether a picture shows anything: the share of it that is beyond white, and whether there is more
+// than background.
 #pragma once
 
 #include <optional>

@@ -40,7 +40,7 @@ class RowsAtATime {
   int most_;
 };
 
-// Those that are wanted, and those that the driver looks at.
+// The wanted channels, and those that the driver needs.
 film::Channels channels_of(const RenderOptions& options) {
   const film::Channels channels = film::with(options.channels, {"samples"});
   return options.noise > 0 ? film::with(channels, {"noise"}) : channels;

@@ -29,12 +29,12 @@ struct RenderOptions {
   Rect crop;                                      // in pixels of the whole picture; empty: all of it
   bool first_hits = false;                        // for render(): whether they are wanted
   std::function<void(const Progress&)> progress;  // called between tiles; may be empty
-  // How many bytes of sums to hold (40 a pixel, and those of channels). A larger picture is rendered in
-  // bands of rows: all samples of one, then of the next. Else it is one band, and so one sample of the whole
-  // picture comes after the other.
+  // The bytes of sums to hold (40 a pixel, and those of channels). A larger picture is rendered in bands of
+  // rows: all samples of one band, then of the next. A smaller one is one band, so that samples of the whole
+  // picture follow each other.
   size_t band_bytes = size_t{256} << 20;
-  // What rows have beside `samples` and, with `noise`, the noise. What channels need, the executor must
-  // count.
+  // The channels of rows, beside `samples` and, with `noise`, the noise. The executor must compute the values
+  // that channels need.
   film::Channels channels = {};
   bool ray_kinds = false;  // count rays by kind in all: then the executor must too
   // Above 0, pixels whose noise (Film::noise) is no more take no more samples (render/adaptive.hpp), and
@@ -44,13 +44,13 @@ struct RenderOptions {
   double clamp = 0;
   // Is shown each sample of a tile of the whole picture, as it is taken; may be empty.
   std::function<void(const Rect& tile, uint32_t index, std::span<const PixelSample>)> witness = {};
-  // Only these tiles, of `crop`: rows are then those of their stack. Not with `noise`, which looks at
+  // Only these tiles, of `crop`: rows are then those of their stack. Not with `noise`, which needs
   // neighbours. Null: all pixels.
   const ShardTiles* tiles = nullptr;
   Checkpoint* checkpoint = nullptr;  // kept and resumed from; see render_rows
 };
 
-// What a render came to, beside its pixels.
+// The results of a render beside its pixels.
 struct RenderTotals {
   uint64_t rays = 0;            // resumed ones included
   uint64_t flagged_pixels = 0;  // pixels with any SampleFlag
@@ -89,18 +89,19 @@ RenderTotals render_rows(const Scene& scene, executors::Executor& executor, cons
 
 using FirstHitSink = std::function<void(int first_row, std::span<const FirstHit>)>;
 
-// What the rays through the centres of the crop's pixels hit, some rows at a time. Returns false when
-// interrupted: `sink` has not got all then.
+// Passes the first hits of the rays through the centres of the crop's pixels to `sink`, some rows at a time.
+// Returns false if interrupted, before `sink` got all.
 bool trace_first_hits(executors::Executor& executor, const Rect& crop, const FirstHitSink& sink);
 
-// What was rendered, all at once.
+// The whole result of a render.
 struct Rendering : RenderTotals {
   image::Image color;                // of the crop; linear RGB, the mean of the samples
   std::vector<FirstHit> first_hits;  // of the crop; empty unless asked for
   image::Image hits, rays_traced;    // the channels `hits` and `rays`
 };
 
-// As render_rows; when interrupted, the images are empty unless samples_done > 0, and first_hits is empty.
+// Renders like render_rows. If interrupted, the images are empty unless samples_done > 0, and first_hits is
+// empty.
 Rendering render(const Scene& scene, executors::Executor& executor, const RenderOptions& options);
 
 }  // namespace eyeray::engine::render

@@ -8,14 +8,14 @@
 
 namespace eyeray::engine::render {
 
-// Which of `moments`, no more than `samples`, sample `index` shows. Each is shown about as often, to within a
-// run. They come in runs, which keeps those of one moment well spread over the pixel; and after any number of
-// runs the moments shown are spread over the time.
+// The index of the moment that sample `index` shows; there are no more `moments` than `samples`. Each moment
+// is shown equally often, to within a run. Samples of a moment come in runs, which keeps them well spread
+// over the pixel. After any number of runs the shown moments are spread over the time.
 int moment_of_sample(int index, int samples, int moments);
 
-// As executors::make_executor. Where anything moves while the scene's shutter is open (Scene::animation),
-// samples are those of its moments; all else is of the moment at its middle, which the scene shows. The
-// scene must stay.
+// Makes an executor like executors::make_executor. If anything moves while the scene's shutter is open
+// (Scene::animation), samples are those of its moments; all other results are of the moment at its middle,
+// which the scene shows. The scene must outlive the executor.
 std::unique_ptr<executors::Executor> make_picture_executor(executors::Backend backend, const Scene& scene,
                                                            const executors::ExecutorOptions& options);
 

@@ -1,5 +1,5 @@
-// How a picture is divided among machines, its shards: into tiles that each belong to one of them, with all
-// samples of their pixels.
+// Divides a picture among machines, its shards: into tiles that each belong to one shard, with all samples of
+// their pixels.
 #pragma once
 
 #include <vector>
@@ -27,7 +27,7 @@ constexpr int most_shards = 1 << 20;
 //
 // Shards get one tile each of the first `shards` tiles, one each of the next, and so on, each time in an
 // order drawn anew: so everyone has, to within one, as many, and they lie all over the picture, whatever is
-// dear in it. The orders are drawn from the number of the round alone, and are the same everywhere.
+// dear in it. The orders are drawn from the number of the iteration alone, and are the same everywhere.
 class Tiling {
  public:
   // `width`, `height`, `shards` ≥ 1.
@@ -69,7 +69,7 @@ class ShardTiles {
   const std::vector<Rect>& tiles() const { return tiles_; }
   // The pixels in rows [row, row + height) of the stack, in its pixels.
   std::vector<Rect> parts(int row, int height) const;
-  // Where in the picture such a part lies.
+  // The position of such a part in the picture.
   Rect in_picture(const Rect& part) const;
 
  private:
