@@ -35,7 +35,7 @@ T cast_to(const py::handle& value, const char* wanted) {
   }
 }
 
-// Whether it is a mesh for add_mesh: a dict with `vertices`, `triangles`, perhaps `normals` and `uv`, and the
+// True if it is a mesh for add_mesh: a dict with `vertices`, `triangles`, perhaps `normals` and `uv`, and the
 // keys of [[mesh]].
 bool is_mesh_of_arrays(const py::handle& table);
 // TypeError or ValueError, which begin with `where`, for arrays of wrong type or shape.

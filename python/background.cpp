@@ -64,7 +64,7 @@ class Worker {
 
 namespace {
 
-// Those that nobody waits for: they have nothing to do, or were abandoned.
+// The workers that nobody waits for: they are idle, or were abandoned.
 struct FreeWorkers {
   std::mutex mutex;
   std::vector<Worker*> workers;

@@ -211,7 +211,7 @@ void add_picture(py::module_& module) {
            "Write it as .png, .pfm, .hdr or .exr.");
 }
 
-// Closing a device waits for calls that render, and those may wait for the GIL, to tell of their progress.
+// Closing a device waits for calls that render, and those may wait for the GIL, to report progress.
 void close_without_gil(Renderer* renderer) {
   std::optional<py::gil_scoped_release> released;
   if (PyGILState_Check()) released.emplace();

@@ -14,7 +14,7 @@ namespace eyeray::engine::lights {
 struct SkySettings {
   Vec3 to_sun{0, 1, 0};  // unit; also below the horizon
   Vec3 ground{0.3};      // its albedo
-  Vec3 scale{1};  // irradiance perpendicular to the sun beyond the atmosphere, for an intensity of `scale`
+  Vec3 scale{1};  // beyond the atmosphere, irradiance perpendicular to the sun is that of intensity `scale`
 };
 
 struct Sky {

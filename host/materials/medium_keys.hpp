@@ -1,4 +1,4 @@
-// What every medium is said by, whatever it fills.
+// The keys that every medium has, whatever it fills.
 #pragma once
 
 #include "host/materials/registry.hpp"

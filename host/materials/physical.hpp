@@ -1,4 +1,4 @@
-// What materials have in common that are made for paths: Whitted's pictures show a stand-in of them.
+// Common parts of materials made for paths. Whitted's pictures show a stand-in of them.
 #pragma once
 
 #include "host/materials/make.hpp"
@@ -33,9 +33,9 @@ class Physical : public Material {
   std::unique_ptr<Material> stand_in_;
 };
 
-// What Whitted's pictures show of a surface that mirrors f0 at right angles: the smoother it is the more of
-// its surroundings, and of each light a Blinn highlight of exponent 2 / roughness⁴ − 2 (Karis: Specular BRDF
-// Reference, 2013). `body`: the colour of what is not mirrored.
+// The stand-in, in Whitted's pictures, of a surface whose reflectance at normal incidence is f0: the smoother
+// it is, the more it mirrors its surroundings. Each light shows a Blinn highlight of exponent 2 / roughness⁴
+// − 2 (Karis: Specular BRDF Reference, 2013). `body`: the colour of the light that is not mirrored.
 PhongValues stand_in(const TexturePtr& body, const Vec3& f0, double roughness);
 
 // The typical value of a texture of a number in [0, 1]. If the texture varies, it is the value in the middle.

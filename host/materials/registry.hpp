@@ -1,4 +1,4 @@
-// What a scene file and the manual know of the kinds of materials.
+// The kinds of materials, as scene files and the manual know them.
 #pragma once
 
 #include <memory>

@@ -6,8 +6,8 @@
 
 namespace eyeray::engine::optics {
 
-// What microfacets of one roughness send on of the light from one direction, without what another of them
-// takes.
+// The share of light from one direction that microfacets of one roughness reflect, without the light that
+// another microfacet blocks.
 struct GgxAlbedo {
   double once;       // each a perfect mirror
   double edge;       // the same, weighted by Schlick's (1 − cosine)⁵ at the microfacet

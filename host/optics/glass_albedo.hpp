@@ -4,8 +4,9 @@
 
 namespace eyeray::engine::optics {
 
-// What GGX microfacets between two media mirror and refract without what another of them takes; cosine and
-// roughness in [0, 1]. In steps so many times `finer` than usual.
+// The share of light that GGX microfacets between two media reflect and refract, without the light that
+// another microfacet blocks. Cosine and roughness are in [0, 1]. The steps are `finer` times finer than
+// usual.
 double glass_albedo_integral(double cosine, double roughness, double ior_from, double ior_to, int finer = 1);
 
 }  // namespace eyeray::engine::optics

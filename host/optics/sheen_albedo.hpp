@@ -6,8 +6,8 @@
 
 namespace eyeray::engine::optics {
 
-// Edge-on the formula would send on more light than comes: `unweakened`. It is divided by the larger of what
-// that is on light's way and on the viewer's, where this is above 1: `albedo` is left then.
+// Edge-on, the formula would scatter more light than arrives: `unweakened`. The BSDF is divided by the larger
+// of that value for the light's and for the viewer's direction, if it is above 1. `albedo` is the result.
 struct SheenAlbedo {
   double unweakened;
   double albedo;

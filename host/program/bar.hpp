@@ -22,7 +22,7 @@ class Bar {
   bool drawn_ = false;
 };
 
-// What a line says while kernels compile, from the longest text to the shortest.
+// The texts of the progress line while kernels compile, from the longest to the shortest.
 std::span<const std::string> compiling_texts();
 
 // Shows on a terminal that kernels compile, by the same line, for commands that report no progress;

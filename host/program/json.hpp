@@ -1,4 +1,4 @@
-// What several commands say in JSON, said in one way.
+// Parts of JSON output that several commands share.
 #pragma once
 
 #include <exception>

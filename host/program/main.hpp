@@ -1,4 +1,4 @@
-// What every program of ours does around its command line.
+// The frame of each of our programs around its command line.
 #pragma once
 
 #include <functional>

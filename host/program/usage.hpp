@@ -7,7 +7,7 @@
 
 namespace eyeray::engine::program {
 
-// What --help and --version print.
+// The output of --help and --version.
 void describe(CLI::App& app, const std::string& name, const std::string& text, const std::string& footer);
 
 // The exit code where the command line has its answer already: --help, --version. Error (bad_input) for a

@@ -1,4 +1,4 @@
-// What decides a picture's bits, for its checkpoint and for its parts.
+// The facts that decide a picture's bits, for its checkpoint and for its parts.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,8 @@ namespace eyeray::engine::session {
 
 // Error (file_io) when a file of the scene or a shader cannot be read any more.
 std::vector<render::IdentityPart> identity_of_checkpoint(const Plan& plan);
-// The same of a part, which must go with those of other machines: of the device only what decides bits.
+// The identity of a part, which must match those of other machines: it names only the device's properties
+// that decide bits.
 std::vector<render::IdentityPart> identity_of_part(const Plan& plan);
 
 }  // namespace eyeray::engine::session

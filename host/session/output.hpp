@@ -1,4 +1,4 @@
-// Where a picture goes: files, a part, memory.
+// Destinations of a picture: files, a part, memory.
 #pragma once
 
 #include <filesystem>

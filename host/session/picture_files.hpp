@@ -48,13 +48,13 @@ class AovFiles {
 // A file appears whole or not at all; Error (file_io) when one cannot be written.
 class PictureFiles final : public Output {
  public:
-  // `outputs`: at least one. AOVs are layers of the first where that is an .exr, else files of their own.
-  // `half`: whether the colour is, in each .exr.
+  // `outputs`: at least one. AOVs are layers of the first if it is an .exr, else separate files. `half`:
+  // whether the colour in each .exr is half floats.
   PictureFiles(std::vector<std::string> outputs, const film::Channels& aovs, bool half);
 
   std::vector<std::filesystem::path> files() const override;
   void begin(const Plan& plan) override;
-  // The same for a picture that nobody renders now. `tone`: of each .png.
+  // Begins a picture that is not rendered now. `tone`: the tone curve of each .png.
   void begin(int width, int height, const image::Tone& tone);
   // Opens the files with the first rows: a picture of one band comes when it is done.
   void write(size_t plane, const image::Image& rows) override;

@@ -1,4 +1,4 @@
-// What a picture is to be, whoever asks for it.
+// The request for a picture, from any interface.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@
 
 namespace eyeray::engine::session {
 
-// Where a long render keeps what is done; neither file: nowhere.
+// The files in which a long render saves its progress; without either, it saves none.
 struct CheckpointFile {
   std::string begin;    // a new one
   std::string resume;   // the one to go on from, and to keep
@@ -45,10 +45,10 @@ Scene checked(Scene scene);
 // `crop`, or all of the picture where it is empty. Error (bad_input) where it leaves the picture.
 Rect crop_within(const Rect& crop, const ImageSettings& image);
 
-// What an executor must count for these channels, and else `options`.
+// The options of an executor that computes the values for these channels; otherwise `options`.
 executors::ExecutorOptions counting(executors::ExecutorOptions options, const film::Channels& channels);
 
-// Samples corners of pixels, a depth of five with the eye rays, and leaves nothing out that counts for
+// Samples corners of pixels, a depth of five with the camera rays, and leaves nothing out that counts for
 // little, as the published statistics of Haines' databases do.
 void make_classic(Scene& scene, Request& request);
 

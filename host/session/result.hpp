@@ -1,4 +1,4 @@
-// What became of a request.
+// The result of a request.
 #pragma once
 
 #include <filesystem>
@@ -34,7 +34,7 @@ struct Result {
   bool interrupted() const { return totals.interrupted; }
   // The share of all samples that were taken.
   double share() const;
-  // A pixel's, on the mean.
+  // Samples of a pixel on average.
   double mean_samples() const { return pixels > 0 ? double(totals.samples_taken) / double(pixels) : 0; }
   // The rate of this run, without resumed rays.
   double rays_per_second() const;

@@ -10,7 +10,8 @@
 
 namespace eyeray::engine::session {
 
-// What requests share: how executors are made, and the device, which stays open between them.
+// The state that requests share: the way of making executors, and the device, which stays open between
+// requests.
 class Session {
  public:
   Session() = default;

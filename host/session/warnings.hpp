@@ -1,4 +1,4 @@
-// What there is to warn of in a picture, whoever asked for it.
+// The warnings about a picture, for any interface.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Where a ray hits a Bézier patch, in float64. Nishita, Sederberg and Kakimoto: Ray Tracing Trimmed Rational
-// Surface Patches, SIGGRAPH 1990.
+// Intersects a ray with a Bézier patch, in float64. Nishita, Sederberg and Kakimoto: Ray Tracing Trimmed
+// Rational Surface Patches, SIGGRAPH 1990.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 namespace eyeray::engine::shapes {
 
 // The nearest intersection with t > 0, with u and v of it. Borders belong to the patch, and are as wide as
-// float64 rounds.
+// float64's rounding.
 std::optional<Intersection> clip_bezier(const BezierNet& net, const Ray& ray);
 
 }  // namespace eyeray::engine::shapes

@@ -83,9 +83,9 @@ Bend bend(const BezierNet& net) {
     result.along_u = std::max(result.along_u, magnitude(spread(by_u[i])));
     result.along_v = std::max(result.along_v, magnitude(spread(by_v[i])));
   }
-  // How much each derivative varies along the other parameter, in units of the one of u, is as long as the
-  // piece is along v, and the other way round: halved along u, a piece next to an edge that is one point is
-  // as bad as before.
+  // The variation of each derivative along the other parameter, in units of the derivative by u, is as long
+  // as the piece is along v, and vice versa. A piece next to an edge that is one point does not improve if
+  // halved along u.
   const bool u_is_shorter = glm::length(middle.along_u) < glm::length(middle.along_v);
   for (size_t k = 0; k < 3; ++k) {
     for (const auto& derivative : {std::array{by_u[0][k], by_u[1][k], by_u[2][k], by_u[3][k]},

@@ -25,8 +25,8 @@ struct BezierRange {
 // The control points of what the patch is there, as if it were a whole one.
 BezierNet bezier_part(const BezierNet& net, const BezierRange& range);
 
-// What a ray is tested against at a time (shaders/shapes/bezier.glsl): so flat that it crosses any plane
-// across it in one arc, without an inflection to speak of.
+// The piece of a patch that a ray is tested against at a time (shaders/shapes/bezier.glsl). It is so flat
+// that it crosses any plane across it in one arc, almost without inflection.
 struct BezierPiece {
   BezierRange range;
   Vec3 middle;

@@ -15,10 +15,10 @@ class ChebyshevSeries {
 
   explicit ChebyshevSeries(const std::array<double, points>& values);
 
-  // Whether the series has come to its end: what is left out is less than `tolerance`, as far as its last
-  // terms tell.
+  // True if the series has converged: judged by its last terms, the terms left out sum to less than
+  // `tolerance`.
   bool ends(double tolerance) const;
-  // How far from zero it stays; negative where it may not.
+  // The distance that it keeps from zero; negative if it may reach zero.
   double ray_offset() const;
   bool monotone() const;
 

@@ -227,7 +227,8 @@ void Csg::pack(records::Packer& packer) const {
   packer.add_vertices(nodes);
   packer.add_vertices(leaves);
 
-  // Once round all leaves a crossing; most are crossed twice. Before, each is looked at and asked.
+  // Each crossing takes one iteration over all leaves; most leaves are crossed twice. Before, each leaf is
+  // read and intersected.
   packer.add_iterations((2 * leaves_.size() + 1) * (leaves_.size() + nodes.size() + 2) + 2 * leaves_.size());
   const auto [center, half] = center_and_half(bounds());
   packer.add(records::Packer::primitive(shader::KIND_csg, material, records::to_vec4(packer.relative(center)),

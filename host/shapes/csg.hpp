@@ -15,15 +15,15 @@ class Csg final : public Shape {
  public:
   using Shapes = std::vector<std::unique_ptr<Shape>>;
 
-  // What is within any of `operands`, or where `all` within all of them, and within none of `removed`. There
-  // is an operand at least, and all shapes are closed, most_csg_leaves together at most.
+  // The points within any of `operands`, or if `all` within all of them, and within none of `removed`. There
+  // is at least one operand. All shapes are closed, at most most_csg_leaves together.
   Csg(bool all, Shapes operands, Shapes removed);
 
   std::optional<Intersection> intersect(const Ray& ray) const override;
   SurfacePoint surface(const Ray& ray, const Intersection& hit) const override;
   // A point where there is nothing.
   Bounds bounds() const override;
-  // Whether bounds alone show that nothing is within it.
+  // True if bounds alone show that nothing is within it.
   bool is_empty() const;
   const Shape& part(const Intersection& hit) const override { return *leaves_[hit.part].shape; }
   bool is_closed() const override { return true; }

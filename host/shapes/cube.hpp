@@ -17,7 +17,7 @@ struct Span {
   Crossing in, out;
 };
 
-// Where a line is within the cube; nothing where it passes by.
+// The span of a line within the cube; empty if it passes by.
 std::optional<Span> span(const Ray& ray);
 
 // The map to the box between two corners of another space.
@@ -29,8 +29,8 @@ Vec3 onto(int face, const Vec3& near);
 // Each face has the texture upright: seen from outside u runs to the right and v up; on top of the top face
 // is −z, and of the bottom face +z.
 Vec2 uv(int face, const Vec3& p);
-// How a point moves with u and with v on a surface that has the uv of a face, along which `gradient` stands
-// still.
+// The derivatives of a point by u and v on a surface that has the uv of a face. `gradient` is perpendicular
+// to the surface.
 std::pair<Vec3, Vec3> along_uv(int face, const Vec3& gradient);
 
 }  // namespace eyeray::engine::shapes::cube

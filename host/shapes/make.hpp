@@ -71,8 +71,8 @@ std::unique_ptr<Shape> make_bilinear(const std::array<Vec3, 4>& corners, const M
 // f ≤ 0 within a box of the shape's own space; without the box's faces where `open`.
 std::unique_ptr<Shape> make_implicit(FormulaUse use, bool open, const Mat4& transform = Mat4(1.0));
 
-// What is within any of `operands`, or where `all` within all of them, and within none of `removed`. All are
-// closed, 32 together at most, and have their materials.
+// The points within any of `operands`, or if `all` within all of them, and within none of `removed`. All
+// shapes are closed, at most 32 together, and have their materials.
 std::unique_ptr<Shape> make_csg(bool all, std::vector<std::unique_ptr<Shape>> operands,
                                 std::vector<std::unique_ptr<Shape>> removed = {});
 

@@ -74,7 +74,7 @@ std::vector<Span> ObjectShape::spans(const Ray& ray) const {
   }
   std::ranges::stable_sort(passages, {}, [](const Passage& passage) { return passage.at.t; });
 
-  // At an edge rounding may let a ray enter by two faces, or leave by two: the side that it comes to tells.
+  // At an edge, rounding may let a ray enter by two faces, or leave by two: the side that it reaches decides.
   std::vector<Span> spans;
   std::optional<Intersection> entered;
   for (const Passage& passage : passages) {

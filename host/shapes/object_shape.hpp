@@ -1,5 +1,5 @@
-// Shapes that are a plain one, such as the unit sphere, in a space of their own under any affine map: what
-// they have in common. In the shaders it is geometry/object_space.glsl.
+// Common parts of shapes that are a plain one, such as the unit sphere, in object space under any affine map.
+// In the shaders it is geometry/object_space.glsl.
 #pragma once
 
 #include <vector>
@@ -19,7 +19,7 @@ class ObjectShape : public Shape {
   void pack(records::Packer& packer) const override;
 
  protected:
-  // Where a line hits the shape, in any order. u and v are the shape's own.
+  // The hits of a line with the shape, in any order. u and v are the shape's own.
   class Crossings {
    public:
     void add(const Intersection& crossing) { all_.push_back(crossing); }
@@ -36,8 +36,9 @@ class ObjectShape : public Shape {
     Vec3 along_u, along_v;  // how the position moves with u and with v
   };
 
-  // `kind` is the shape's number in the registry; `parameters` are what the shaders find after the maps;
-  // `steps` is how often its loops may go round there, after which it gives up (T_ITERATION_LIMIT).
+  // `kind` is the shape's number in the registry. `parameters` are the numbers that the shaders find after
+  // the maps. `steps` is the limit on its loops' iterations there, after which it gives up
+  // (T_ITERATION_LIMIT).
   ObjectShape(uint32_t kind, const Mat4& to_world, const std::vector<float>& parameters = {},
               size_t steps = 0);
 
@@ -50,7 +51,7 @@ class ObjectShape : public Shape {
   virtual Crossings crossings(const Ray& ray) const = 0;
   // The nearest of them beyond t = `from`.
   virtual std::optional<Intersection> first(const Ray& ray, double from) const;
-  // Whether the ray comes in by that crossing, as its gradient says.
+  // True if the ray enters at that crossing, by the gradient there.
   virtual bool enters(const Ray& ray, const Intersection& crossing) const;
   virtual Point point(const Vec3& near, const Intersection& hit) const = 0;
   virtual Bounds extent() const = 0;
@@ -75,10 +76,10 @@ Mat4 along_axis(const Vec3& from, const Vec3& to, double radius, double low, dou
 // world. Returns whether it is.
 bool out_of_range(TableReader& table, const Mat4& to_world);
 
-// How what turns about the y axis, as u says, moves.
+// The derivative by u of a point that rotates about the y axis.
 Vec3 along_turn(const Vec3& position);
 
-// The same of the unit vector whose angle from −y is v half turns.
+// The derivative by v of the unit vector whose angle from −y is v half turns.
 Vec3 along_meridian(const Vec3& direction);
 
 // The real roots of a·t² + 2b·t + c = 0, without cancellation; none where all of a, b and c are 0.

@@ -56,7 +56,7 @@ class Parallelogram final : public Shape {
   Parallelogram(const Vec3& origin, const Vec3& edge_u, const Vec3& edge_v, const Vec3& normal)
       : origin_(origin), edge_u_(edge_u), edge_v_(edge_v), normal_(normal) {}
 
-  // As two triangles: they share the diagonal, to the last bit.
+  // The parallelogram is two triangles, which share the diagonal to the last bit.
   std::optional<Intersection> intersect(const Ray& ray) const override {
     const Vec3 b = origin_ + edge_u_, c = origin_ + edge_v_, d = origin_ + edge_u_ + edge_v_;
     if (const auto hit = intersect_triangle({origin_, b, c}, normal_, ray)) return hit;

@@ -12,7 +12,7 @@
 
 namespace eyeray::engine::shapes {
 
-// Vertices in order, either way round; the last is joined to the first.
+// Vertices in order, clockwise or counter-clockwise; the last is joined to the first.
 using Outline = std::vector<Vec3>;
 
 inline constexpr double thinnest_region = 1e-9;
@@ -37,7 +37,7 @@ std::string why_out_of_range(const PlanarRegion& region);
 Vec3 area_of(const Outline& outline);
 // Twice the area within an outline, signed: above 0 where it runs counter-clockwise.
 double signed_area(std::span<const Vec2> outline);
-// How often an outline winds round a point, counter-clockwise.
+// The winding number of an outline around a point, counter-clockwise.
 int winding(std::span<const Vec2> outline, const Vec2& point);
 
 // Vertices that are farther off the plane than this share of the outline's size are no rounding.

@@ -13,7 +13,7 @@ struct PlaneAxes {
   Vec3 v;
 };
 
-// What is left of `v` in the plane of the unit `normal`.
+// The component of `v` perpendicular to the unit `normal`.
 Vec3 tangential(const Vec3& v, const Vec3& normal);
 
 // `normal` is unit. u runs along `u_axis`, as far as it lies in the plane; without one it is horizontal, +y ×

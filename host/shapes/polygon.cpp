@@ -130,8 +130,8 @@ class Polygon final : public Shape {
  private:
   const Vec3& origin() const { return region_.outer[0]; }
 
-  // Whether the outline winds round the ray's line: sheared along the ray into the plane across its main axis
-  // z, as intersect_triangle does, so that neighbours agree on their edges.
+  // True if the outline winds around the ray's line: it is sheared along the ray into the plane across its
+  // main axis z, as intersect_triangle does, so that neighbours agree on their edges.
   static bool is_within(const Outline& outline, const Ray& ray) {
     const Vec3 size = glm::abs(ray.d);
     const int z = size.x > size.y && size.x > size.z ? 0 : size.y > size.z ? 1 : 2;

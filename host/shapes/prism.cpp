@@ -56,7 +56,7 @@ constexpr double bottom_cap = 0;
 constexpr double top_cap = 1;
 constexpr size_t first_wall = 2;
 
-// A prism in a space of its own: the outline in the xz plane, |x|, |z| ≤ 1, from y = −1 to y = 1.
+// A prism in object space: the outline in the xz plane, |x|, |z| ≤ 1, from y = −1 to y = 1.
 struct PrismForm {
   struct Wall {
     Vec2 from, to;
@@ -136,10 +136,10 @@ class Prism final : public ObjectShape {
   ShapeForm form() const override { return ExtrusionForm{to_world().matrix(), form_.outlines}; }
 
  private:
-  // Each face by itself: a wall where the line hits its plane between its ends, a cap where the outlines
-  // wind round the point.
+  // Each face by itself: a wall where the line hits its plane between its ends, a cap where the outlines wind
+  // around the point.
   Crossings crossings(const Ray& ray) const override {
-    constexpr double room = 1e-14;  // for edges, where faces meet
+    constexpr double room = 1e-14;  // for edges, where faces join
     const Vec3 &o = ray.o, &d = ray.d;
     const Vec2 start(o.x, o.z), line(d.x, d.z);
     Crossings all;

@@ -13,7 +13,7 @@ struct ReadyFormula {
   std::string_view name;
   std::string_view text;
   std::vector<formula::FormulaParameter> parameters;  // and their defaults
-  // How steep the formula is at most, with these parameters in the order above; null where nothing is known.
+  // The largest slope of the formula, with these parameters in the order above; null if none is known.
   double (*lipschitz)(std::span<const formula::FormulaParameter> parameters);
 };
 

@@ -198,7 +198,7 @@ class RegionCheck {
                     second.start.vertex + 1, first.start.vertex + 1));
   }
 
-  // Two edges in a row meet at the vertex between them alone.
+  // Two consecutive edges touch only at the vertex between them.
   bool check_turn(const Edge& before, const Edge& after, double room) {
     if (distance(after.to, before.from, before.to) > room &&
         distance(before.from, after.from, after.to) > room)

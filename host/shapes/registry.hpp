@@ -1,4 +1,4 @@
-// What a scene file and the manual know of the kinds of shapes.
+// The kinds of shapes, as scene files and the manual know them.
 #pragma once
 
 #include <memory>
@@ -20,12 +20,12 @@ struct ShapeType {
   std::span<const Key> keys;  // beside `name`, `material` and `transform`, which every shape has
   // Builds the shape from its table, `transform` applied; problems go to the reader, and nullptr comes back.
   std::unique_ptr<Shape> (*parse)(TableReader& table, const Mat4& transform) = nullptr;
-  // Where shapes of this kind are made of others, instead: from those that stand in its table, already
-  // where they belong, and from those to be removed from them.
+  // Makes shapes of this kind from others instead: from those in its table, which are already placed, and
+  // from those to be subtracted.
   using Shapes = std::vector<std::unique_ptr<Shape>>;
   std::unique_ptr<Shape> (*combine)(TableReader& table, Shapes operands, Shapes removed) = nullptr;
   bool bounded = true;  // whether every such shape has an end in all directions
-  // Whether a ray hits it once at most, so that it may be of a material with cutouts.
+  // True if a ray hits it once at most, so that it may have a material with cutouts.
   bool flat = false;
 };
 

@@ -1,5 +1,5 @@
-// Quadrics that are round about the y axis of object space, between two planes across it: what cylinders,
-// cones and their like share. In the shaders it is geometry/revolution.glsl.
+// Common parts of cylinders, cones and their like: quadrics of revolution about the y axis of object space,
+// between two planes across it. In the shaders it is geometry/revolution.glsl.
 #pragma once
 
 #include "host/shapes/object_shape.hpp"

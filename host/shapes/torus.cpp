@@ -11,7 +11,7 @@ namespace eyeray::engine::shapes {
 
 namespace {
 
-// Thinner ones, float32 cannot tell from a circle.
+// float32 cannot distinguish thinner ones from a circle.
 constexpr double least_ratio = 1e-4;
 // TORUS_CUBIC_STEPS and TORUS_STEPS of torus.glsl.
 constexpr size_t steps = 24 + 48;

@@ -66,7 +66,7 @@ TriangleValues transformed(TriangleValues values, const Affine& map) {
     for (Vec3& normal : *values.normals) normal = map_normal(unit(normal));
   }
 
-  // A mirror turns the winding round; turn it back, and let every corner keep what is its own.
+  // A mirroring map reverses the winding. Reverse it back, and let every corner keep its own values.
   if (map.mirrors()) {
     if (!values.uv) values.uv = {{Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)}};
     std::swap(values.vertices[1], values.vertices[2]);

@@ -1,4 +1,4 @@
-// A part: what one shard of a picture came to, in a file that says of what it is a part.
+// A part: the result of one shard of a picture, in a file that names the picture.
 //
 // FILE, little-endian, written atomically:
 //
@@ -18,7 +18,7 @@
 //            m       PartTotals as JSON
 //            4       CRC-32 of m and of these m bytes
 //
-// No byte stands outside of a sum, and a sum tells every flipped bit, and every run of damage of up to 32.
+// No byte stands outside of a sum, and a sum detects every flipped bit, and every run of damage of up to 32.
 //
 // Pixels are the picture's own, the means of their samples in float32: all samples of a pixel are taken by
 // one shard, in the order in which one machine takes them, so that nothing is left to be added up.
@@ -50,7 +50,7 @@ struct PartHeader {
   std::string device;         // for people
   std::string build;          // build/build_facts.hpp, sum_of_sources
   film::Channels aovs;
-  // What decides the bits: the same in all parts of one picture.
+  // The facts that decide the bits: the same in all parts of one picture.
   std::vector<render::IdentityPart> identity;
 
   size_t planes() const { return 1 + aovs.size(); }
@@ -70,11 +70,12 @@ struct PartTotals {
   double processor_seconds = 0;            // the same, of all threads
   std::vector<film::LegendTally> legends;  // one an AOV, empty of those that have none
 
-  // Those of another part. Kinds of rays are known where both know them.
+  // Adds the totals of another part. Kinds of rays are known only if both know them.
   void add(const PartTotals& other);
 };
 
-// As the file has them. The second of each: Error (file_io) for anything else, which says in a word what.
+// Conversions to the file's text, and back. The latter: Error (file_io) for any other text, which names the
+// fault.
 std::string to_text(const PartHeader& header);
 PartHeader header_of(const std::string& text);
 std::string to_text(const PartTotals& totals);
@@ -85,12 +86,12 @@ inline constexpr uint32_t part_version = 1;
 inline constexpr uint32_t part_prefix_bytes = 20;
 inline constexpr uint32_t longest_part_header = 1 << 24;
 
-// What the sums of a plane begin with.
+// The initial value of a plane's checksums.
 uint32_t plane_checksum(uint32_t header_checksum, size_t plane);
 
 // "3/64": counted from 1, as people do.
 std::string shard_text(const render::Shard& shard);
-// The same back; Error (bad_input) where that is no share.
+// Parses that text; Error (bad_input) if it is no share.
 render::Shard parse_shard(const std::string& text);
 
 }  // namespace eyeray::engine::shards

@@ -79,7 +79,7 @@ void PartReader::read_header() {
   if (::fstat(descriptor_, &status) != 0) refuse_for(errno);
   if (!S_ISREG(status.st_mode)) refuse("it is not a regular file");
   bytes_ = uint64_t(status.st_size);
-  // As many bytes as there are.
+  // Reads the available bytes.
   const auto text_at = [&](uint64_t offset, uint64_t size) {
     if (offset > bytes_ || size > bytes_ - offset) refuse("it is damaged: it ends too early");
     std::string text(size, '\0');
@@ -103,7 +103,7 @@ void PartReader::read_header() {
     refuse("it is damaged: its checksum is wrong");
   header_ = header_of(text);
 
-  // What the planes take follows from the header; only the totals have a length of their own.
+  // The header determines the planes' size. Only the totals state their own length.
   const render::ShardTiles tiles(header_.area, header_.shard);
   for (const Rect& tile : tiles.tiles()) tile_pixels_.push_back(tile.pixels());
   planes_begin_ = part_prefix_bytes + length + 4;

@@ -9,7 +9,7 @@
 
 namespace eyeray::engine::shards {
 
-// What keeps files from making one picture. Sentences that name them.
+// The reasons why files do not make one picture: sentences that name the files.
 struct PartFaults {
   std::vector<std::string> damaged;  // or no parts at all, or not there
   std::vector<std::string> foreign;  // of another picture than most are
@@ -35,7 +35,7 @@ class PartSet {
   const PartFaults& faults() const { return faults_; }
   // The header of the picture to which most of the parts belong; null if no file is a part.
   const PartHeader* header() const { return wanted_; }
-  // Those that are sound and of that picture, one a shard, in the order of the shards.
+  // The sound parts of that picture, one a shard, in the order of the shards.
   const std::vector<PartReader>& parts() const { return parts_; }
   // The totals of all parts.
   PartTotals totals() const;

@@ -50,7 +50,7 @@ constexpr Key keys[] = {
     {.name = "tint", .type = KeyType::color, .doc = "Factor for the picture's color.", .fallback = "1"},
 };
 
-// i of the endless row of texels that an image of `size` is continued to, as one of its own.
+// The index in an image of `size` of texel i of the endless row that continues it.
 size_t wrapped(double i, int size, Wrap wrap) {
   const double n = size;
   double own = i;

@@ -13,7 +13,7 @@ TexturePtr make_constant(const Vec3& color);
 // even.
 TexturePtr make_checker(const Vec3& even, const Vec3& odd, const Vec2& size);
 
-// What the formula, a colour's, says of uv, each component within 0 and 1, times `tint`.
+// The colour that the formula gives for uv, each component clamped to [0, 1], times `tint`.
 TexturePtr make_formula(std::shared_ptr<const formula::Formula> formula, const Vec3& tint = Vec3(1));
 
 // A picture in uv, times `tint`: (0, 0) is its lower left corner, `size` its upper right. As an alpha, its

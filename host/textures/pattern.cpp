@@ -83,7 +83,7 @@ Vec3 Pattern::at(const TextureContext& place) const {
   return glm::mix(Vec3(from), Vec3(to), (t - from.w) / (to.w - from.w));
 }
 
-// In the pattern's own units. Nearer, float32 would tell heights apart no more.
+// In the pattern's own units. At smaller distances float32 could not distinguish heights.
 double Pattern::detail() const {
   return 0.03 / std::cbrt(std::fabs(glm::determinant(to_pattern_.linear)));
 }

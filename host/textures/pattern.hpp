@@ -52,7 +52,7 @@ class Pattern : public Texture {
   Vec4 parameters_;
 };
 
-// Whether the table's transform can be undone; else an error is reported.
+// True if the table's transform can be inverted; else an error is reported.
 bool pattern_stands(TableReader& table);
 
 // 0 at whole numbers, 1 half way between them.

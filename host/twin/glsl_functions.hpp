@@ -1,6 +1,6 @@
-// What a user's shader may call of GLSL beside what eyeray's own are written in (shaders/math/math.glsl says
-// why they are not): without the bits of any device. And printf. Of vectors abs, floor and sqrt are found as
-// GLM's anyway.
+// GLSL functions that a user's shader may call, beside those of eyeray's own shaders (shaders/math/math.glsl
+// says why those avoid them). Their bits are not those of any device. Also printf. abs, floor and sqrt of
+// vectors are GLM's anyway.
 #pragma once
 
 #include <cstdio>

@@ -30,7 +30,7 @@ struct LoopView {
   void (*stop)(const void* guard, uint32_t loop);
 };
 
-// What records::PackedScene has.
+// A view of records::PackedScene.
 struct SceneView {
   const shader::Frame* frame;
   const shader::Primitive* primitives;
@@ -70,7 +70,7 @@ struct PhotonSink {
   void (*store)(void* to, const shader::Photon& photon);
 };
 
-// Is told what shaders PROBE; each is given `recorder`.
+// Receives the values that shaders PROBE. Each function gets `recorder`.
 struct Spectator {
   void* recorder;
   // A number, truth or vector; `type` as PROBE_FLOAT … of records.h.
@@ -82,15 +82,16 @@ struct Spectator {
 
 // The twin, for one pixel or ray. Thread-safe.
 struct Functions {
-  // What kernels/render.comp.glsl computes for a pixel of the whole picture. `spectator`: null: nobody looks.
+  // Computes a pixel of the whole picture like kernels/render.comp.glsl. `spectator`: null if nothing is
+  // recorded.
   shader::SampleResult (*sample)(const SceneView& scene, uint32_t x, uint32_t y, uint32_t index,
                                  const Spectator* spectator);
   shader::AuxiliaryResult (*auxiliary)(const SceneView& scene, uint32_t x, uint32_t y, uint32_t index);
   shader::HitResult (*first_hit)(const SceneView& scene, uint32_t x, uint32_t y);
-  // What kernels/photons.comp.glsl computes for photon `number` of sample `index`.
+  // Computes photon `number` of sample `index` like kernels/photons.comp.glsl.
   shader::PhotonResult (*photon)(const SceneView& scene, uint32_t index, uint32_t number,
                                  const PhotonSink& sink);
-  // What kernels/query.comp.glsl computes for one ray.
+  // Computes the hit of one ray like kernels/query.comp.glsl.
   shader::QueryHit (*query)(const SceneView& scene, const shader::QueryRay& ray, bool any);
 };
 

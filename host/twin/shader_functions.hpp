@@ -133,7 +133,7 @@ void show(const char* name, uint line, const T& shown) {
 }  // namespace
 }  // namespace eyeray::engine::shader
 
-// What a specialised kernel gets from its generated scene.glsl, here for every scene
+// Definitions that a specialised kernel gets from its generated scene.glsl, here for every scene
 // (shaders/kernels/features.h).
 #define KIND_FIRST(name) bound_scene->first_linear(KIND_##name)
 #define KIND_END(name) bound_scene->linear_ends[KIND_##name]
