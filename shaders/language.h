@@ -1,5 +1,5 @@
-// What lets one source be GLSL and C++. The only place with such tricks; everything else is written in the common
-// subset: float literals end in f, unsigned ones in u; no swizzles (vec3(v) takes the first three of a vec4);
+// Definitions that let one source be GLSL and C++. The only place with such tricks; everything else is written in the common subset:
+// float literals end in f, unsigned ones in u; no swizzles (vec3(v) takes the first three of a vec4);
 // no struct constructors; no implicit conversions.
 #ifndef LANGUAGE_H
 #define LANGUAGE_H

@@ -18,7 +18,7 @@ struct Photon {
   uint unused;
 };
 
-// What became of a photon, 16 bytes.
+// The result of a photon, 16 bytes.
 struct PhotonResult {
   uint trail;  // as that of a sample
   uint flags;
@@ -28,7 +28,7 @@ struct PhotonResult {
 
 #define MOST_PHOTON_TARGETS 16
 
-// What is the same for all photons of a sample, 304 bytes.
+// The values that all photons of a sample share, 304 bytes.
 struct PhotonPass {
   vec3 center;           // of a sphere around all that has an end: lights from afar send their photons there
   float reach;           // its radius

@@ -303,7 +303,7 @@ struct Frame {
   float aperture;        // radius of the lens
   float sharpness;       // the share of the way to the plane in focus at which `forward` ends
   float blade_rotation;  // radians
-  uint blades;           // corners of the lens; 0: it is round
+  uint blades;           // corners of the lens; 0: it is a disk
   uint pixel_filter;     // FILTER_
   uint environment_width;    // of the picture; 0 without one
   uint environment_height;

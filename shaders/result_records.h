@@ -36,7 +36,7 @@ INLINE uint refracted_of(SampleResult result) { return result.flags >> REFRACTED
 INLINE uint reflected_of(SampleResult result) { return result.iterations & ((1u << TOTAL_SHIFT) - 1u); }
 INLINE uint total_reflections_of(SampleResult result) { return result.iterations >> TOTAL_SHIFT; }
 
-// What a denoiser asks of one sample of one pixel, 32 bytes.
+// A denoiser's auxiliary values of one sample of one pixel, 32 bytes.
 struct AuxiliaryResult {
   vec3 albedo;
   uint flags;
@@ -68,7 +68,7 @@ struct QueryRay {
   vec3 direction;
   float t_max;  // up to which occlusion counts
 };
-// And its answer, 16 bytes. Asked whether anything is hit: 0 or T_MISS, NONE, flags, occlusion.
+// The answer to a query, 16 bytes. If the query is for any hit: 0 or T_MISS, NONE, flags, occlusion.
 struct QueryHit {
   float t;
   uint primitive;  // or NONE
@@ -79,7 +79,7 @@ struct QueryHit {
 // Rays that kernels/cooperative/packet.comp.glsl traces together. More share more of the work, and take longer to compile.
 #define PACKET 32
 
-// What the ray of one sample of a pixel hits, 32 bytes.
+// The hit of the ray of one sample of a pixel, 32 bytes.
 struct PacketHit {
   float t;
   uint slot;
@@ -91,7 +91,7 @@ struct PacketHit {
   uint unused_1;
 };
 
-// Where a pixel's path goes on, 64 bytes.
+// The state from which a pixel's path goes on, 64 bytes.
 struct PathState {
   vec3 origin;
   uint media;
@@ -103,7 +103,8 @@ struct PathState {
   uint unused;
 };
 
-// What a pixel's rays show to a probe, 32 bytes a value. The first of the buffer says in `name` how many there would be if all had room.
+// A value of a pixel's rays that a probe records, 32 bytes. `name` of the first record of the buffer is the number of records if all had
+// room.
 struct ProbeRecord {
   uint name;  // PROBED_name (features.h), or PROBE_OPENS_RAY, PROBE_RETURNS
   uint line;  // of the shader's file

@@ -190,7 +190,7 @@ void GltfReader::check_parents() {
   }
 }
 
-// Animations scale to 0 the nodes that are hidden at a moment. Without one, flat nodes are reported.
+// Animations hide a node by scaling it to 0, which is not reported. Any other flat map is.
 bool GltfReader::is_flat(const Mat4& world) {
   if (why_singular(world).empty()) return false;
   if (!scene_.played || Mat3(world) != Mat3(0.0)) ++flattened_;

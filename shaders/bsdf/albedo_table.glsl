@@ -1,4 +1,4 @@
-// What lies between the places of a table of albedos (records.h), which are smooth in √cosine and roughness.
+// Interpolation in a table of albedos (records.h), which are smooth in √cosine and roughness.
 #ifndef ALBEDO_TABLE_GLSL
 #define ALBEDO_TABLE_GLSL
 #include "math/math.glsl"

@@ -42,7 +42,7 @@ bool is_specular(Bsdf bsdf) {
   return !any && max_component(single) > 0.0f;
 }
 
-// How likely each lobe is followed, by how much light it sends; 1 all together, or all 0.
+// The probability of following each lobe, by the light that it scatters. The sum is 1, or all are 0.
 struct LobeShares {
 #define SHARE(name, number, layers) float name;
   LOBES(SHARE)
@@ -108,8 +108,8 @@ LobeValue bsdf_value(Bsdf bsdf, LobeShares shares, vec3 o, vec3 i, bool before) 
 #define LOBE_TRANSMITTED 15u
 #define LOBE_PASSED 16u
 
-// A direction that light may come from, by which the path goes on. The lobe is that within whose share `chance`, in [0, 1), lies;
-// No direction, 0, is one that the surface itself stands in the way of.
+// A direction that light may come from, in which the path goes on. The random number `chance`, in [0, 1), lies within the share of the
+// chosen lobe. No direction, 0, stands for one that the surface itself blocks.
 struct BsdfSample {
   vec3 i;
   bool mirrored;   // instead: the mirrored direction …

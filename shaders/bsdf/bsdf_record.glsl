@@ -1,4 +1,4 @@
-// How a surface scatters light at a point, as the sum of its lobes; what a material says of it (materials/material.glsl).
+// The BSDF of a surface at a point as the sum of its lobes, filled in by its material (materials/material.glsl).
 #ifndef BSDF_RECORD_GLSL
 #define BSDF_RECORD_GLSL
 #include "bsdf/ggx_albedo.glsl"
@@ -8,7 +8,7 @@ SHADER_BEGIN
 // The albedo of sheen: .x as its formula has it, .y as it is weakened (bsdf/sheen.glsl).
 vec4 sheen_table(float cosine, float roughness) { return albedo_between(FIRST_SHEEN_ALBEDO, SHEEN_ALBEDOS, cosine, roughness); }
 
-// What microfacets between two media mirror and refract before another of them takes it.
+// The share of light that microfacets between two media reflect and refract before another microfacet blocks it.
 float glass_table(float cosine, float roughness, float ior_from, float ior_to) {
   // host/tables/albedos.hpp says how slices lie.
   float contrast = (ior_to - ior_from) / ((ior_to + ior_from) * 0.6f);
@@ -67,7 +67,7 @@ struct Bsdf {
 #endif
 };
 
-// Whether a lobe sends on light from behind the surface.
+// True if a lobe transmits light from behind the surface.
 bool transmits(Bsdf bsdf) {
   float all = 0.0f;
 #if HAS_ROUGH_GLASS
@@ -79,7 +79,8 @@ bool transmits(Bsdf bsdf) {
   return all > 0.0f;
 }
 
-// What all lobes ask of a pair of directions: towards the viewer, towards the light, unit, in the surface's frame.
+// The values of a pair of directions that all lobes need: towards the viewer, towards the light, unit, in the
+// surface's frame.
 struct Directions {
   vec3 o;
   vec3 i;

@@ -11,7 +11,7 @@ SHADER_BEGIN
 #define FUJII_A 0.28779342f     // 1/2 − 2/(3π)
 #define FUJII_MEAN 0.07248821f  // 2/3 − 28/(15π)
 
-// What a Fujii–Oren–Nayar surface of albedo 1 sends on at all, of what comes by that cosine.
+// The directional albedo of a Fujii–Oren–Nayar surface of albedo 1, for light that arrives under that cosine.
 float fujii_albedo(float cosine, float roughness) {
   float sine = sqrt(maximum(1.0f - cosine * cosine, 0.0f));
   float angle = atan_yx(sine, cosine);

@@ -15,7 +15,7 @@ float ggx_width(float roughness) {
   return r * r;
 }
 
-// How many microfacets stand there that lie along h; by a sum without 1 − cos², which is exact for narrow lobes.
+// The density of microfacets with normal h, by a sum without 1 − cos², which is exact for narrow lobes.
 float ggx_density(vec3 h, float width) {
   float sum = (h.x * h.x + h.y * h.y) / (width * width) + h.z * h.z;
   return 1.0f / (PI * (width * width) * (sum * sum));
@@ -37,7 +37,7 @@ vec3 ggx_normal(vec3 o, float width, vec2 u) {
   return normalize3(vec3(width * (cap.x + v.x), width * (cap.y + v.y), maximum(cap.z + v.z, 1.0e-7f)));
 }
 
-// Where a microfacet mirrors o to; 0 where that is below the surface.
+// The direction to which a microfacet mirrors o; 0 if it is below the surface.
 vec3 ggx_direction(vec3 o, float width, vec2 u) {
   vec3 i = mirror3(o, ggx_normal(o, width, u));
   return i.z > 0.0f ? i : vec3(0.0f, 0.0f, 0.0f);

@@ -1,6 +1,6 @@
-// What lies over other lobes: a coat, and under that sheen. A layer takes from what lies under it as much as it sends to the viewer, as
-// KHR_materials_clearcoat and KHR_materials_sheen have it, whatever the light's direction: so a white surface stays white. f(o, i) is not
-// f(i, o) then. A photon (`adjoint`) goes towards the viewer, whose direction is i.
+// The layers over other lobes: a coat, and under it sheen. A layer takes from the layers below as much light as it scatters to the
+// viewer, as in KHR_materials_clearcoat and KHR_materials_sheen, whatever the light's direction: so a white surface stays white. f(o, i)
+// is not f(i, o) then. A photon (`adjoint`) goes towards the viewer, whose direction is i.
 #ifndef LAYERS_GLSL
 #define LAYERS_GLSL
 #include "bsdf/bsdf_record.glsl"
@@ -23,7 +23,7 @@ vec3 into_coat(Bsdf bsdf, vec3 v) {
 
 #endif
 
-// What each layer leaves of light.
+// The share of light that each layer leaves.
 struct Layers {
   float coat;
   float sheen;

@@ -15,7 +15,7 @@ SHADER_BEGIN
 #define IS_WIDE_sheen(bsdf) true
 #define IS_WIDE_thin(bsdf) (bsdf.roughness >= LEAST_WIDE)
 
-// How likely each lobe of the part is followed, out of all: together less than 1.
+// The probability of following each lobe of the part, out of all lobes: the sum is less than 1.
 LobeShares part_of(Bsdf bsdf, bool wide) {
   LobeShares shares = lobe_shares(bsdf);
 #define KEEP_LOBE(name, number, layers) shares.name = IS_WIDE_##name(bsdf) == wide ? shares.name : 0.0f;

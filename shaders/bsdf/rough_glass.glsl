@@ -49,7 +49,7 @@ vec3 rough_glass_direction(Bsdf bsdf, vec3 o, vec2 u, float part) {
   vec3 refracted = h * (ratio * along - sqrt(cos_squared)) - o * ratio;
   bool reflects = part < mirrored;
   vec3 i = reflects ? mirror3(o, h) : normalize3(refracted);
-  // What a microfacet sends to the wrong side is lost: the density knows nothing of it.
+  // Light that a microfacet scatters to the wrong side is lost: the density does not include it.
   return (i.z > 0.0f) == reflects ? i : vec3(0.0f, 0.0f, 0.0f);
 }
 

@@ -1,6 +1,6 @@
 // Fibres that stand out of cloth, and light up where it is seen along: Estevez and Kulla, "Production Friendly Microfacet Sheen BRDF"
-// (SIGGRAPH 2017), with the shorter masking of KHR_materials_sheen. Edge-on that would send on more light than there is: it is weakened by
-// what the table says, both ways alike.
+// (SIGGRAPH 2017), with the shorter masking of KHR_materials_sheen. Edge-on it would scatter more light than arrives: the table weakens
+// it, for both directions alike.
 #ifndef SHEEN_GLSL
 #define SHEEN_GLSL
 #include "bsdf/bsdf_record.glsl"

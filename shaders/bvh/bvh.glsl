@@ -99,7 +99,7 @@ int exit_of(Child child, BoxRay ray, int limit) {
   return lesser(lesser(floatBitsToInt(t.x), floatBitsToInt(t.y)), lesser(floatBitsToInt(t.z), limit));
 }
 
-// What waits to be visited. A BVH is never deeper than STACK_SIZE, so nothing is lost.
+// The nodes that wait to be visited. A BVH is never deeper than STACK_SIZE, so nothing is lost.
 struct Stack {
   uint entries[STACK_SIZE];
   uint size;

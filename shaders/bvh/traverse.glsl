@@ -11,7 +11,7 @@
 
 SHADER_BEGIN
 
-// What a search has found so far: the nearest hit, or how much of a shadow ray is lost.
+// The result of a search so far: the nearest hit, or a shadow ray's loss.
 struct TraversalState {
   Hit hit;
   uint occluded;
@@ -74,7 +74,7 @@ void record_intersection(INOUT(TraversalState) state, float t, vec2 uv, uint slo
   else update_closest_hit(state, t, uv, slot, id, instance);
 }
 
-// What a primitive, a CSG object or not, weakens a shadow ray by before t_max. A CSG object may have surfaces of several materials.
+// The optical depth of a primitive for a shadow ray before t_max. A CSG object may have surfaces of several materials.
 uint optical_depth_of(Primitive primitive, bool is_csg, Ray ray, float t_max, bool any) {
 #if HAS_MIXED_CSG
   if (any && is_csg) return csg_optical_depth(primitive, ray, t_max);
@@ -83,7 +83,7 @@ uint optical_depth_of(Primitive primitive, bool is_csg, Ray ray, float t_max, bo
 }
 
 #ifdef SCENE_PRIMITIVES
-// The same where ids come in ascending order: of equal ones the first stays.
+// Records a hit if ids come in ascending order: the first of equal ones stays.
 void record_in_order(INOUT(TraversalState) state, float t, vec2 uv, uint slot, uint id, uint optical_depth, bool any) {
   if (any) {
     record_intersection(state, t, uv, slot, id, NONE, optical_depth, true);
@@ -171,8 +171,8 @@ void traverse(INOUT(TraversalState) state, LocalRay world, bool any) {
       if (at < INSTANCE_LEAF) {
         bool waits = false;
         do {
-          // Tested at the top: Mesa 22.3.6 may take what such a loop's last round computed from the rounds of other rays, if it ends at
-          // the bottom (docs/lavapipe.md).
+          // Tested at the top: if such a loop ends at the bottom, Mesa 22.3.6 may take results of its last iteration from other rays' iterations
+          // (docs/lavapipe.md).
           uint slot = (at & ~LEAF) >> 3u;
           uint end = slot + (at & 7u) + 1u;
           for (; slot < end && !is_deferred(slot); slot++) intersect_slot(state, slot, local, any);
@@ -289,8 +289,8 @@ Hit trace(Ray ray, INOUT(uint) flags) {
   return state.hit;
 }
 
-// How much of a shadow ray's light is lost on 0 < t < t_max: the sum of what every primitive on the way weakens it by, in
-// −log2 · OPTICAL_DEPTH_SCALE, at most OPTICAL_DEPTH_OPAQUE. An integer sum does not depend on the order of traversal. `flags` as for trace.
+// The loss of a shadow ray's light on 0 < t < t_max: the sum of the optical depths of all primitives on its way, in −log2 · OPTICAL_DEPTH_SCALE, at
+// most OPTICAL_DEPTH_OPAQUE. An integer sum does not depend on the order of traversal. `flags` as for trace.
 uint occlusion(Ray ray, float t_max, INOUT(uint) flags) {
   TraversalState state = search(ray, t_max, true);
   flags = flags | iteration_limit(state);

@@ -1,4 +1,5 @@
-// Pixels to eye rays. The eye is the origin; the host has scaled the axes by field of view and aspect (docs/conventions.md).
+// Maps pixels to camera rays. The eye is the origin; the host has scaled the axes by field of view and aspect
+// (docs/conventions.md).
 #ifndef CAMERA_GLSL
 #define CAMERA_GLSL
 #include "geometry/ray.glsl"

@@ -1,4 +1,4 @@
-// All rays come from the eye; the picture is wrapped round it, upright lines stay straight.
+// All rays come from the eye; the picture is wrapped around it, and upright lines stay straight.
 #ifndef CYLINDRICAL_GLSL
 #define CYLINDRICAL_GLSL
 #include "geometry/ray.glsl"

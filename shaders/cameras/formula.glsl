@@ -6,7 +6,7 @@
 
 SHADER_BEGIN
 
-// What the function is asked by. across: from the middle of the picture to a place in it, by right and up, in half widths.
+// The function's arguments. across: from the middle of the picture to a point in it, by right and up, in half widths.
 vec4 formula_asked(Frame frame, vec3 across, vec2 lens) {
   return vec4(dot3(across, normalize3(frame.right)), dot3(across, normalize3(frame.up)), lens.x, lens.y);
 }

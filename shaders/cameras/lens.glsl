@@ -1,4 +1,4 @@
-// Where on the lens a ray starts.
+// The point of the lens at which a ray starts.
 #ifndef LENS_GLSL
 #define LENS_GLSL
 #include "math/sampling.glsl"

@@ -1,4 +1,5 @@
-// All rays come from the eye, which is the origin, or from a lens around it. Those of one place in the picture meet in the plane in focus.
+// All rays come from the eye, which is the origin, or from a lens around it. Rays of one point in the picture intersect in the plane in
+// focus.
 #ifndef PERSPECTIVE_GLSL
 #define PERSPECTIVE_GLSL
 #include "geometry/ray.glsl"

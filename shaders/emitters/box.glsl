@@ -1,4 +1,4 @@
-// |x|, |y|, |z| ≤ 1 in a space of its own (emitters/object_map.glsl).
+// |x|, |y|, |z| ≤ 1 in object space (emitters/object_map.glsl).
 #ifndef EMITTER_BOX_GLSL
 #define EMITTER_BOX_GLSL
 #include "emitters/object_map.glsl"

@@ -1,4 +1,4 @@
-// x² + z² = 1, |y| ≤ 1 in a space of its own (emitters/object_map.glsl), and the caps.   area = the share of it that the side has
+// x² + z² = 1, |y| ≤ 1 in object space (emitters/object_map.glsl), and the caps.   area = the share of it that the side has
 #ifndef EMITTER_CYLINDER_GLSL
 #define EMITTER_CYLINDER_GLSL
 #include "emitters/object_map.glsl"

@@ -1,4 +1,4 @@
-// |x| = 1 in a space of its own (emitters/object_map.glsl).
+// |x| = 1 in object space (emitters/object_map.glsl).
 #ifndef EMITTER_ELLIPSOID_GLSL
 #define EMITTER_ELLIPSOID_GLSL
 #include "emitters/object_map.glsl"

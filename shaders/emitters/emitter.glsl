@@ -28,7 +28,7 @@ float emitter_density(Emitter e, vec3 from, EmitterSample place) {
   return density;
 }
 
-// What the place sends on to where `direction` comes from, which points at it.
+// The radiance that the point emits towards the origin of `direction`, which points at it.
 vec3 emitter_radiance(Emitter e, EmitterSample place, vec3 direction) {
   vec3 light = e.radiance;
 #if HAS_EMISSION_TEXTURES
@@ -64,7 +64,8 @@ bool may_light(Emitter e, uint primitive) {
   return itself || e.primitive != primitive;
 }
 
-// How likely an emitter is chosen that is in no BVH: it has the numbers of 2^24 from where the one before ends.
+// The probability of choosing an emitter that is in no BVH: it has the numbers, of 2^24, from the end of the one
+// before.
 float emitter_share(uint i) {
   uint begin = i == 0u ? 0u : load_emitter(i - 1u).end;
   return float(load_emitter(i).end - begin) * 5.9604645e-8f;
@@ -101,7 +102,7 @@ LightPick pick_light(Frame frame, vec3 p, vec3 n, float u) {
   return pick;
 }
 
-// How likely that chooses the light.
+// The probability that the choice picks the light.
 float light_share(Frame frame, vec3 p, vec3 n, uint light) {
 #if HAS_LIGHT_BVH
   uint trail = load_emitter(light).trail;

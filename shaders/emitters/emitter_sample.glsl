@@ -6,7 +6,7 @@
 
 SHADER_BEGIN
 
-// What flat kinds hold: the centre or a corner, and from there half axes or edges.
+// The values of flat kinds: the centre or a corner, and from there half axes or edges.
 vec3 emitter_origin(Emitter e) { return vec3(e.a); }
 vec3 emitter_edge_u(Emitter e) { return vec3(e.b); }
 vec3 emitter_edge_v(Emitter e) { return vec3(e.c); }

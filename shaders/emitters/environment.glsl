@@ -67,7 +67,7 @@ Stretch environment_row(Frame frame, uint row) {
 
 float share_of(Stretch stretch) { return float(stretch.end - stretch.begin) * 5.9604645e-8f; }
 
-// How far on in its stretch the number u · 2^24 is, as a share.
+// The position of the number u · 2^24 in its stretch, as a share.
 float within_stretch(Stretch stretch, float u) {
   return (float(uint(u * 16777216.0f) - stretch.begin) + 0.5f) / float(stretch.end - stretch.begin);
 }
@@ -90,7 +90,7 @@ uint environment_chosen_by(float u, uint first, uint stride, uint count) {
 // Rows are counted from the nearer pole: what is left to that has all its digits.
 bool nearer_below(Frame frame, uint row) { return 2u * row > frame.environment_height; }
 
-// How far a row's borders are from the nearer pole, in rows, the nearer border first.
+// The distances of a row's borders from the nearer pole, in rows, the nearer border first.
 vec2 environment_borders(Frame frame, uint row) {
   float nearer = float(nearer_below(frame, row) ? frame.environment_height - row : row);
   return vec2(maximum(nearer - 0.5f, 0.0f), minimum(nearer + 0.5f, float(frame.environment_height)));
@@ -140,7 +140,7 @@ float environment_density(Frame frame, vec3 d) {
 }
 #endif
 
-// How likely the environment is chosen, and not a light.
+// The probability of choosing the environment, and not a light.
 float environment_share(Frame frame) {
 #if HAS_ENVIRONMENT
   return float(frame.environment_numbers) * 5.9604645e-8f;
@@ -149,7 +149,7 @@ float environment_share(Frame frame) {
 #endif
 }
 
-// What is seen where nothing is hit.
+// The light seen by a ray that hits nothing.
 vec3 surroundings(Frame frame, vec3 d) {
   vec3 light = frame.background;
 #if HAS_ENVIRONMENT

@@ -27,7 +27,7 @@ vec2 angle_without(vec2 angle, vec2 other) {
   return vec2(angle.x * other.x + angle.y * other.y, angle.y * other.x - angle.x * other.y);
 }
 
-// What of the node's light may arrive in p, where the normal is n; without regard to that where it is 0. Above 0 wherever any does.
+// Estimate of the node's light that may arrive at p, where the normal is n; a normal of 0 is ignored. Above 0 wherever any does.
 float light_node_importance(LightNode node, vec3 p, vec3 n) {
   vec3 way = node.center - p;
   float squared = dot3(way, way);
@@ -59,7 +59,7 @@ LightPick pick_by_light_bvh(vec3 p, vec3 n, uint number, uint count) {
   uint pair = 0u;
   for (uint level = 0u; level < LIGHT_BVH_DEPTH; level++) {
     if (pick.light != NONE || pick.share == 0.0f) break;
-    // What is left of the number is good for some levels. A rounding error in it doubles at each.
+    // The rest of the number serves for some levels. A rounding error in it doubles at each.
     if (level > 0u && (level & (LIGHT_BVH_LEVELS_A_NUMBER - 1u)) == 0u) u = unit_float(pcg_hash(number ^ (level << 24u)));
     LightNode first = load_light_node(pair);
     LightNode second = load_light_node(pair + 1u);
@@ -78,7 +78,7 @@ LightPick pick_by_light_bvh(vec3 p, vec3 n, uint number, uint count) {
   return pick;
 }
 
-// How likely that picks the light at the end of `trail`.
+// The probability that the choice picks the light at the end of `trail`.
 float light_bvh_share(vec3 p, vec3 n, uint trail) {
   float share = 1.0f;
   uint pair = 0u;

@@ -1,4 +1,4 @@
-// The map of an emitter that is a plain shape in a space of its own, from there into the world.
+// The map from object space to the world of an emitter that is a plain shape in object space.
 #ifndef OBJECT_MAP_GLSL
 #define OBJECT_MAP_GLSL
 #include "emitters/emitter_sample.glsl"
@@ -14,7 +14,7 @@ struct ObjectMap {
   vec3 x;  // the images of the axes, …
   vec3 y;
   vec3 z;
-  vec3 across_x;  // … what is square to two of them, their parallelogram long, …
+  vec3 across_x;  // … perpendicular to two of them, as long as their parallelogram's area, …
   vec3 across_y;
   vec3 across_z;
   float volume;  // … and the determinant

@@ -5,7 +5,7 @@
 
 SHADER_BEGIN
 
-// As two triangles of one apex, on either side of the diagonal.
+// The parallelogram as two triangles of one apex, on either side of the diagonal.
 struct SphericalParallelogram {
   SphericalTriangle low;   // with the edge b, …
   SphericalTriangle high;  // … with the edge c
@@ -29,7 +29,8 @@ bool is_by_solid_angle(SphericalParallelogram seen) {
 
 EmitterSample parallelogram_emitter_sample(Emitter e, vec3 from, vec2 u) {
   SphericalParallelogram seen = spherical_parallelogram(e, from);
-  // Round the apex, from b to c: one triangle ends where the other begins, so that numbers side by side stay side by side.
+  // Around the apex, from b to c: one triangle ends where the other begins, so that neighbouring numbers give neighbouring
+  // points.
   float turn = u.y * half_angle_of(seen);
   bool low = turn < seen.low.half_angle || seen.high.half_angle == 0.0f;
   SphericalTriangle part;

@@ -15,7 +15,8 @@ SHADER_BEGIN
 float rectangle_width(Emitter e) { return e.b.w; }  // the lengths of the edges
 float rectangle_height(Emitter e) { return e.c.w; }
 
-// Seen under less, it is chosen by area, which is then as even: a small one far aside would lose digits to its distance.
+// Under a smaller solid angle it is sampled by area, which is then as uniform: a small one far off the axis would lose digits to its
+// distance.
 #define LEAST_SPHERICAL_RECTANGLE 0.01f
 
 struct SphericalRectangle {
@@ -82,7 +83,7 @@ float rectangle_x(SphericalRectangle seen, float u) {
   return minimum(maximum(right < left ? x : -x, seen.x0), seen.x1);
 }
 
-// Where it crosses the rectangle, the plane through x is even in the sine of the height; of that the complements to 1 and to −1 are mixed.
+// Samples along the plane through x are uniform in the sine of the height. The sine's complements to 1 and to −1 are mixed.
 float rectangle_y(SphericalRectangle seen, float x, float u) {
   float plain = x * x + seen.z * seen.z;
   float r0 = sqrt(plain + seen.y0 * seen.y0);

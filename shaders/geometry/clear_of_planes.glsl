@@ -1,4 +1,4 @@
-// Planes have no edges of their own, and cut whatever they pass through: a spawned ray is kept on the side of each that it came on.
+// Planes have no edges, and cut all objects that they pass through: a spawned ray is kept on its side of each plane.
 #ifndef CLEAR_OF_PLANES_GLSL
 #define CLEAR_OF_PLANES_GLSL
 #include "geometry/edges.glsl"

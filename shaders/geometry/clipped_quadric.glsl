@@ -1,4 +1,4 @@
-// Where a ray hits a quadric that is cut to a convex piece of space.
+// Intersects a ray with a quadric that is cut to a convex piece of space.
 #ifndef CLIPPED_QUADRIC_GLSL
 #define CLIPPED_QUADRIC_GLSL
 #include "geometry/ray.glsl"
@@ -19,7 +19,7 @@ vec2 quadratic_roots(float a, float b, float c, float root) {
 
 // The first s with t + s > 0 at which the ray hits the boundary of a·s² + 2b·s + c ≤ 0 between s = enter and s = leave, and what is hit there:
 // the quadric, or the piece's own boundary where the ray enters or leaves it. `open`: only the quadric. T_MISS if there is none. Where the
-// quadric and the piece's boundary meet, both come from the same four numbers, so that no ray passes between them.
+// quadric and the piece's boundary intersect, both come from the same four numbers, so that no ray passes between them.
 // `equation`: a, b, c. `nearest_equation`: the same from s = `nearest_at`, the ray's point nearest to the centre. The discriminant is that
 // of either; there the products whose difference it is are smallest, so that a ray that grazes is hit where it should be. A root is taken from
 // whichever of the two places it is closer to: where a ray runs along a cone and past its apex, one seen from afar has no digits left; and

@@ -1,4 +1,4 @@
-// What triangles hold, and parallelograms: their first three corners, and the normal.
+// The values of triangles and parallelograms: their first three corners, and the normal.
 #ifndef CORNERS_GLSL
 #define CORNERS_GLSL
 #include "records.h"

@@ -5,7 +5,7 @@
 
 SHADER_BEGIN
 
-// Where a ray is inside of the three slabs: from where it has entered the last to where it leaves the first; nowhere if enter > leave.
+// The part of a ray inside of the three slabs: from its entry into the last to its exit from the first; empty if enter > leave.
 struct CubeSpan {
   vec3 in_at;
   vec3 out_at;

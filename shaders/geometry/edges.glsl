@@ -6,8 +6,8 @@
 
 SHADER_BEGIN
 
-// How far inside of edges rays start on a surface whose `offset` is at most 8 EPSILON * reach: 16 of these. spawn_ray displaces a start sideways by at
-// most 8; the rest is for faces that enclose a small angle.
+// The distance inside of edges at which rays start on a surface whose `offset` is at most 8 EPSILON * reach: 16 of these. spawn_ray displaces a start
+// sideways by at most 8; the rest is for faces that enclose a small angle.
 float edge_room(Ray ray, float reach) {
 #if HAS_INSTANCES
   reach = reach + ray.reach;

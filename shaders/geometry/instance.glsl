@@ -6,7 +6,7 @@
 
 SHADER_BEGIN
 
-// Where a ray is being traced: in the world, or in the space of an instance.
+// A ray in the space where it is traced: world space, or that of an instance.
 struct LocalRay {
   Ray ray;
   uint instance;        // NONE in the world

@@ -1,5 +1,6 @@
-// How far off a smooth triangle its scattered rays start: Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II (2021), chapter 4. A
-// shadow ray from the flat triangle would hit the mesh that only looks curved, and whole facets would be black near the terminator.
+// The distance from a smooth triangle at which its scattered rays start: Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II
+// (2021), chapter 4. A shadow ray from the flat triangle would hit the mesh that only looks curved, and whole facets would be black near the
+// terminator.
 #ifndef LIFT_GLSL
 #define LIFT_GLSL
 #include "geometry/corners.glsl"

@@ -1,4 +1,4 @@
-// Shapes that are a plain one, such as the unit sphere, in a space of their own.
+// Shapes that are a plain one, such as the unit sphere, in object space.
 // extra: the first of its vertices: three with the rows of the map back, then the shape's own parameters
 #ifndef OBJECT_SPACE_GLSL
 #define OBJECT_SPACE_GLSL
@@ -24,7 +24,7 @@ struct ObjectRay {
 
 vec3 into_object(Primitive s, vec3 v) { return vec3(dot3(object_x(s), v), dot3(object_y(s), v), dot3(object_z(s), v)); }
 
-// Where along itself a ray comes nearest to the centre; and the same ray from there.
+// The t at which a ray comes nearest to the centre; and the same ray from there.
 float nearest_at(ObjectRay ray) { return -dot3(ray.o, ray.d) / dot3(ray.d, ray.d); }
 ObjectRay from_nearest(ObjectRay ray) {
   ObjectRay r = ray;
@@ -51,8 +51,8 @@ ObjectRay object_ray(Primitive s, Ray ray, float reach) {
   bool is_far = dot3(r.o, r.o) > 4.0f * reach * reach;
   r.t = is_far ? far.t : r.t;
   r.o = is_far ? far.o : r.o;
-  // What passes far from the shape is let pass before squares overflow; and a direction so short that its squares are lost, as no
-  // unit vector's are, hits nothing.
+  // A ray that passes far from the shape misses before squares overflow. So does a direction so short that its squares are lost; a unit vector's are
+  // not.
   bool passes = dot3(r.o, r.o) <= 4.0f * reach * reach && dot3(r.d, r.d) >= 1.0e-30f;
   r.o = passes ? r.o : vec3(0.0f, 4.0f * reach, 0.0f);
   r.d = passes ? r.d : vec3(1.0f, 0.0f, 0.0f);
@@ -108,7 +108,7 @@ Surface object_surface(Primitive s, vec3 p, vec3 gradient, UvField field) {
 // A point of the world in object space.
 vec3 point_into_object(Primitive s, vec3 p) { return into_object(s, p - object_center(s)); }
 
-// How far inside of edges rays start in the world from the point p of object space (geometry/edges.glsl).
+// The distance inside of edges, in the world, at which rays start from the point p of object space (geometry/edges.glsl).
 float object_room(Primitive s, Ray ray, vec3 p) {
   vec4 x = bits_to_floats(load_vertex(s.extra));
   vec4 y = bits_to_floats(load_vertex(s.extra + 1u));
@@ -118,13 +118,13 @@ float object_room(Primitive s, Ray ray, vec3 p) {
   return edge_room(ray, max_component(reach) + 2.0f * max_component(abs3(object_center(s))));
 }
 
-// What a step of 1 in the world, along the gradient of a function of object space, adds to that.
+// The increase of a function of object space by a step of 1 in the world along its gradient.
 float steepness(Primitive s, vec3 gradient) {
   vec3 n = gradient_out_of_object(s, gradient);
   return sqrt(dot3(n, n));
 }
 
-// The same for the three coordinates.
+// The steepness of the three coordinates.
 vec3 coordinate_steepness(Primitive s) {
   return vec3(sqrt(dot3(object_x(s), object_x(s))), sqrt(dot3(object_y(s), object_y(s))), sqrt(dot3(object_z(s), object_z(s))));
 }

@@ -27,7 +27,7 @@ struct Ray {
 #endif
 };
 
-// What `intersect` of closed shapes asks, so that it is for CSG objects too (shapes/csg.glsl): a crossing is the same number for whoever asks.
+// Queries of `intersect` of closed shapes, so that it serves CSG objects too (shapes/csg.glsl): a crossing is the same number for every caller.
 // AFTER: beyond which t it counts. ENTERS: whether of the two crossings of a convex shape the first is asked for, which is at t. COUNTS: whether
 // crossings are counted along the whole line; then PASSED: whether that at t has been.
 #if HAS_CSG
@@ -53,13 +53,13 @@ struct Hit {
   vec2 uv;        // the shape's own parameters
 };
 
-// What a shape says of the point that was hit.
+// The surface of a shape at the hit.
 struct Surface {
   vec3 p;                 // on the surface, projected
   vec3 normal_geometric;  // unit; outward, or by winding
   vec3 normal;            // unit shading normal
 #if HAS_BENT_COAT
-  vec3 coat_normal;       // … of a clear coat, which only a normal map of its own bends
+  vec3 coat_normal;       // … of a clear coat, which only its own normal map bends
 #endif
 #if HAS_SMOOTH
   vec3 normal_side;       // unit, see side_normal; not bent by the material
@@ -68,7 +68,7 @@ struct Surface {
   vec2 uv;
   float offset;  // a ray that starts this far off p along the geometric normal does not hit the surface again
   vec3 inward;   // from p to the inside of the surface's edges, where rays start (geometry/edges.glsl); 0 far from edges
-  // What bent normals ask (materials/bent_normal.glsl).
+  // The values that bent normals need (materials/bent_normal.glsl).
   vec3 u_gradient;  // how u and v grow around p; what is not along the surface does not count
   vec3 v_gradient;
   vec4 tangent;  // a mesh's own: along u, and whether v is to the left of that, 1, or to the right, −1; w = 0 where the gradients say it
@@ -121,7 +121,7 @@ Surface no_surface() {
   return surface;
 }
 
-// Where its textures are asked.
+// The point at which the surface's textures are sampled.
 TextureContext place_on(Surface surface) {
   TextureContext place = place_of_uv(surface.uv);
 #if HAS_SECOND_UV
@@ -228,8 +228,8 @@ bool lifts(Surface s) {
 #endif
 }
 
-// The same for a ray that the surface scatters to its front, or behind it. It leaves a smooth triangle from the curved surface that the
-// triangle stands for, and may point into the triangle's plane from there.
+// Spawns a ray that the surface scatters to its front, or behind it. It leaves a smooth triangle from the curved surface that the triangle
+// stands for, and may point into the triangle's plane from there.
 Ray spawn_scattered(Surface s, vec3 d, bool front) {
 #if HAS_SMOOTH
   if (s.lift.x >= 0.0f) {
@@ -242,7 +242,7 @@ Ray spawn_scattered(Surface s, vec3 d, bool front) {
   return spawn_ray(s, d);
 }
 
-// The same for a shadow ray to a light in the unit direction d, `distance` away from s.p. Both change where the ray starts elsewhere.
+// Spawns a shadow ray to a light in the unit direction d, `distance` away from s.p. Both change if the ray starts elsewhere.
 Ray spawn_to_light(Surface s, vec3 d, bool front, INOUT(float) distance) {
   Ray ray = spawn_scattered(s, d, front);
 #if HAS_SMOOTH

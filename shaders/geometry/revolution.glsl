@@ -1,4 +1,4 @@
-// Quadrics that are round about the y axis of object space, between two planes across it: with caps, closed; without, sheets.
+// Quadrics of revolution about the y axis of object space, between two planes across it: with caps, closed; without, sheets.
 #ifndef REVOLUTION_GLSL
 #define REVOLUTION_GLSL
 #include "geometry/clipped_quadric.glsl"
@@ -10,8 +10,8 @@ SHADER_BEGIN
 #define PART_BOTTOM 1.0f
 #define PART_TOP 2.0f
 
-// Where the first boundary with t > 0 is of a quadric between the planes y = bottom and y = top; −1 if there is none. `part` says what it is. The equations are
-// clipped_quadric's.
+// The t > 0 of the first boundary of a quadric between the planes y = bottom and y = top; −1 if there is none. `part` identifies the boundary. The
+// equations are clipped_quadric's.
 float revolution_intersect(Ray ray, ObjectRay r, vec3 equation, vec3 nearest_equation, float bottom, float top, bool open, OUT(float) part) {
   float inverse = bounded_inverse(r.d.y, 1.0e-12f * max_component(abs3(r.d)));
   float to_bottom = (bottom - r.o.y) * inverse;
@@ -53,8 +53,8 @@ vec3 inward_of_rim(Primitive s, Ray ray, vec3 p, float radius, float slope) {
 }
 
 // The surface at a point of a part. `radius` and `slope`: of the side at the height of p, and by how much it grows with y; `square`: of y² in the radius' square; `end_radius`: of a
-// cap's rim; `rim`: where the lower one is, below `bottom` where the side ends in a round tip. On the side u runs about the axis as on a globe and v from the bottom to the top; on caps, from the middle of the texture. What would be
-// a cap without a rim is the side's tip.
+// cap's rim; `rim`: where the lower one is, below `bottom` where the side ends in a rounded tip. On the side u runs about the axis as on a globe and
+// v from the bottom to the top; on caps, from the middle of the texture. A cap without a rim is the side's tip.
 Surface revolution_surface(Primitive s, Ray ray, vec3 p, float part, float rim, float bottom, float top, float radius, float slope,
                            float square, float end_radius) {
   float distance = sqrt(p.x * p.x + p.z * p.z);

@@ -18,7 +18,8 @@ UvField uv_field(vec2 uv, vec3 u_gradient, vec3 v_gradient) {
   return field;
 }
 
-// How u grows that runs once about the y axis, as on a globe, and how the angle from the lower pole does.
+// The gradients of the u that runs once about the y axis, as on a globe, and of the angle from the lower
+// pole.
 vec3 turn_gradient(vec3 p) { return vec3(p.z, 0.0f, -p.x) / (2.0f * PI * maximum(p.x * p.x + p.z * p.z, 1.0e-20f)); }
 vec3 pole_gradient(vec3 p) {
   float from_axis = sqrt(maximum(p.x * p.x + p.z * p.z, 1.0e-20f));

@@ -1,5 +1,5 @@
-// What a denoiser wants to know of a sample: albedo and normal of the first vertex of its path that sends light in more than a direction
-// or two. The path is the picture's, but for roulette, which does not end it here.
+// A sample's auxiliary values for a denoiser: albedo and normal of the first vertex of its path that scatters light in more than a
+// direction or two. The path is the picture's, but for roulette, which does not end it here.
 #ifndef AUXILIARY_GLSL
 #define AUXILIARY_GLSL
 #include "bvh/traverse.glsl"

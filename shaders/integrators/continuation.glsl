@@ -33,7 +33,7 @@ struct Path {
 #endif
 };
 
-// How a path goes on from where it hit something: not, in one way, or in two of which one waits.
+// The continuations of a path from its hit: none, one, or two of which one waits.
 struct Continuations {
   uint count;
   Path next;

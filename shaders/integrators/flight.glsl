@@ -1,5 +1,5 @@
-// How far a path gets through the medium that it is in. Where that scatters light, the distance is drawn: of one channel's, each as likely
-// as it has light left; its density is that of all three (Wilkie et al., "Hero Wavelength Spectral Sampling", EGSR 2014).
+// The distance that a path travels through its medium. If the medium scatters light, the distance is drawn for one channel, chosen in
+// proportion to the light left in it; its density is that of all three (Wilkie et al., "Hero Wavelength Spectral Sampling", EGSR 2014).
 #ifndef FLIGHT_GLSL
 #define FLIGHT_GLSL
 #include "integrators/continuation.glsl"
@@ -91,7 +91,7 @@ Interaction scattered_at(Path path, Flight flight) {
 }
 #endif
 
-// What the path meets there.
+// The interaction at the end of the flight.
 Interaction met_at(Path path, Ray ray, Hit hit, Flight flight, INOUT(uint) flags) {
 #if HAS_SCATTERING
   if (flight.scattered) return scattered_at(path, flight);

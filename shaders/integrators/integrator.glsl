@@ -1,4 +1,4 @@
-// What an integrator answers, whichever it is. A step is a function that never traces: the loop (loop.glsl) and the wavefront
+// The interface of integrators. A step is a function that never traces: the loop (loop.glsl) and the wavefront
 // (kernels/wavefront.comp.glsl) call these and trace the rays that they name.
 //   NAME_missed      the radiance of a ray that hits nothing
 //   NAME_emitted     what a path gains where it arrived, before any shadow ray, not yet weighted by its throughput
@@ -24,7 +24,7 @@ bool scatters() {
 #define WALKS_TO_no_light false
 #define WALKS_TO_each_light false
 #define WALKS_TO_one_light true
-// Whether they go on by chance.
+// True if paths go on at random.
 bool walks_at_random() {
   bool any = false;
 #define WALKS_OF(name, number, lights, ways) \

@@ -1,4 +1,4 @@
-// Where a path hits a surface: all that integrators and materials know of it. Found once, whoever asks.
+// The interaction of a path with a surface: all values that integrators and materials need, found once.
 #ifndef INTERACTION_GLSL
 #define INTERACTION_GLSL
 #include "geometry/surface.glsl"
@@ -33,7 +33,8 @@ bool in_medium(Interaction at) {
 #endif
 }
 
-// What does not depend on what the material says. `hit`: that of `ray`, which came through `media`. Adds to `flags` where those are too many.
+// The part of an interaction that does not depend on the material. `hit`: that of `ray`, which came through `media`. Adds to `flags` if those
+// are too many.
 Interaction struck_at(Ray ray, Hit hit, uint media, INOUT(uint) flags) {
   Primitive primitive = primitive_at(hit);
   uint material = material_of(primitive);
@@ -100,7 +101,7 @@ Interaction interaction_at(Ray ray, Hit hit, uint media, INOUT(uint) flags) {
   return at;
 }
 
-// Where a ray starts that the surface scatters in direction d, before or behind it.
+// The origin of a ray that the surface scatters in direction d, in front of it or behind.
 vec3 scattered_origin(Interaction at, vec3 d, bool before) {
   return lifts(at.surface) ? spawn_scattered(at.seen, d, before).o : spawn_ray(at.surface, d).o;
 }

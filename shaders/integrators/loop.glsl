@@ -55,8 +55,8 @@ vec3 radiance(Frame frame, Ray camera_ray, uint pixel, uint index, INOUT(uvec4) 
     rays_refracted += going && path.refracted ? 1u : 0u;
     total_reflections += all.total_reflection ? 1u : 0u;
 #endif
-    // Tested at the bottom, which saves a round with all lanes idle; but not where no loop over lights is inside this one: there Mesa
-    // 22.3.6 may take what it computed last from the rounds of other rays (docs/lavapipe.md).
+    // Tested at the bottom, which saves an iteration with all lanes idle. Not so if no loop over lights is inside this one: then Mesa
+    // 22.3.6 may take the last results from the iterations of other rays (docs/lavapipe.md).
     if (LIGHT_COUNT > 0u && !going) break;
   }
 #if RAY_KINDS

@@ -25,7 +25,7 @@ vec2 path_pair(Frame frame, Path path, uint pair) {
   return sample_pair(frame, path.pixel, path.index, pair + PAIRS_A_VERTEX * surfaces_behind(path));
 }
 
-// Where the path's last vertex is, to which densities by solid angle belong.
+// The position of the path's last vertex, to which densities by solid angle belong.
 vec3 last_vertex(Path path) {
 #if HAS_PANES
   return path.from;
@@ -41,7 +41,7 @@ vec3 towards_viewer(LocalFrame local, Interaction at) { return seen_from(into_fr
 
 bool is_before(Interaction at, vec3 d) { return dot3(side_normal(at.seen), d) > 0.0f; }
 
-// Whether the surface may send light on from direction d, `i` in its own frame: it is where normals, which may be bent, have it.
+// True if the surface may scatter light from direction d, `i` in its own frame. A normal, which may be bent, must put d on its real side.
 bool on_its_side(Interaction at, vec3 d, vec3 i) {
   bool before = is_before(at, d);
   bool on_side = before == (i.z > 0.0f);
@@ -92,13 +92,13 @@ vec3 path_emitted(Frame frame, Path path, Interaction at) {
   return light;
 }
 
-// The normal that a light BVH is asked by; 0 where the surface also sends on what comes from behind it.
+// The normal for queries of a light BVH; 0 if the surface also transmits light from behind it.
 vec3 normal_for_lights(Interaction at) {
   bool all_around = transmits(at.bsdf) || at.primitive == NONE;  // of a point in a medium
   return all_around ? vec3(0.0f, 0.0f, 0.0f) : at.seen.normal;
 }
 
-// What a light sends to the point: from `direction`, if nothing stands on the way of `ray`.
+// A light's light at the point: from `direction`, if nothing blocks `ray`.
 struct Arriving {
   vec3 direction;
   Ray ray;
@@ -175,7 +175,7 @@ Arriving environment_arriving(Frame frame, Path path, Interaction at) {
 }
 #endif
 
-// What comes from the one light that the vertex asks.
+// The light of the one light that the vertex samples.
 Arriving light_arriving(Frame frame, Path path, Interaction at) {
   vec2 chance = path_pair(frame, path, PAIR_LIGHT);
   bool around = false;
@@ -188,7 +188,7 @@ Arriving light_arriving(Frame frame, Path path, Interaction at) {
   return arriving;
 }
 
-// The shadow ray to what arrives along `i_local` in the point's own frame, of which `lobes` are sent on.
+// The shadow ray for light that arrives along `i_local` in the point's own frame, of which `lobes` are scattered.
 bool shadow_ray_to(Frame frame, Path path, Interaction at, Arriving arriving, vec3 i_local, LobeValue lobes, OUT(Ray) ray, OUT(float) distance, OUT(vec3) contribution, OUT(uint) light) {
   ray = arriving.ray;
   light = arriving.light;
@@ -224,7 +224,7 @@ bool path_shadow_ray(Frame frame, Path path, Interaction at, uint i, OUT(Ray) ra
   return shadow_ray_to(frame, path, at, arriving, i_local, lobes, ray, distance, contribution, light);
 }
 
-// How a vertex sends the path on.
+// The way in which a vertex continues the path.
 struct ScatterEvent {
   vec3 d;
   vec3 weight;       // of the light from there

@@ -1,4 +1,5 @@
-// Where photons lie: space is cut into cubes as wide as the disk that photons are gathered on, so that a disk meets eight at most.
+// The grid of photons: space is cut into cubes as wide as the disk on which photons are gathered, so that a disk overlaps eight at
+// most.
 #ifndef PHOTON_CELLS_GLSL
 #define PHOTON_CELLS_GLSL
 #include "math/math.glsl"

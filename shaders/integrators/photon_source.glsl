@@ -1,5 +1,5 @@
-// Where photons come from: a light or surface that emits, or what is around, each as likely as paths would ask it; a place by area, a
-// direction by what is sent there. What a photon brings is that divided by the density of it all.
+// The sources of photons: a light, an emitting surface, or the environment, each with the probability with which paths sample it.
+// Positions are chosen by area, directions by the emitted light. A photon's flux is that light divided by the density of all choices.
 #ifndef PHOTON_SOURCE_GLSL
 #define PHOTON_SOURCE_GLSL
 #include "emitters/emitter.glsl"
@@ -39,7 +39,7 @@ vec3 middle_of(Emitter e) {
   return middle;
 }
 
-// How dense such places lie, by area. On what is flat they are chosen from its own plane, and so by area.
+// The density of such positions by area. On flat emitters they are chosen from their own plane, and so by area.
 float density_by_area(Emitter e, vec3 middle, EmitterSample place) {
   vec3 way = place.p - middle;
   float squared = maximum(dot3(way, way), 1.0e-30f);

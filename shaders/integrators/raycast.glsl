@@ -1,4 +1,4 @@
-// Eye rays only: the base colour, shaded by light and normal, without shadows.
+// Camera rays only: the base colour, shaded by light and normal, without shadows.
 #ifndef RAYCAST_GLSL
 #define RAYCAST_GLSL
 #include "emitters/environment.glsl"

@@ -1,6 +1,7 @@
-// Photon mapping, each sample anew (Knaus and Zwicker, "Progressive Photon Mapping: A Probabilistic Approach", TOG 2011): lights send out
-// photons, which are scattered and stay on surfaces; a path goes from the eye, by the sharp part of each BSDF, to where the wide part of
-// one ends it. What that sends on comes from one light, by a shadow ray, or by two surfaces or more, by photons that lie near.
+// Photon mapping, each sample anew (Knaus and Zwicker, "Progressive Photon Mapping: A Probabilistic Approach", TOG 2011): lights emit
+// photons, which are scattered and stored on surfaces. A path goes from the eye, by the sharp part of each BSDF, until the wide part of
+// one ends it. The light that the wide part scatters comes from one light, by a shadow ray, or by two surfaces or more, by photons
+// nearby.
 #ifndef SPPM_GLSL
 #define SPPM_GLSL
 #include "bsdf/parts.glsl"
@@ -12,8 +13,8 @@ SHADER_BEGIN
 vec3 sppm_missed(Frame frame, Path path) { return path_missed(frame, path); }
 
 #if HAS_PHOTONS && !defined(SENDS_PHOTONS)
-// What the photons around the point send towards the viewer. Epanechnikov's kernel falls to 0 at the disk's rim, where rounding decides
-// which photons are within.
+// The light of the photons around the point that is scattered towards the viewer. Epanechnikov's kernel falls to 0 at the disk's rim,
+// where rounding decides which photons are within.
 vec3 gathered(Frame frame, Path path, Interaction at) {
   vec3 light = vec3(0.0f, 0.0f, 0.0f);
   PhotonPass pass = load_photon_pass();

@@ -1,5 +1,5 @@
-// A fingerprint of what a path decides on its way, so that verify can tell samples apart whose paths part (docs/gates.md): what is hit,
-// which light is seen, and by which lobe it goes on. Each is an event; the reference has the same ones in the same order.
+// A fingerprint of a path's decisions, by which verify detects samples whose paths diverge (docs/gates.md): the objects hit, the light
+// seen, and the lobe by which the path goes on. Each is an event; the reference has the same ones in the same order.
 #ifndef TRAIL_GLSL
 #define TRAIL_GLSL
 #include "math/rng.glsl"

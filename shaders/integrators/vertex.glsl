@@ -18,7 +18,7 @@ SHADER_BEGIN
 #endif
 
 #if RANDOM_WALK && HAS_PANES
-// Whether paths can hit the light by chance.
+// True if random paths can hit the light.
 bool has_extent(uint light, vec3 p) {
   bool extended = light >= LIGHT_COUNT;
 #if HAS_LIGHT_DISKS
@@ -88,7 +88,7 @@ Continuations shade(Frame frame, Path path, Ray ray, Hit hit, INOUT(vec3) color,
     Interaction at = met_at(path, ray, hit, flight, counts.z);
     PROBE(throughput, path.throughput);
     vec3 light = emitted(frame, path, at);
-    // Tested at the bottom: Mesa 22.3.6 would go round once more, with all lanes idle.
+    // Tested at the bottom: Mesa 22.3.6 would run one more iteration, with all lanes idle.
     uint i = 0u;
     uint seen = 0u;
     if (shadow_rays() > 0u) do {
@@ -135,7 +135,7 @@ Continuations shade(Frame frame, Path path, Ray ray, Hit hit, INOUT(vec3) color,
 }
 
 #if RAY_KINDS
-// What a sample counted, as a result holds it where rays are counted by their kinds. What does not fit stays at the most that does.
+// A sample's count in the form of a result whose rays are counted by kind. A count that does not fit becomes the largest that does.
 uint at_most(uint x, uint most) { return x < most ? x : most; }
 uvec4 counts_by_kind(uvec4 counts, uint reflected, uint refracted, uint total) {
   return uvec4(counts.x, counts.y, counts.z | at_most(refracted, 0xffffffffu >> REFRACTED_SHIFT) << REFRACTED_SHIFT,

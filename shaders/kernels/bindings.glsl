@@ -1,4 +1,5 @@
-// What the entries share: the buffers. Those that grow with the scene, and the frame, are texel buffers where TEXEL_BUFFERS is set:
+// The buffers, which the entries share. Those that grow with the scene, and the frame, are texel buffers where TEXEL_BUFFERS is
+// set:
 // a storage buffer's range can be as small as 128 MiB, and a CPU driver loads texels faster.
 #ifndef BINDINGS_GLSL
 #define BINDINGS_GLSL
@@ -35,7 +36,7 @@ layout(std430, binding = BINDING_FRAME) readonly restrict buffer FrameBuffer { F
 #define FRAME_SEED frame_record.seed
 #endif
 #if STORED_HITS
-// What kernels/cooperative/packet.comp.glsl found for this sample: what the eye rays hit, and how much of each light is lost there.
+// The results of kernels/cooperative/packet.comp.glsl for this sample: the camera rays' hits, and the loss of each light there.
 layout(std430, binding = BINDING_PACKET_HITS) readonly restrict buffer PacketHits { PacketHit packet_hits[]; };
 layout(std430, binding = BINDING_OCCLUSIONS) readonly restrict buffer Occlusions { uint occlusions[]; };
 #endif
@@ -54,7 +55,7 @@ layout(std430, binding = BINDING_PHOTON_PASS) readonly restrict buffer PhotonPas
 layout(std430, binding = BINDING_EMITTER_MEDIA) readonly restrict buffer EmitterMedia { uint emitter_media[]; };
 #ifdef SENDS_PHOTONS
 layout(std430, binding = BINDING_PHOTONS) writeonly restrict buffer Photons { Photon photons[]; };
-// How many were stored, or would be if all had room.
+// The number of stored items, or of those that would be if all had room.
 layout(std430, binding = BINDING_NEXT_LIST) restrict buffer NextList { uint next_list[]; };
 #else
 layout(std430, binding = BINDING_PHOTONS) readonly restrict buffer Photons { Photon photons[]; };

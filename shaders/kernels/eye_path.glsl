@@ -1,4 +1,4 @@
-// Where the paths of a tile's pixels begin, for entries that trace eye rays before others shade them.
+// The start of the paths of a tile's pixels, for entries that trace camera rays before others shade them.
 #ifndef EYE_PATH_GLSL
 #define EYE_PATH_GLSL
 #include "kernels/pixel.glsl"

@@ -1,5 +1,5 @@
-// What a kernel is specialised by: the contract between executors/specialise.cpp, which writes these defines for a scene, the twin,
-// which is compiled once for every scene (twin/shader_functions.hpp), and the shaders that ask them. A test compares the lists.
+// The defines by which a kernel is specialised: the contract between executors/specialise.cpp, which writes these defines for a scene,
+// the twin, which is compiled once for every scene (twin/shader_functions.hpp), and the shaders that ask them. A test compares the lists.
 #ifndef FEATURES_H
 #define FEATURES_H
 

@@ -1,4 +1,5 @@
-// How everything else reads the scene, when it is in the buffers; what is small is compiled in instead (executors/specialise.cpp).
+// Functions by which all other code reads the scene from the buffers. Small lists are compiled in instead
+// (executors/specialise.cpp).
 #ifndef LOADERS_GLSL
 #define LOADERS_GLSL
 #include "kernels/bindings.glsl"

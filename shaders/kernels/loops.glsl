@@ -5,9 +5,10 @@
 
 SHADER_BEGIN
 
-// FLAG_LOOP_BUDGET if the driver has ended any loop of this invocation before its time, asked at the invocation's end: once it has, no
-// loop goes round twice. `two` comes from a buffer, so that no compiler knows how this one ends. To look at what a loop was to reach
-// is no help: compilers take it as reached. FLAG_ENDLESS where a formula's loops were ended by math/formula.glsl's own count.
+// FLAG_LOOP_BUDGET if the driver has ended any loop of this invocation before its time, queried at the invocation's end: once it has,
+// no loop runs a second iteration. `two` comes from a buffer, so that no compiler knows how this one ends. Checking the value that a
+// loop was to reach does not help: compilers take it as reached. FLAG_ENDLESS where a formula's loops were ended by
+// math/formula.glsl's own count.
 // FLAG_ENDLESS_LOOP where the driver ended a loop, or executors/loop_guard.hpp did, in a kernel that may hold a user's shaders.
 uint loops_cut_off(uint two) {
   uint rounds = 0u;

@@ -4,7 +4,7 @@
 #extension GL_EXT_control_flow_attributes : require
 #include "scene.glsl"
 
-// In any order: who sorts them tells them apart.
+// Stores photons in any order: their numbers identify them when they are sorted.
 void store_photon(Photon photon) {
   uint at = atomicAdd(next_list[0], 1u);
   if (at < photon_pass.capacity) photons[at] = photon;

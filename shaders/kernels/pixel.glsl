@@ -1,4 +1,4 @@
-// What the entries do for one pixel: pixel → ray → colour, and pixel → ray → first hit.
+// The work of the entries for one pixel: pixel → ray → colour, and pixel → ray → first hit.
 #ifndef PIXEL_GLSL
 #define PIXEL_GLSL
 #include "cameras/camera.glsl"
@@ -12,7 +12,7 @@
 
 SHADER_BEGIN
 
-// The eye ray of sample `index` of pixel (x, y); false where the camera sees nothing, and there is none.
+// The camera ray of sample `index` of pixel (x, y); false if there is none because the camera sees nothing there.
 bool eye_ray(Frame frame, uint x, uint y, uint index, OUT(Ray) ray) {
   vec2 place = sample_position(frame, x, y, index);
   vec2 lens = vec2(0.0f, 0.0f);

@@ -1,4 +1,5 @@
-// What shaders PROBE, into the buffer of kernels/bindings.glsl: for a dispatch of one pixel, since every invocation begins at its start.
+// Writes the values that shaders PROBE into the buffer of kernels/bindings.glsl: for a dispatch of one pixel, since every invocation
+// begins at its start.
 #ifndef PROBE_GLSL
 #define PROBE_GLSL
 #include "records.h"

@@ -17,7 +17,7 @@ layout(std430, binding = BINDING_OUTPUT) writeonly restrict buffer Results { Sam
 #endif
 
 #ifdef LISTED
-// How many, then the places of the pixels in the tile.
+// The number of pixels, then their indices in the tile.
 layout(std430, binding = BINDING_LIST) readonly restrict buffer List { uint list[]; };
 #endif
 

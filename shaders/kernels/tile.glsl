@@ -1,4 +1,4 @@
-// Which pixel of a tile an invocation computes.
+// The pixel of a tile that an invocation computes.
 #ifndef TILE_GLSL
 #define TILE_GLSL
 #include "math/math.glsl"

@@ -1,8 +1,8 @@
-// Entry: shades one bounce of the paths of a tile, all at the same depth. Without LISTED it takes every pixel, at what its eye ray hit;
-// with it the pixels of a list, whose paths go on, so that no lane is idle. With STORED_HITS other kernels have traced already what
-// the paths hit, and what their shadow rays lose; else it traces them itself, each on its lane. Each pixel adds what its path gains,
-// and enters itself in the next list if the path goes on. The order of a list changes nothing. With ENDS_ONLY nothing is kept of paths that
-// go on: render.comp.glsl starts those anew, where rays split in two.
+// Entry: shades one bounce of the paths of a tile, all at the same depth. Without LISTED it takes every pixel, at its camera ray's hit;
+// with it the pixels of a list, whose paths go on, so that no lane is idle. With STORED_HITS other kernels have already traced the paths'
+// hits, and the losses of their shadow rays; else it traces them itself, each on its lane. Each pixel adds what its path gains, and enters
+// itself in the next list if the path goes on. The order of a list changes nothing. With ENDS_ONLY nothing is kept of paths that go on:
+// render.comp.glsl restarts those, if rays split in two.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -13,7 +13,7 @@
 layout(local_size_x = 64) in;
 layout(std430, binding = BINDING_OUTPUT) restrict buffer Results { SampleResult results[]; };
 layout(std430, binding = BINDING_PATHS) restrict buffer Paths { PathState paths[]; };
-// How many go on, then the places of their pixels in the tile.
+// The number of paths that go on, then the indices of their pixels in the tile.
 layout(std430, binding = BINDING_LIST) readonly restrict buffer List { uint list[]; };
 layout(std430, binding = BINDING_NEXT_LIST) restrict buffer NextList { uint next_list[]; };
 #define QUEUES_PATHS
@@ -64,7 +64,7 @@ void main() {
   Continuations all = shade(frame, path, ray, hit, color, counts, trail);
   counts.z = counts.z | loops_cut_off(LOOP_PROBE);
 #if RAY_KINDS
-  // How the path goes on counts here, and its way here did before.
+  // Continuing the path is counted here; its way to this hit was counted before.
   bool goes_on = all.count > 0u;
   bool refracted = goes_on && all.next.refracted;
   counts = counts_by_kind(counts, kinds.x + (goes_on && !refracted ? 1u : 0u), kinds.y + (refracted ? 1u : 0u),

@@ -1,6 +1,6 @@
-// Half of the photons of a light are aimed: at spheres around what bundles light, glass and mirrors, which few would meet by chance. So
-// Jensen's projection maps do ("Global Illumination Using Photon Maps", 1996), here without cells and without bias: what a photon brings is
-// divided by the density of both ways together, by which it may have come (Veach's balance heuristic, of one sample).
+// Half of the photons of a light are aimed: at spheres around objects that focus light, glass and mirrors, which few unaimed photons would
+// hit. Jensen's projection maps do this too ("Global Illumination Using Photon Maps", 1996); here there are no cells and no bias: a
+// photon's flux is divided by the density of both ways together, by which it may have come (Veach's balance heuristic, of one sample).
 #ifndef PHOTON_AIM_GLSL
 #define PHOTON_AIM_GLSL
 #include "lights/light_emission.glsl"
@@ -10,7 +10,7 @@ SHADER_BEGIN
 #if HAS_PHOTONS
 #define AIMED 0.5f  // the share of photons
 
-// From where photons start: a point, with the normal of its surface or 0; or afar, in direction `n`, on a disk square to it.
+// The start of photons: a point, with the normal of its surface or 0; or far away, in direction `n`, on a disk perpendicular to it.
 struct AimFrom {
   vec3 p;
   vec3 n;
@@ -19,8 +19,8 @@ struct AimFrom {
   vec2 within;   // … and where in its window
 };
 
-// What a target looks like from there. As a cap of the sphere of directions, or as a disk, it has an area of 2π size, and holds what is
-// less than √(2 size) from its middle.
+// A target as seen from there. As a cap of the sphere of directions, or as a disk, it has an area of 2π size, and contains the points less
+// than √(2 size) from its middle.
 struct Window {
   vec3 middle;  // a unit vector; of disks relative to the scene's middle
   float size;   // its versine; half the square of the radius; 0: nothing is aimed there
@@ -28,7 +28,7 @@ struct Window {
 
 struct Aimed {
   vec3 at;        // a direction, or a place on the disk
-  bool by_aim;    // not by chance
+  bool by_aim;    // by a window
   float density;  // with which such are aimed there
   uint windows;   // that there are, …
   uint around;    // … and that hold it
@@ -102,7 +102,7 @@ Aimed aimed(PhotonPass pass, AimFrom from, vec3 by_chance) {
   return all;
 }
 
-// What a photon brings beside one that came by chance. own: the density with which the light would choose the same.
+// The weight of a photon, relative to an unaimed one. own: the density with which the light itself would choose the same.
 float aimed_weight(Aimed it, float own) {
   if (it.windows == 0u) return 1.0f;
   return own > 0.0f ? own / ((1.0f - AIMED) * own + AIMED * it.density) : 0.0f;

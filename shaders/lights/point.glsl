@@ -25,7 +25,7 @@ LightEmission point_emission(Light light, PhotonPass pass, vec2 start, vec2 head
   LightEmission emission;
   emission.o = point_position(light);
   emission.d = way.at;
-  // Compilers round products of constants at different places: this is 4π².
+  // Compilers round products of constants differently: this is 4π².
   emission.flux = light.intensity * (39.4784176f * aimed_weight(way, 0.0795774715f));
   emission.aim = aim_event(way);
   return emission;

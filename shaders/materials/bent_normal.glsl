@@ -43,10 +43,10 @@ vec3 mapped_normal(Surface surface, vec3 n, vec3 code, float scale) {
   return unit_or(t * x + b * y + n * (2.0f * code.z - 1.0f), n);
 }
 
-// What a bump map's colour stands for.
+// The height that a bump map's colour stands for.
 float height_of(vec3 color) { return 0.2126f * color.x + 0.7152f * color.y + 0.0722f * color.z; }
 
-// Heights are compared on both sides, `bump_width` away: in space along two directions square to n, or in uv.
+// Heights are compared on both sides, `bump_width` away: in space along two directions perpendicular to n, or in uv.
 vec3 bumped_normal(Material material, Surface surface, vec3 n, TextureContext place) {
   bool in_space = (material.flags & MATERIAL_BUMP_IN_SPACE) != 0u;
   vec3 s;

@@ -1,5 +1,6 @@
-// Where the medium around all is, and how dense: in a box, whose sides may be infinitely far away, with a density of
-// exp(−decay · (y − base)) at height y. Along a ray that has closed forms: ∫ exp(−x) dx, and its inverse.
+// The extent and density of the medium around all objects: a box, whose sides may be infinitely far away, with a
+// density of exp(−decay · (y − base)) at height y. Integrals along a ray have closed forms: ∫ exp(−x) dx, and its
+// inverse.
 #ifndef MEDIUM_EXTENT_GLSL
 #define MEDIUM_EXTENT_GLSL
 #include "materials/media.glsl"
@@ -62,8 +63,7 @@ float extent_distance(Frame frame, vec3 o, vec3 d, float length) {
 }
 #endif
 
-// How long the ray up to t would be in a medium that has the coefficients of its record all along, with the same
-// transmittance.
+// The length of the ray up to t in a medium with the constant coefficients of its record and the same transmittance.
 float medium_length(Frame frame, uint media, vec3 o, vec3 d, float t) {
 #if HAS_MEDIUM_EXTENT
   if (frame.has_medium_extent != 0u && innermost_medium(media) == 0u) return extent_length(frame, o, d, t);

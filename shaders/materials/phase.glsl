@@ -1,5 +1,5 @@
-// How a point of a medium scatters light: the phase function of Henyey and Greenstein ("Diffuse Radiation in the Galaxy", Astrophysical
-// Journal 93, 1941), g the mean cosine of the angle by which light is turned.
+// The phase function of a medium, by Henyey and Greenstein ("Diffuse Radiation in the Galaxy", Astrophysical Journal 93, 1941), g is
+// the mean cosine of the scattering angle.
 #ifndef PHASE_GLSL
 #define PHASE_GLSL
 #include "math/sampling.glsl"

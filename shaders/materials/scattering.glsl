@@ -1,4 +1,4 @@
-// What materials answer: how a point scatters light towards the viewer, after Whitted, "An Improved Illumination Model for Shaded
+// The interface of materials: the light that a point scatters towards the viewer, after Whitted, "An Improved Illumination Model for Shaded
 // Display" (CACM 1980).
 #ifndef SCATTERING_GLSL
 #define SCATTERING_GLSL
@@ -23,7 +23,7 @@ struct ScatteringContext {
 #endif
 };
 
-// The viewer's, by which lobes look up how much light they send on.
+// The viewer's cosine, by which lobes look up their albedo.
 float viewed_cosine(ScatteringContext context) { return maximum(context.cos_view, LEAST_COSINE); }
 float coat_cosine(ScatteringContext context) {
 #if HAS_BENT_COAT
@@ -38,7 +38,7 @@ struct Scattering {
   vec3 specular;     // × light · highlight lobe
   vec3 reflected;    // × what the mirror direction sees
   vec3 transmitted;  // × what the refracted direction sees
-  vec3 emitted;      // light of its own
+  vec3 emitted;      // radiance that the point emits
 };
 
 Scattering no_scattering() {

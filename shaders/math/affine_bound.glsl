@@ -1,20 +1,20 @@
-// What a function may be along a piece of a ray, for certain. The piece is o + (m + h·s)·d with −1 ≤ s ≤ 1, and the bound (a, b, e) of
-// a function f on it says |f − (a + b·s)| ≤ e for each s: a line, and how far f is from it. It is an affine form whose only symbol is the
-// place on the ray (Comba and Stolfi 1993), so that what depends on the same place cancels, and e shrinks with h². e has what
-// float32 rounds, too. What is not bounded, as 1/x around 0, has an e beyond all numbers.
+// Guaranteed bounds of a function along a piece of a ray. The piece is o + (m + h·s)·d with −1 ≤ s ≤ 1, and the bound (a, b, e) of a function f on it
+// states |f − (a + b·s)| ≤ e for each s: a line, and the largest distance of f from it. It is an affine form whose only symbol is the position on the
+// ray (Comba and Stolfi 1993), so that terms of the same position cancel, and e shrinks with h². e includes float32's rounding. An unbounded
+// function, as 1/x around 0, has an infinite e.
 #ifndef BOUND_GLSL
 #define BOUND_GLSL
 #include "math/trigonometry.glsl"
 
 SHADER_BEGIN
 
-// What a comparison may be: a bit for yes and one for no.
+// The possible results of a comparison: a bit for yes and one for no.
 #define TRUTH_YES 1u
 #define TRUTH_NO 2u
 #define TRUTH_EITHER 3u
 
 #define BOUND_UNBOUNDED 1.0e30f
-#define BOUND_GROW 1.000002f   // what a sum of some eight positive terms may round
+#define BOUND_GROW 1.000002f   // rounding of a sum of some eight positive terms
 #define BOUND_TINY 1.0e-36f    // what products lose below the smallest float
 
 // `rounded`: the sum of the absolute values of all results that were rounded on the way to a and b, each as often as it was.
@@ -38,7 +38,7 @@ vec3 bound_of_coordinate(float o, float d, float m, float h) {
   return bound_rounded(a, b, 0.0f, abs(way) + abs(a) + abs(b));
 }
 
-// The same of center + extent · (o + t·d).
+// The bound of center + extent · (o + t·d).
 vec3 bound_of_placed(float center, float extent, float o, float d, float m, float h) {
   float way = d * m;
   float aside = extent * (o + way);
@@ -186,7 +186,7 @@ vec3 bound_angle(vec3 y, vec3 x) {
   float radius = abs(tangent.x) + bound_radius(tangent);
   vec3 turned = vec3(tangent.x + atan_yx(y.x, x.x), tangent.y, tangent.z + radius * radius * radius / 3.0f);
   turned = bound_rounded(turned.x, turned.y, turned.z, 16.0f + 4.0f * (abs(turned.x) + abs(turned.y)));
-  // Where it may jump from π to −π, or nothing is known.
+  // True if it may jump from π to −π, or if nothing is known.
   bool jumps = bound_low(x) <= 0.0f && bound_low(y) <= 0.0f && bound_high(y) >= 0.0f;
   return !jumps && radius < 1.0f && bound_low(along) > 0.0f ? turned : vec3(0.0f, 0.0f, 3.1415930f);
 }

@@ -1,4 +1,4 @@
-// What GLSL leaves to the driver (dot, cross, normalize, exp, pow, atan, min of NaN) is written out, so that a GPU and the twin
+// Functions that GLSL leaves to the driver (dot, cross, normalize, exp, pow, atan, min of NaN) are written out, so that a GPU and the twin
 // agree to the last bit. Only + - * / sqrt, floor, abs, comparisons and integers are taken from the language.
 #ifndef MATH_GLSL
 #define MATH_GLSL
@@ -49,7 +49,7 @@ float exp_negative(float x) {
   p = p * r + 1.6666665459e-1f;
   p = p * r + 5.0000001201e-1f;
   p = (p * (r * r) + r) + 1.0f;
-  // What is not a number stays that by p, and is no exponent.
+  // NaN passes through by p, and does not enter the exponent.
   float y = p * uintBitsToFloat(uint(int(maximum(-127.0f, k)) + 127) << 23u);
   return x < -87.0f ? 0.0f : y;
 }

@@ -13,7 +13,7 @@ uint pcg_hash(uint x) {
   return (word >> 22u) ^ word;
 }
 
-// What a pair of random numbers is for. Each use has its own, whatever a path does.
+// The uses of pairs of random numbers. Each use has its own pair, whatever a path does.
 #define PAIR_PLACE 0u     // in the pixel
 #define PAIR_LENS 1u      // and on the lens
 #define PAIR_SCATTER 4u   // of the first vertex: which lobe, and whether the path ends; PAIRS_A_VERTEX further on those of the next

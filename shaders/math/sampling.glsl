@@ -23,13 +23,14 @@ vec3 cosine_direction(vec2 u) {
   return vec3(at.x, at.y, sqrt((1.0f - radius) * (1.0f + radius)));
 }
 
-// Two directions that are square to the unit vector n and to each other. The first turns about an axis that no wall stands along.
+// Two directions that are perpendicular to the unit vector n and to each other. The first turns about an axis that no wall stands
+// along.
 void tangents(vec3 n, OUT(vec3) s, OUT(vec3) t) {
   s = normalize3(cross3(vec3(0.31753204f, 0.90757246f, 0.27474649f), n));
   t = cross3(n, s);
 }
 
-// A frame of its own around the unit vector n, which is its z.
+// A frame around the unit vector n, which is its z.
 struct LocalFrame {
   vec3 s;
   vec3 t;

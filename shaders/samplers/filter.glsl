@@ -1,5 +1,5 @@
-// Where in the picture a sample of a pixel is taken: drawn from the pixel's filter, so that all count alike. Ernst, Stamminger and Greiner,
-// "Filter Importance Sampling" (2006).
+// The position of a pixel's sample in the picture: drawn from the pixel's filter, so that all samples count alike. Ernst, Stamminger and
+// Greiner, "Filter Importance Sampling" (2006).
 #ifndef FILTER_GLSL
 #define FILTER_GLSL
 #include "math/sampling.glsl"
@@ -7,7 +7,7 @@
 
 SHADER_BEGIN
 
-// What a Gauss filter as wide as it is cut off leaves out: it ends at three standard deviations, where e^(−9/2) is left.
+// The share of a Gaussian filter that its cut-off keeps: it ends at three standard deviations, where e^(−9/2) is left.
 #define GAUSS_KEPT 0.98889100f
 
 // Evenly on a disk, then each ring as far out as the filter has as much within. From the middle, in widths.
@@ -18,7 +18,7 @@ vec2 gaussian_place(vec2 u) {
   return at * (within > 0.0f ? r / sqrt(within) : 0.0f);
 }
 
-// Which share of a Blackman–Harris filter lies within x widths of its middle, 0 ≤ x ≤ ½.
+// The share of a Blackman–Harris filter within x widths of its middle, 0 ≤ x ≤ ½.
 float blackman_harris_within(float x) {
   vec2 turn = sine_cosine(2.0f * PI * x);
   return 2.0f * x + turn.x * (0.43324748f + 0.12535420f * turn.y + 3.45445712e-3f * (4.0f * turn.y * turn.y - 1.0f));

@@ -1,4 +1,4 @@
-// What samplers share that cut a pixel into n × n cells.
+// Functions shared by samplers that divide a pixel into n × n cells.
 #ifndef GRID_GLSL
 #define GRID_GLSL
 #include "records.h"

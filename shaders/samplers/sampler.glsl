@@ -1,4 +1,4 @@
-// Where in the picture a pixel's samples lie, and the random numbers of their paths: asks the sampler.
+// The positions of a pixel's samples in the picture, and the random numbers of their paths, by the sampler.
 #ifndef SAMPLER_GLSL
 #define SAMPLER_GLSL
 #include "kernels/features.h"
@@ -7,7 +7,7 @@
 
 SHADER_BEGIN
 
-// Where sample `index` of pixel (x, y) lies, in pixels from the picture's top left.
+// The position of sample `index` of pixel (x, y), in pixels from the picture's top left.
 vec2 sample_position(Frame frame, uint x, uint y, uint index) {
   uint pixel = y * frame.width + x;
   vec2 place = vec2(0.5f, 0.5f);

@@ -1,5 +1,5 @@
 // Sobol's sequence in two dimensions, scrambled as Owen does, for each pixel and each pair anew: any stretch of 2^k samples from a multiple
-// of 2^k on is evenly spread. Pairs are independent of each other, since each has an order of its own ("padding").
+// of 2^k on is evenly spread. Pairs are independent of each other, since each has its own order ("padding").
 // Burley, "Practical Hash-based Owen Scrambling" (JCGT 2020).
 #ifndef SOBOL_GLSL
 #define SOBOL_GLSL

@@ -97,7 +97,7 @@ float bezier_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   net.r2 = bezier_row_along(bezier_row(s.extra + 6u), o, d, y, z);
   net.r3 = bezier_row_along(bezier_row(s.extra + 9u), o, d, y, z);
 
-  // Where the section comes into the piece and goes out of it, about, as seen from the middle.
+  // Approximate points where the section enters the piece and leaves it, seen from the middle.
   vec4 span = bezier_span(s);
   float beyond = 1.0f + bezier_beyond(s);
   vec2 middle = vec2(0.5f * (span.x + span.y), 0.5f * (span.z + span.w));
@@ -113,8 +113,7 @@ float bezier_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   float to = minimum(half_u - from_u, half_v - from_v);
   bool speck = bezier_beyond(s) >= BEZIER_SPECK;
 
-  // Go along it in arcs as short as it takes for their cubics to tell where z has roots, up to the first root that is of this piece and not behind the
-  // ray's start.
+  // Go along it in arcs so short that their cubics locate the roots of z, up to the first root that is of this piece and not behind the ray's start.
   bool search = from <= to && !speck && !bezier_reject(s, ray);
   float fine = grain * bezier_radius(s);
   BezierSection near = bezier_settle(net, span, tilt, from, at.uv + at.uv_slope * from, fine, search);
@@ -195,7 +194,7 @@ Surface bezier_surface(Primitive s, Ray ray, Hit hit) {
   net.r3 = bezier_row_along(bezier_row(s.extra + 9u), o, x, y, z);
   BezierPoint at = bezier_at(net, hit.uv.x, hit.uv.y);
 
-  // Where the derivatives are parallel, or one is 0, as where an edge is one point, the piece's normal is as near as can be.
+  // If the derivatives are parallel, or one is 0, as where an edge is one point, the piece's normal is the best approximation.
   vec3 n = cross3(at.du, at.dv);
   float size = dot3(at.du, at.du) + dot3(at.dv, at.dv);
   n = dot3(n, n) > 1.0e-14f * (size * size) ? normalize3(n) : bezier_normal(s);

@@ -11,7 +11,8 @@ vec3 bilinear_p10(Primitive s) { return vec3(s.b); }
 vec3 bilinear_p01(Primitive s) { return vec3(s.c); }
 vec3 bilinear_p11(Primitive s) { return vec3(s.a.w, s.b.w, s.c.w); }
 
-// Where the line v ↦ p + v·edge comes nearest to the ray o = 0, d: t, or −1 if it is not between the line's ends; and v.
+// The point where the line v ↦ p + v·edge comes nearest to the ray o = 0, d: t, or −1 if it is not between the line's
+// ends; and v.
 vec2 intersect_ruling(vec3 p, vec3 edge, vec3 d) {
   vec3 across = cross3(d, edge);
   float square = dot3(across, across);
@@ -40,7 +41,7 @@ float bilinear_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   p01 = p01 - o;
   p11 = p11 - o;
 
-  // The volume between the ray and the ruling at u is 0 where they meet: a + b·u + c·u² = 0.
+  // The volume between the ray and the ruling at u is 0 where they intersect: a + b·u + c·u² = 0.
   vec3 left = p01 - p00;
   vec3 right = p11 - p10;
   vec3 twist = right - left;

@@ -5,7 +5,7 @@
 
 SHADER_BEGIN
 
-// Where the ray passes the ball around the end on the side of y: there it enters (side = −1) or leaves (1). T_MISS if it does not.
+// The t at which the ray enters (side = −1) or leaves (1) the ball around the end on the side of y. T_MISS if it does not.
 float capsule_end(ObjectRay r, float end, float side) {
   vec3 o = vec3(r.o.x, r.o.y - end, r.o.z);
   float squared = dot3(r.d, r.d);

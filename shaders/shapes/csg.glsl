@@ -61,7 +61,7 @@ uvec2 csg_holds(uint at, uint nodes, uvec2 literals) {
   return value;
 }
 
-// How a ray goes on to cross a leaf.
+// The next crossings of a ray with a leaf.
 struct LeafCrossings {
   float next;    // where it does at t > 0; 0 where the leaf's search reached its iteration limit; below where that takes asking again, from `passed` on
   float second;  // where it does after that, negative where more may come; 0 where that is not known
@@ -69,9 +69,9 @@ struct LeafCrossings {
   float passed;
 };
 
-// Where the ray next crosses the leaf that it has asked.
+// The t of the ray's next crossing of the queried leaf.
 float leaf_crossing(float t, Ray ray) {
-  // What it is within it leaves, and be it at once.
+  // A ray within the leaf leaves it, perhaps at once.
   float otherwise = ray.side == SIDE_INSIDE ? ray.after : T_MISS;
   return t > ray.after ? t : otherwise;
 }
@@ -145,7 +145,7 @@ CsgHit csg_traverse(Primitive s, Ray ray, float t_max, uint enough) {
   hit.optical_depth = 0u;
   hit.iteration_limit = false;
 
-  // As bits, the leaves that the ray comes near to.
+  // The leaves that the ray comes near to, as bits.
   uint near = 0u;
   uint bit = 1u;
   uint end = passes_box(ray, csg_center(s), csg_half_size(s)) ? leaves + LEAF_WORDS * head.z : leaves;
@@ -162,8 +162,8 @@ CsgHit csg_traverse(Primitive s, Ray ray, float t_max, uint enough) {
   float from = T_NONE;
   bool going = near != 0u;
   do {
-    // Ask, of each list one after the other whatever their kinds, until what is said is at t > 0. Tested at the bottom, which saves a round with
-    // all lanes idle: what comes out is in the arrays (docs/lavapipe.md).
+    // Ask, of each list one after the other whatever their kinds, until the answer is at t > 0. Tested at the bottom, which saves an iteration with
+    // all lanes idle: the results are in the arrays (docs/lavapipe.md).
 #define ASK(ask, which)                                                                                     \
     {                                                                                                       \
       uint todo = asked & (which);                                                                          \
@@ -239,7 +239,7 @@ CsgHit csg_traverse(Primitive s, Ray ray, float t_max, uint enough) {
   return hit;
 }
 
-// uv: the leaf and on which side of it the ray was, and `after`, by which the leaf will tell its own.
+// uv: the leaf and the ray's side of it, and `after`, from which the leaf will find its own uv.
 float csg_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   CsgHit hit = csg_traverse(s, ray, T_MISS, 0u);
   uv = hit.iteration_limit ? vec2(hit.after, 0.0f) : vec2(float(4u * hit.leaf + hit.side), hit.after);
@@ -334,7 +334,7 @@ Surface csg_surface(Primitive s, Ray ray, Hit hit) {
   CLOSED_SHAPES(LEAF_SURFACE)
   surface = clear_of_leaves(s, surface, ray, 1u << (leaf >> 2u));
 
-  // What is taken away is seen from within.
+  // A subtracted leaf is seen from within.
   if (((load_outline(s.extra).y >> (leaf >> 2u)) & 1u) != 0u) {
     surface.normal_geometric = -surface.normal_geometric;
     surface.normal = -surface.normal;

@@ -5,7 +5,7 @@
 
 SHADER_BEGIN
 
-// As a sphere's (sphere.glsl), in object space.
+// The intersection of a sphere (sphere.glsl), in object space.
 float ellipsoid_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   uv = vec2(0.0f, 0.0f);
   ObjectRay r = object_ray(s, ray, 1.0f);

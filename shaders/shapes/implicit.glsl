@@ -44,8 +44,8 @@ float implicit_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   for (uint crossings = 0u; going; crossings++) {
     FORMULAS(MARCH_ALONG)
 
-    // Where the side beyond is that before, another crossing was lost beside this one, and neither counts. Where that is not known but beyond is outside, the
-    // ray came in through a cap.
+    // If the sides before and beyond are equal, another crossing was lost beside this one, and neither counts. If the side before is unknown and
+    // beyond is outside, the ray came in through a cap.
     bool itself = found.y == IMPLICIT_ITSELF;
     bool lost = COUNTS(ray) && itself && found.w == side;
     if (COUNTS(ray) && itself && side == 0.0f && found.w > 0.0f) found = vec4(start, IMPLICIT_ENTRY, start, -1.0f);
@@ -117,7 +117,7 @@ Surface implicit_surface(Primitive s, Ray ray, Hit hit) {
   vec2 face = itself ? vec2(axis, toward < 0.0f ? -1.0f : 1.0f) : hit.uv;
   Surface surface = object_surface(s, p, gradient, cube_uv(p, face));
 
-  // How far f's own rounding reaches nobody knows: try it. Rays start farther off by what the maps round.
+  // The reach of f's own rounding is unknown: try it. Rays start farther off by the rounding of the maps.
   vec3 out_step = into_object(s, surface.normal_geometric) * surface.offset;
   float factor = 1.0f;
 #define RAY_OFFSET_OF(number, name)                                       \

@@ -1,7 +1,6 @@
-// extra: U, U0 and V, V0 (u = U·x + U0, v = V·x + V0), then a path: a vertex, and four more a turn.
-// The path runs round the outline, then for each hole over to it, round it, and back. It comes back on the way that it went over, so
-// that the two cancel to the last bit. Where it is done it stays. The polygon is to the left of its edges, seen from where the normal points. A
-// vertex's w is 1 if an edge leads to it, 0 if the way does.
+// extra: U, U0 and V, V0 (u = U·x + U0, v = V·x + V0), then a path: a vertex, and four more an iteration. The path runs around the outline, then
+// for each hole over to it, around it, and back. It returns on the same way, so that the two cancel to the last bit. After its end it stays there.
+// The polygon is to the left of its edges, seen from where the normal points. A vertex's w is 1 if an edge leads to it, 0 if the way does.
 #ifndef POLYGON_GLSL
 #define POLYGON_GLSL
 #include "geometry/outline.glsl"
@@ -42,7 +41,7 @@ float t_between_edges(Primitive s, Ray ray, float t, uint at, uint end) {
   return within ? t : t - below < above - t ? below : above;
 }
 
-// Only a ray that passes the bounds goes round: what is beside the polygon costs no turn.
+// Only a ray within the bounds enters the loop: a ray beside the polygon costs no iteration.
 float polygon_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   uv = vec2(0.0f, 0.0f);
   vec3 n = polygon_normal(s);

@@ -31,7 +31,7 @@ float prism_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   vec2 line = longest < least ? vec2(1.0f, 0.0f) : vec2(r.d.x / longest, r.d.z / longest);
   vec2 per_distance = line / (maximum(longest, least) * (line.x * line.x + line.y * line.y));
 
-  // Only a ray that passes the bounds looks at the walls.
+  // Only a ray within the bounds tests the walls.
   vec2 inverse = vec2(bounded_inverse(r.d.x, least), bounded_inverse(r.d.z, least));
   vec2 a = (vec2(-1.0f, -1.0f) - vec2(r.o.x, r.o.z)) * inverse;
   vec2 b = (vec2(1.0f, 1.0f) - vec2(r.o.x, r.o.z)) * inverse;
@@ -40,7 +40,7 @@ float prism_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   uint at = s.extra + OBJECT_PARAMETERS + 3u;
   uint end = near <= far && r.t + far > AFTER(ray) ? at + uint(object_parameters(s).x) : at;
 
-  // How many times more it has gone in than out: where it starts, and at the caps.
+  // The number of entries less that of exits: at the ray's start, and at the caps.
   int depth = 0;
   int depth_at_enter = 0;
   int depth_at_leave = 0;
@@ -88,7 +88,7 @@ float prism_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
     uv.x = cap ? PRISM_TOP - cap_in : wall_out;
   }
 #if HAS_CSG
-  // Where it passes two walls at the same t, at a vertex or where the prism is thin, the second is still to come: at the next t there is.
+  // If it passes two walls at the same t, at a vertex or where the prism is thin, the second one follows at the next representable t.
   bool late = ray.side != SIDE_UNKNOWN && inside != (ray.side == SIDE_INSIDE);
   if (late) return ray.after + (2.0f * EPSILON * abs(ray.after) + 1.0e-37f);
 #endif

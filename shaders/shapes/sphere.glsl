@@ -14,7 +14,7 @@ vec3 sphere_pole(Primitive s) { return vec3(s.b); }  // where v = 1
 vec3 sphere_meridian(Primitive s) { return vec3(s.c); }  // where u = ½
 float sphere_handedness(Primitive s) { return s.c.w; }
 
-// How near the ray's line comes to the centre decides: r² less the square of that distance, measured as a distance.
+// The distance of the ray's line from the centre decides: r² less its square, measured as a distance.
 float sphere_discriminant(Primitive s, Ray ray) {
   vec3 f = ray.o - sphere_center(s);
   float inverse_a = 1.0f / dot3(ray.d, ray.d);  // the same for every sphere, and so divided once

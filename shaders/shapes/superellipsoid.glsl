@@ -86,7 +86,7 @@ Surface superellipsoid_surface(Primitive s, Ray ray, Hit hit) {
   float u = 0.5f + atan_yx(-p.z, p.x) / (2.0f * PI);
   float v = atan_yx(sqrt(p.x * p.x + p.z * p.z), -p.y) / PI;
   Surface surface = object_surface(s, p, vec3(norm), uv_field(vec2(u < 1.0f ? u : 0.0f, v), turn_gradient(p), pole_gradient(p) / PI));
-  // The powers round too.
+  // The powers add rounding too.
   surface.offset = 2.0f * surface.offset;
   return surface;
 }

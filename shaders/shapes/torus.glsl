@@ -52,13 +52,13 @@ float torus_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   bool inside = from > -end && torus_depth(r.o, minor) < 0.0f;
   float since = begin;  // what turns before it has been passed
 #if HAS_CSG
-  // Whoever asks, the stretches are those of the whole line.
+  // For every caller, the stretches are those of the whole line.
   begin = ray.side == SIDE_UNKNOWN ? begin : -end;
   inside = ray.side == SIDE_UNKNOWN ? inside : ray.side == SIDE_INSIDE;
   since = ray.side == SIDE_UNKNOWN ? begin : start + (ray.after - r.t) / slowness;
 #endif
 
-  // Where the quartic turns: the roots of its derivative, a cubic. Between them it has one root or none.
+  // The extrema of the quartic: the roots of its derivative, a cubic. Between them it has one root or none.
   float p = k - 2.0f * a;
   float q = 2.0f * b;
   float largest = torus_cubic_root(p, abs(q));
@@ -93,7 +93,7 @@ float torus_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
     float next = x - depth / slope;
     bool newton = next > low && next < high && abs(next - x) < 0.5f * abs(before);
     next = newton ? next : 0.5f * (low + high);
-    // As near as the rounding of the distance: on the surface.
+    // A point within the rounding of the distance counts as on the surface.
     next = abs(depth) <= 4.0f * EPSILON * minor ? x : next;
     before = step;
     step = next - x;

@@ -39,15 +39,15 @@ bool triangle_inside(TriangleEdges edges) {
   return minimum(edges.u, minimum(edges.v, edges.w)) >= 0.0f || maximum(edges.u, maximum(edges.v, edges.w)) <= 0.0f;
 }
 
-// How far along the ray, where the edge functions say "inside".
+// The t of the hit, if the edge functions say "inside".
 // There, the triangle is its plane: near the plane, and for slivers, this is far more exact than the weighted mean of the vertices'
 // distances, and a ray that starts off the plane on the far side has t ≤ 0 for certain. But along a ray that grazes the plane, t may
 // come out anywhere, and where products round to the same, edges reach far past their ends. A BVH would miss what brute force finds
 // there. So the triangle is cut by a plane through the ray and the x or y axis: a ray that has all vertices on one side of it misses,
 // for a product never rounds past another, and else t is brought to between the two points where edges cross it. Every hit then lies
 // on the triangle, up to a few roundings of what is farthest along the ray: within the box of any part that the triangle may be cut
-// into. Of the two planes it is the one less along the triangle's own. The other one parts the vertices too: were they all on one side,
-// two edge functions would be sums of what has one sign, a different one each.
+// into. Of the two planes it is the one less along the triangle's own. The other one separates the vertices too: were they all on one side, two edge
+// functions would be sums of terms of one sign, a different one each.
 float triangle_t(Primitive s, Ray ray, TriangleEdges edges) {
   vec3 n = corner_normal(s);
   float t = dot3(n, corner_a(s) - ray.o) / dot3(n, ray.d);
@@ -134,7 +134,7 @@ vec3 triangle_inward(Primitive s, vec3 weights, float room) {
   return up * rise + along * minimum(maximum(slide, m.y), -m.z - rise);
 }
 
-// What a vertex has behind its normal, u and colour, in vec4.
+// The values of a vertex behind its normal: u and colour, in vec4.
 uint beside_normal(uvec4 corners) { return (corners.w & CORNERS_COLORS) != 0u ? 2u : 1u; }
 
 Surface triangle_surface(Primitive s, Ray ray, Hit hit) {
@@ -211,7 +211,7 @@ vec2 second_uv(Primitive s, Hit hit, vec2 uv) {
 #endif
 
 #if HAS_COLORS
-// What a mesh's vertices multiply the material's colour by; white where they say nothing, and on other shapes.
+// The factor of the material's colour from a mesh's vertices; white if they have none, and on other shapes.
 vec3 vertex_color(Primitive s, Hit hit) {
   if (kind_of(s) != KIND_triangle || s.extra == NONE) return vec3(1.0f, 1.0f, 1.0f);
   uvec4 corners = load_vertex(s.extra);

@@ -1,4 +1,5 @@
-// How far the nearest of points is, one of them anywhere in each cell of side 1: Worley, "A Cellular Texture Basis Function" (1996).
+// The distance of the nearest point, where each cell of side 1 has one at a random position: Worley, "A Cellular Texture Basis
+// Function" (1996).
 #ifndef TEXTURES_CELLS_GLSL
 #define TEXTURES_CELLS_GLSL
 #include "textures/pattern.glsl"

@@ -48,7 +48,7 @@ uint cell_hash(vec3 corner) {
   return pcg_hash(x + pcg_hash(y + pcg_hash(z)));
 }
 
-// How far `way` goes along one of twelve slopes, the edges of a cube: Perlin's, "Improving Noise" (2002).
+// The component of `way` along one of twelve slopes, the edges of a cube: Perlin's, "Improving Noise" (2002).
 float slope_along(uint hash, vec3 way) {
   uint h = hash & 15u;
   float u = h < 8u ? way.x : way.y;

@@ -1,4 +1,4 @@
-// Where a texture is asked: on the surface, and in space.
+// The point at which a texture is sampled: on the surface, and in space.
 #ifndef TEXTURES_PLACE_GLSL
 #define TEXTURES_PLACE_GLSL
 #include "language.h"

@@ -1,7 +1,7 @@
-// Incoherent rays, four lanes a ray. Lane i looks at child i of a node of four, or at primitive i of a leaf, and the stack is spread
-// over the lanes: so rays, which diverge, hold up fewer others, for fewer steps. Before that, a group of rays goes down as one for as
-// long as most of it takes the same way.
-// What a ray hits is what `search` finds (bvh/traverse.glsl), since neither asks in which order.
+// Incoherent rays, four lanes a ray. Lane i tests child i of a node of four, or primitive i of a leaf, and the stack is spread over
+// the lanes: so rays, which diverge, hold up fewer others, for fewer steps. Before that, a group of rays goes down as one for as long
+// as most of it takes the same way.
+// A ray's hit is the one that `search` finds (bvh/traverse.glsl), since neither depends on the order.
 //   ANY                  whether any hit will do
 //   load_bvh4_child(i)   the entry has the nodes
 #ifndef BVH4_GLSL
@@ -13,7 +13,7 @@
 // Rays that go down together at first and then take turns, one a lane; so many at once.
 #define GROUP (SUBGROUP_SIZE > 4 ? 8u : 4u)
 #define AT_ONCE (GROUP / 4u)
-// How many of a ray's waiting children the common way down may leave behind: whole rows of the stack.
+// The number of a ray's waiting children that the common way down may leave behind: whole rows of the stack.
 #define WAITING_ROWS (STACK_ROWS < 2 ? STACK_ROWS : 2)
 #define WAITING (4 * WAITING_ROWS)
 // The common way ends where fewer of a group go on to the same child.
@@ -131,7 +131,7 @@ void traverse_bvh4() {
   } while (at != TRAVERSAL_DONE);
 }
 
-// What waits for the lane's own ray, the top first.
+// The nodes that wait for the lane's own ray, the top first.
 uint waiting[WAITING];
 
 void push_waiting(bool push, uint value) {
@@ -145,8 +145,8 @@ void greater_first(inout uint a, inout uint b) {
   a = greatest;
 }
 
-// Where rays start close to each other, they go down the same way at first, whatever their directions: the way to where they start.
-// There each lane looks at all children of one node with its own ray. Returns where the ray has to go on by itself.
+// Rays that start close to each other go down the same way at first, whatever their directions: the way to their start. There each
+// lane tests all children of one node with its own ray. Returns the node from which the ray must go on by itself.
 uint traverse_together(BoxRay own, int own_limit) {
   EACH_WAITING waiting[i] = TRAVERSAL_DONE;
   own.turn = from_lane(own.turn, lane);  // the same, but no longer one of two constants: so the driver makes one rotation of it
@@ -214,8 +214,8 @@ TraversalState trace_cooperatively(Ray own, float t_max) {
   intersect_linear_list(own_state, own, ANY);
   uint start = traverse_together(own_boxes, own_state.occluded >= OPTICAL_DEPTH_OPAQUE ? -1 : floatBitsToInt(own_state.hit.t));
 
-  // Those who trace at once should have as much to do: order the rays by how many children wait for them. place: how many have more;
-  // order: the member of each place, three bits each.
+  // Rays that trace together should have equal work: order the rays by the number of children that wait for them. place: the number
+  // of rays with more; order: the member of each place, three bits each.
   uint work = start != TRAVERSAL_DONE ? 1u : 0u;
   EACH_WAITING work += waiting[i] != TRAVERSAL_DONE ? 1u : 0u;
   work = (work << 3u) | member;

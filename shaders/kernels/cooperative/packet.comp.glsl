@@ -28,8 +28,8 @@ layout(std430, binding = BINDING_RAYS) readonly restrict buffer Rays { QueryRay 
 layout(std430, binding = BINDING_OUTPUT) writeonly restrict buffer Results { QueryHit results[]; };
 #endif
 
-// Which ray of the packet is a lane's k-th. Blocks of pixels come in rows of 8: neighbours go to different lanes, 4 × 2 of them, so that
-// a triangle that few rays pass is one lane's only once.
+// The ray of the packet that is a lane's k-th. Blocks of pixels come in rows of 8: neighbours go to different lanes, 4 × 2 of them, so
+// that a triangle that few rays pass is one lane's only once.
 uint ray_of(uint lane, uint k) {
 #if SUBGROUP_SIZE == 8
   return (lane & 3u) | ((k & 1u) << 2u) | ((lane & 4u) << 1u) | ((k >> 1u) << 4u);
@@ -38,7 +38,7 @@ uint ray_of(uint lane, uint k) {
 #endif
 }
 
-// Where the result of ray i of a packet goes; NONE where there is no such ray.
+// The index of the result of ray i of a packet; NONE if there is no such ray.
 uint place_of(uint packet, uint i) {
   uint j = packet * uint(PACKET) + i;
 #if defined(PACKET_PRIMARY) || defined(PACKET_SHADOW)
@@ -51,7 +51,7 @@ uint place_of(uint packet, uint i) {
 }
 
 #ifdef PACKET_SHADOW
-// Where the eye ray at `place` hits something; struck: whether it does.
+// The interaction at the hit of the camera ray at `place`; struck: whether it hits anything.
 Interaction interaction_of(uint place, out bool struck) {
   uvec4 counts = uvec4(0u, 0u, 0u, 0u);
   uint there = place == NONE ? 0u : place;

@@ -14,7 +14,7 @@
 #define EACH [[unroll]] for (int k = 0; k < RAYS_A_LANE; k++)
 #define EACH_ROW [[unroll]] for (int i = 0; i < STACK_ROWS; i++)
 
-// How much work is put into a shaft before a narrower one is tried: ten times what the usual one takes.
+// The work on a shaft before a narrower one is tried: ten times that of the usual one.
 #define PATIENCE 512u
 // Rays are left out of a shaft that are so many times as far from the first as the others are in the (harmonic) mean.
 #define APART 4.0f
@@ -38,7 +38,8 @@ uint at;        // what comes next
 uint first_slot;
 Primitive mine;
 int key;  // how far along the shaft hits its box, and in the last bits the lane; FAR_AWAY if it does not, and once it is tested
-// Which of this lane's rays may hit which of the leaf's primitives: bit k of each RAYS_A_LANE bits, those of lane 0's primitive lowest.
+// The pairs of this lane's rays and the leaf's primitives that may hit: bit k of each RAYS_A_LANE bits is ray k, and the bits of lane
+// 0's primitive are lowest.
 uint passing;
 bool any_passes() { return in_any_lane(passing != 0u); }
 
@@ -339,9 +340,8 @@ void shorten_rays() {
 
 // ---- Traversal -------------------------------------------------------------------------------------------------------------
 
-// A driver that runs both sides of every branch leaves out nothing but further rounds of a loop. So each loop here goes on until there
-// is something for the next to do, and the first way down stands by itself: a packet without a leaf to visit pays for one, no other
-// pays for what it does not need.
+// A driver that runs both sides of every branch can skip only further iterations of a loop. So each loop here goes on until there is
+// work for the next, and the first way down stands by itself: only a packet without a leaf to visit pays for one that it does not need.
 void traverse_along_shaft() {
   EACH_ROW stack[i] = TRAVERSAL_DONE;
   limit = FAR_AWAY;
@@ -359,7 +359,7 @@ void traverse_along_shaft() {
   } while (at != TRAVERSAL_DONE);
 }
 
-// What all rays of the packet hit, nearer than what they have found.
+// Finds the hits of all rays of the packet that are nearer than those found so far.
 void traverse_together(uint my_lane) {
   lane = my_lane;
   bvh = load_bvh(0u);
@@ -374,7 +374,7 @@ void traverse_together(uint my_lane) {
     make_shaft_of_members(first.way);
     traverse_along_shaft();
 
-    // What took too long is begun again, with rays that are closer to each other and more patience. Hits are kept, sums are not.
+    // A search that took too long is restarted, with rays that are closer to each other and more patience. Hits are kept, sums are not.
     bool done = work <= patience;
     EACH {
       bool again = member[k] && !done && state[k].hit.t > 0.0f;

@@ -1,5 +1,5 @@
-// What the lanes of a subgroup tell each other. Written out: Mesa 22.3.6 compiles subgroupAny and subgroupAdd to loops, and does not
-// unroll one over 1, 2, 4.
+// Communication between the lanes of a subgroup. Written out: Mesa 22.3.6 compiles subgroupAny and subgroupAdd to loops, and does
+// not unroll one over 1, 2, 4.
 #ifndef SUBGROUP_GLSL
 #define SUBGROUP_GLSL
 #include "math/math.glsl"

@@ -1,4 +1,5 @@
-// Where a ray hits a piece of a Bézier patch: the section of the piece with a plane through the ray, in arcs, and their roots (shapes/bezier.glsl).
+// Intersects a ray with a piece of a Bézier patch: the section of the piece with a plane through the ray, in arcs, and their roots
+// (shapes/bezier.glsl).
 #ifndef BEZIER_SECTION_GLSL
 #define BEZIER_SECTION_GLSL
 #include "math/math.glsl"
@@ -161,7 +162,7 @@ BezierArc bezier_arc(BezierSection a, BezierSection b, BezierSection half_way, f
   arc.slope = a.slope * length;
   arc.square = 3.0f * rise - 2.0f * arc.slope - last_slope;
   arc.cubic = arc.slope + last_slope - 2.0f * rise;
-  // z and its slope half-way tell how far its next two degrees lead off, at most.
+  // z and its slope half-way bound the effect of its next two degrees.
   float slope_off = half_way.slope * length - (arc.slope + arc.square + 0.75f * arc.cubic);
   float off = 4.0f * (abs(half_way.z - bezier_arc_z(arc, 0.5f)) + 0.25f * abs(slope_off));
 
@@ -207,7 +208,7 @@ BezierRoot bezier_root(BezierNet net, vec4 range, vec3 tilt, vec2 uv, float star
     bool near = abs(at.z) <= grain && at.off <= grain * size;
     step = newton ? (near && abs(step) > margin ? 0.0f : step) : near ? 0.0f : 0.5f * (low + high) - w;
     before = maximum(abs(step), 2.0f * grain);
-    // Where the bracket closes on nothing, the sign at its end was that of a rounding: there is no root.
+    // If the bracket closes without a root, rounding decided the sign at its end: there is no root.
     going = !(near || (newton && abs(step) <= grain && at.off <= grain * size) || high - low <= 4.0f * grain);
     uv = at.uv + at.uv_slope * step;
     w = w + step;

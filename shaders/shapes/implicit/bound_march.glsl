@@ -1,9 +1,9 @@
-// The first root along a ray, from affine bounds of the function (math/affine_bound.glsl): piece after piece, each as long as its affine bound can do
-// with. Whoever marches asks for the function's affine bound on march_middle(march) ± march_half(march) until march.over.
+// The first root along a ray, from affine bounds of the function (math/affine_bound.glsl): piece after piece, each as long as its affine bound
+// allows. The caller of the march evaluates the function's affine bound on march_middle(march) ± march_half(march) until march.over.
 // A root is where the sign changes. No change is overlooked but within a piece that is passed over, because it is as short as can be or its affine
-// bound hardly sharper than that of a point in it: there the function is zero up to what float32 rounds. At worst that may be hundreds of times more
-// than it is. So points beside each other are asked first how far the function strays from a line, and where that is little, it counts instead. If the
-// sign is another than before, the root among the pieces that were passed over is narrowed down by the signs that f has in float32.
+// bound hardly sharper than that of a point in it: there the function is zero within the bound of float32's rounding. At worst that bound is hundreds
+// of times the actual rounding. So the deviation of neighbouring points from a line is measured first, and where it is small, it counts instead. If
+// the sign is another than before, the root among the pieces that were passed over is narrowed down by the signs that f has in float32.
 #ifndef ENCLOSURE_MARCH_GLSL
 #define ENCLOSURE_MARCH_GLSL
 #include "math/affine_bound.glsl"
@@ -14,9 +14,9 @@ SHADER_BEGIN
 // so that little is lost where the function jumped and rounding was not the cause.
 #define MARCH_FIRST_PASS 64.0f
 #define MARCH_LONGEST_PASS 16384.0f
-#define MARCH_BLUNT 1.5f   // e over that of a point: where more is, shorter pieces tell more
+#define MARCH_BLUNT 1.5f   // e over that of a point: above it, shorter pieces give more information
 #define MARCH_LIKELY 0.25f // |a| over e: where more is, its sign is the function's
-// What rounding comes to in fact: how far the function strays from a line at so many points, times three, or a share of their e if that is more.
+// The actual rounding: the deviation of the function from a line at so many points, times three, or a share of their e if that is more.
 #define MARCH_POINTS 6u
 #define MARCH_STRAYS 3.0f
 #define MARCH_LEAST_SHARE 0.015625f
@@ -26,7 +26,7 @@ struct March {
   float t;        // up to here the sign is known, but for what was passed over
   float h;        // half the length of the piece that is next
   float end;      // of the ray
-  float finest;   // a piece with a smaller h is not told from a point; at least an ulp of t, so that every piece leads on
+  float finest;   // a piece with a smaller h cannot be distinguished from a point; at least an ulp of t, so that every piece leads on
   float sign;     // the last that was known; 0 where none was
   float unknown;  // from here to t pieces were passed over
   float coarse;   // e of the piece before, where that was undecided; beyond all else
@@ -111,7 +111,7 @@ March march_on(March march, vec3 f) {
     return next;
   }
 
-  // Where f rounds less than it might, its e is what the piece bends, and that. Where e has shrunk, it is not known any more.
+  // If f rounds less than its bound, its e is the piece's curvature and the actual rounding. Where e has shrunk, the rounding is unknown again.
   bool sharp = march.share > 0.0f && march.share < 1.0f;
   bool stale = sharp && !(f.z > 0.5f * march.noise);
   float noise = stale ? 0.0f : march.noise;
@@ -129,7 +129,7 @@ March march_on(March march, vec3 f) {
   float left = middle + h * maximum(-1.0f, centre - width);
   float right = middle + h * minimum(1.0f, centre + width);
 
-  // Shorter pieces tell no more. (A NaN is passed over too.)
+  // Shorter pieces give no more information. (A NaN is passed over too.)
   bool blunt = march.h <= march.finest || (noise > 0.0f && !(e > MARCH_BLUNT * level));
   bool narrow = crosses && (blunt || right - left <= 16.0f * march.finest);
   bool passes = !none && !narrow && blunt && march.h <= march.pass;

@@ -1,5 +1,5 @@
-// How a ray finds one formula's surface f = 0 in the cube (shapes/implicit.glsl) where no Lipschitz constant is declared: by affine bounds of f (bound_march.glsl),
-// and its slope by forward differentiation. Included once a formula, with FORMULA_NAME(part), what its functions are called,
+// Finds the hit of a ray with one formula's surface f = 0 in the cube (shapes/implicit.glsl) if no Lipschitz constant is declared: by affine bounds
+// of f (bound_march.glsl), and its slope by forward differentiation. Included once a formula, with FORMULA_NAME(part), what its functions are called,
 // FORMULA_BOUND(it, x, y, z) and FORMULA_DUAL(it, p).
 #ifndef FORMULA_NAME
 #error FORMULA_NAME, FORMULA_BOUND and FORMULA_DUAL say whose march this is
@@ -14,7 +14,7 @@ vec3 FORMULA_NAME(bound)(Implicit it, vec3 o, vec3 d, float m, float h) {
                            bound_of_placed(it.center.z, it.extent.z, o.z, d.z, m, h));
 }
 
-// As in shapes/implicit/lipschitz_march.glsl.
+// The function of the same name in shapes/implicit/lipschitz_march.glsl describes the result.
 vec4 FORMULA_NAME(march)(Implicit it, ObjectRay r, float start, float end, bool at_entry, float sign, bool wanted) {
   March march = march_begin(start, end, sign, IMPLICIT_FINEST / sqrt(dot3(r.d, r.d)));
   march.over = march.over || !wanted;
@@ -40,8 +40,9 @@ vec4 FORMULA_NAME(slope)(Implicit it, vec3 q, bool wanted) {
   return vec4(at.x * it.extent.x, at.y * it.extent.y, at.z * it.extent.z, at.w);
 }
 
-// By how much the step `out` has to be multiplied for the march to find the right sign of f there, as far as the slope tells. It believes a sign from a part of
-// e on, since f seldom rounds as badly as that; where it does, f strays from a line, and rays have to start farther off: where e itself says so, if need be.
+// The factor for the step `out` with which the march finds the right sign of f there, judged by the slope. The march trusts a sign from a part of e
+// on, since f seldom rounds as badly as e. If f does, it deviates from a line, and rays must start farther off: at the distance given by e itself, if
+// necessary.
 float FORMULA_NAME(ray_offset)(Implicit it, vec3 q, vec3 out_step, bool wanted) {
   float factor = 1.0f;
   if (wanted) {

@@ -1,6 +1,6 @@
-// How a ray finds one formula's surface f = 0 in the cube (shapes/implicit.glsl), by sphere tracing: f is nowhere steeper than a declared constant, so no
-// root is nearer than |f| over it. Included once a formula, with FORMULA_NAME(part), what its functions are called, FORMULA_VALUE(it, p) and,
-// where FORMULA_HAS_GRADIENT(it), FORMULA_GRADIENT(it, p).
+// Finds the hit of a ray with one formula's surface f = 0 in the cube (shapes/implicit.glsl), by sphere tracing: f is nowhere steeper than a declared
+// constant, so no root is nearer than |f| over it. Included once a formula, with FORMULA_NAME(part), what its functions are called, FORMULA_VALUE(it,
+// p) and, where FORMULA_HAS_GRADIENT(it), FORMULA_GRADIENT(it, p).
 #ifndef FORMULA_NAME
 #error FORMULA_NAME, FORMULA_VALUE and FORMULA_GRADIENT say whose march this is
 #endif
@@ -118,7 +118,8 @@ float FORMULA_NAME(ray_offset)(Implicit it, vec3 q, vec3 out_step, bool wanted) 
     factor = right ? factor : minimum(factor * 2.0f, IMPLICIT_MOST_RAY_OFFSET);
   }
 
-  // Two signs may be right by chance. What f rounds shows in how far it strays from a line: that through the first two places. Where it is little, few do.
+  // Two signs may be right by accident. The rounding of f shows in its deviation from the line through the first two points. If the deviation is
+  // small, few signs suffice.
   float rise = 0.0f;
   float needed = 0.0f;
   for (uint i = 0u; i < (needed > 1.0f ? 2u * IMPLICIT_STRAYS : 6u) && wanted; i++) {

@@ -1,4 +1,4 @@
-// What the march along a formula (shapes/implicit/lipschitz_march.glsl) and the shape have in common.
+// Common definitions of the march along a formula (shapes/implicit/lipschitz_march.glsl) and the shape.
 #ifndef IMPLICIT_GLSL
 #define IMPLICIT_GLSL
 #include "geometry/cube.glsl"
@@ -17,7 +17,7 @@ struct Implicit {
   bool open;
 };
 
-// What a march comes to.
+// The results of a march.
 #define IMPLICIT_NOTHING 0.0f
 #define IMPLICIT_ENTRY 1.0f  // the cube's face where the ray comes in, a cap
 #define IMPLICIT_EXIT 2.0f   // … and goes out
