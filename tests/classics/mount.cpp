@@ -8,7 +8,7 @@ namespace {
 
 // √(2^(1/3) − 1): displacements for the fractal dimension 2.2.
 constexpr double roughness = 0.5098245285339583;
-// As the package has it.
+// The root of two as rounded in the package.
 constexpr double root_of_two = 1.4142136;
 
 // The square of `cells` a side whose first grid point is (i, j).

@@ -76,8 +76,8 @@ std::string scene(int size_factor) {
          squares(size_factor, true, "white") + squares(size_factor, false, "grey");
 }
 
-// 64 n² − 8 n triangles with normals at their corners. Where patches meet in a point there are none on one
-// side.
+// 64 n² − 8 n triangles with normals at their corners. On one side of a point where patches join there are
+// none.
 Mesh mesh(int size_factor) {
   Mesh mesh;
   const uint32_t n = uint32_t(size_factor), side = n + 1;

@@ -121,7 +121,7 @@ TEST_CASE("what is wrong with frames is said before anything is rendered") {
 
 TEST_CASE("--video gives ffmpeg the frames in order, and its file appears when it is whole") {
   const MovingFolder folder;
-  // In ffmpeg's place: keeps its list, and writes what it is told to, or fails where it is told to.
+  // A stand-in for ffmpeg: keeps its list, and writes the given output, or fails if it is set to.
   const std::string bin = folder / "bin";
   mkdir(bin.c_str(), 0755);
   write_text(bin + "/ffmpeg", R"(#!/bin/sh

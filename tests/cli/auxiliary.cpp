@@ -15,7 +15,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// A floor and a small, far, bright lamp, of a shape that paths find by chance alone.
+// A floor and a small, far, bright area light, of a shape that only random paths find.
 constexpr const char* sparkling = R"(
 [image]
 width = 48

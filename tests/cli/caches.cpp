@@ -1,4 +1,4 @@
-// A cache that other users could have changed is not used, and whoever starts eyeray is told so once.
+// A cache that other users could have changed is not used, and eyeray warns of it once.
 #include <sys/stat.h>
 
 #include "scene.hpp"

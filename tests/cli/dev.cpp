@@ -95,7 +95,7 @@ TEST_CASE("dev stops a shader that never ends, and renders again once it is mend
   REQUIRE(dev.says("rendered "));
   CHECK(read_image(folder / "a.pfm").pixel(0, 0)[0] == 0.25f);
 
-  // Killed without a chance to clean up, it leaves no worker behind.
+  // Killed before it can clean up, it leaves no worker behind.
   const pid_t worker = dev.worker();
   CHECK(worker > 0);
   dev.process().send_signal(SIGKILL);
@@ -115,7 +115,7 @@ TEST_CASE("dev --once renders, or says what is wrong as editors and workflows re
   CHECK(once({}).code == 0);
   CHECK(read_image(folder / "a.pfm").pixel(0, 0)[0] == 0.25f);
 
-  // Two mistakes: both are told.
+  // Two mistakes: both are reported.
   write_text(pixel, with_pixel_code(read_text(pixel), "  color = nonsense;\n  color = more_nonsense;\n"));
   const ProcessResult gcc = once({});
   CHECK(gcc.code == 2);

@@ -63,7 +63,7 @@ TEST_CASE("each command has a man page, in which every option of its --help stan
     CAPTURE(command);
     const std::string page =
         folder / ("man1/eyeray-" + std::regex_replace(command, std::regex(" "), "-") + ".1");
-    // As a terminal shows it; groff has warnings for what it does not understand.
+    // The page as a terminal shows it. groff warns of requests that it does not understand.
     const ProcessResult shown =
         run_process({"groff", "-man", "-Tascii", "-P-cbou", "-ww", "-rLL=200n", page});
     CHECK(shown.code == 0);
@@ -91,7 +91,7 @@ TEST_CASE("bash completes commands, options and the values that they list") {
   CHECK(completed_by_bash(script, {"eyeray", "render", "--exp"}) == Words{"--exposure"});
   CHECK(completed_by_bash(script, {"eyeray", "render", "a.toml", "--tune", "ra"}) ==
         Words{"rays=packets", "rays=lanes"});
-  // What is beside = is a word of its own to bash.
+  // To bash, the text beside = is a separate word.
   CHECK(completed_by_bash(script, {"eyeray", "render", "a.toml", "--tune", "rays", "="}) ==
         Words{"packets", "lanes"});
   CHECK(completed_by_bash(script, {"eyeray", "render", "a.toml", "--tune", "rays", "=", "l"}) ==

@@ -29,7 +29,7 @@ class NamedScene : public SceneFolder {
   }
 };
 
-// As the legend writes it.
+// The pixel's colour as the legend writes it.
 std::string code(const Image& picture, int x, int y) {
   const float* pixel = picture.pixel(x, y);
   return fmt::format("#{:02x}{:02x}{:02x}", srgb8(pixel[0]), srgb8(pixel[1]), srgb8(pixel[2]));

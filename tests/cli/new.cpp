@@ -38,7 +38,7 @@ TEST_CASE("a new project passes what its README tells to do") {
   CHECK(rendered.code == 0);
   CHECK(rendered.err.find("warning") == std::string::npos);
 
-  // A wrong line of its own shape is told at its place.
+  // A wrong line of the project's own shape is reported at its position.
   replace_in_file(project + "/shapes/column.glsl", "float angle = twist * p.y;",
                   "float angle = twist * p.w;");
   const ProcessResult broken = run_eyeray({"dev", scene, "--once"});

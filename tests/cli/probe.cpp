@@ -37,7 +37,7 @@ Json value(const Json& ray, const std::string& name, const std::string& executor
   return {};
 }
 
-// Looks at pixels of a scene that is whole: none differs, and the colours are those that render writes.
+// Probes pixels of a sound scene: none differs, and the colours are those that render writes.
 void expect_agreement(const std::string& scene, int pixels) {
   CAPTURE(scene);
   const TemporaryFolder folder;

@@ -133,7 +133,7 @@ TEST_CASE(
   const Image right = read_image(folder / "right.pfm");
   const Image no_flags = read_image(folder / "right.flags.pfm");
   const std::string steps = lay_fault(folder, "steps");
-  // One ray after the other, and in packets, which trace shadow rays in a kernel of their own.
+  // One ray after the other, and in packets, which trace shadow rays in a separate kernel.
   for (const std::string rays : {"lanes", "packets"}) {
     CAPTURE(rays);
     const ProcessResult result =

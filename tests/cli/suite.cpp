@@ -40,7 +40,7 @@ TEST_CASE("verify takes a folder: every scene in it and below, and no part of an
   CHECK(verify({"--allow-unverified", folder / "bad.toml"}).code == 0);
   CHECK(verify({"--allow-unverified", folder / "none.toml"}).code == 2);
 
-  // Nor does one that no stack could follow end the program.
+  // A scene nested too deep for any stack does not end the program either.
   write_text(folder / "deep.toml", "a = " + std::string(200'000, '['));
   CHECK(verify({}).out.find("failed  " + (folder / "deep.toml")) != std::string::npos);
   std::filesystem::remove(folder / "deep.toml");
@@ -50,7 +50,7 @@ TEST_CASE("verify takes a folder: every scene in it and below, and no part of an
   CHECK(run_eyeray({"verify", folder / "bad.toml"}).code == 2);
   std::filesystem::create_directories(folder / "empty");
 
-  // In a folder of its own it is a failed scene of a suite, with reports; a name is no markup in them.
+  // In a separate folder it is a failed scene of a suite, with reports. Names are not markup in them.
   std::filesystem::create_directories(folder / "one");
   write_text(folder / "one/<!--<script>.toml", "sphere = 3\n");
   CHECK(run_eyeray({"verify", folder / "one", "--junit", folder / "one.xml", "--report", folder / "page"})

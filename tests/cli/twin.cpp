@@ -14,7 +14,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// Exported shaders, one of which is changed; and a cache of their own.
+// Exported shaders, one of which is changed, with a separate cache.
 struct Users : SceneFolder {
   Users() {
     if (run_eyeray({"shaders", "--export", shaders}).code != 0)

@@ -12,7 +12,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// As the kernel has it, which asks the processor by itself.
+// The kernel's own report of the processor's abilities.
 bool has_wide_vectors() {
   const std::string processor = read_text("/proc/cpuinfo");
   return std::ranges::all_of(std::array{" avx512f", " avx512bw", " avx512dq", " avx512vl"},

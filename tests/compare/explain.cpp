@@ -143,7 +143,7 @@ TEST_CASE("a jump within a rounding error of the eye ray is undecidable") {
   CHECK(cause(3e-5, 4e-5) == Cause::undecidable);
   CHECK(cause(3e-5, 2e-5) == Cause::silhouette);
   CHECK(cause(3e-5, 0) == Cause::silhouette);
-  // However much is rounded, what is beyond the first ring can be told.
+  // However much is rounded, differences beyond the first ring can be decided.
   CHECK(cause(1.5e-3, 1) == Cause::silhouette);
 }
 

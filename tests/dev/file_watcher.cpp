@@ -18,11 +18,11 @@ namespace {
 
 using Names = std::set<std::string>;
 
-// What the watcher tells next when `work` is done meanwhile.
+// The next report of the watcher while `work` is done.
 template <typename Work>
 Names changes_during(FileWatcher& watcher, const Work& work) {
   work();
-  alarm(20);  // a change that is never told ends the test
+  alarm(20);  // a change that is never reported ends the test
   const Names names = watcher.wait();
   alarm(0);
   return names;

@@ -1,6 +1,6 @@
-// Estimators of the same light against each other, by shaders that are altered: what finds a lamp, shadow
-// rays or paths that run into it, and what ends paths, change the noise and not the mean. Where no closed
-// form says what a scene shows, they do.
+// Estimators of the same light against each other, by altered shaders. The way of finding an area light, by
+// shadow rays or by paths that hit it, and the way of ending paths change the noise and not the mean. They
+// test scenes without a closed form.
 #include "host/scene/integrator.hpp"
 #include "host/scene/sampler.hpp"
 #include "tests/support/environments.hpp"
@@ -66,12 +66,13 @@ void check_all(const Scene& scene, const std::vector<std::pair<const char*, Chan
     // Else it could not fail.
     CHECK(std::hypot(usual.error, other.error) < 0.005 * usual.mean);
     CHECK(other.mean != usual.mean);
-    // At five, one of a million and a half fails by chance.
+    // At five standard errors, one in a million and a half fails by chance.
     CHECK(apart(usual, other) < 5);
   }
 }
 
-// A glossy floor in a corner of two walls, seen around a point near them; a block stands before the lamps.
+// A glossy floor in a corner of two walls, seen around a point near them; a block stands in front of the area
+// lights.
 Scene corner() {
   Scene scene = one_pixel({0.4, 0.9, 0.5}, {0, 0, 0});
   scene.image = {.width = 8, .height = 8, .samples = 4096, .pattern = SamplePattern::sobol};

@@ -20,8 +20,7 @@ using namespace eyeray::engine::records;
 
 namespace {
 
-// Two mirrors face to face with `count` little spheres between them: each bounce costs a look at every
-// sphere.
+// Two mirrors face to face with `count` little spheres between them: each bounce tests every sphere.
 Scene hall_of_mirrors(int count, int depth) {
   std::string text = fmt::format(
       "image = {{ width = 24, height = 16 }}\n"
@@ -44,7 +43,8 @@ ExecutorOptions one_by_one() {
   return options;
 }
 
-// Two mirrors that face each other, and between them rings of so many vertices that a ray has to go round.
+// Two mirrors that face each other, and between them rings of so many vertices, over which a ray must
+// iterate.
 Scene hall_of_rings(int count, int depth) {
   const auto circle = [](double radius) {
     Outline outline;
@@ -124,7 +124,7 @@ TEST_CASE(
 }
 
 TEST_CASE("more iterations in a BVH than a capped driver grants: every pixel is the twin's, or flagged") {
-  // No box tells these spheres apart: a ray tests them all, the nearest of which is the first.
+  // No box separates these spheres: a ray tests them all, the nearest of which is the first.
   constexpr int count = 70'000;
   Scene scene = test::empty_scene();
   scene.image = {.width = 16, .height = 8};

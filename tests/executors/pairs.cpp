@@ -72,7 +72,7 @@ const std::array<std::vector<std::string>, factors> levels = {{
      "[[material]]\nname = 'lamp'\ntype = 'phong'\ndiffuse = 0\nemission = 9\n[[sphere]]\ncenter = [0, 5, "
      "0]\nradius = 1\nmaterial = 'lamp'",
      "[environment]\ntype = 'sky'\nsun = [0, 1, 0]", "[environment]\nimage = 'studio.hdr'",
-     // Many lamps, for a light BVH, whose light is a texture's and leaves on one side.
+     // Many area lights, for a light BVH, whose light is a texture's and leaves on one side.
      "[[material]]\nname = 'lamp'\ntype = 'phong'\ndiffuse = 0\nemission_side = 'front'\nemission = { "
      "checker = "
      "{ even = 1, odd = 9, size = 1 } }\n[[parallelogram]]\nedge_u = [0.1, 0, 0]\nedge_v = [0, 0, "
@@ -176,7 +176,7 @@ Levels best_levels(Random& random, const std::set<Pair>& covered, bool paths) {
   return best;
 }
 
-// All pairs of materials meet in random walks, which alone need BSDFs. More rows follow until every pair of
+// All pairs of materials occur in random walks, which alone need BSDFs. More rows follow until every pair of
 // levels has occurred.
 std::vector<Row> all_rows() {
   const std::set<Pair> wanted = possible_pairs();

@@ -17,7 +17,7 @@ using namespace eyeray::engine::records;
 
 namespace {
 
-// The text without the statements that look at something.
+// The text without the PROBE statements.
 std::string without_probes(const std::string& text, size_t& count) {
   static const std::regex statement(R"(\n *PROBE\w*\([^\n]*\);(?=\n))");
   count += size_t(std::distance(std::sregex_iterator(text.begin(), text.end(), statement), {}));
@@ -49,7 +49,7 @@ const ProbedValue* find(const ProbedRay& ray, const std::string& name) {
   return value == ray.values.end() ? nullptr : &*value;
 }
 
-// Looks at pixels of the scene by GPU and twin.
+// Probes pixels of the scene by GPU and twin.
 void check_pixels(const std::string& file, int count) {
   CAPTURE(file);
   const Scene scene = small(file);
@@ -65,7 +65,7 @@ void check_pixels(const std::string& file, int count) {
     CHECK(b.sample.color == sample.color);
     CHECK(a.rays.lost == 0);
 
-    // As many rays as were counted, and each the same.
+    // The rays are as many as were counted, and each is the same.
     CHECK(a.rays.rays.size() == sample.rays + 1);
     REQUIRE(a.rays.rays.size() == b.rays.rays.size());
     Vec3 sum(0.0);

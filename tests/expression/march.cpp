@@ -65,7 +65,7 @@ Count march_often(const test::TestSurface& surface, int rays) {
     const auto noise = [&](double t) {
       return double(test::bound_piece(function, o, d, float(t), 1e-6f * float(surface.reach)).z);
     };
-    // Whether f comes back to zero before it is farther off it than float32 tells, from the root at t on.
+    // True if f returns to zero, from the root at t on, before it is farther from zero than float32 resolves.
     const auto undecidable = [&](double t) {
       const double again = first_change(surface.f, Vec3(o) + Vec3(d) * t, Vec3(d), end - t);
       double farthest = 0;
@@ -122,7 +122,7 @@ TEST_CASE("2 000 rays at each surface: no root is missed, none comes out of noth
 
 TEST_CASE(
     "rays that skim the Mandelbulb hit it where f changes its sign, not anywhere that its bound allows") {
-  // A bound may say hundreds of times what float32 rounds there.
+  // A bound may be hundreds of times float32's rounding there.
   const test::TestSurface& bulb =
       *std::ranges::find(test::test_surfaces(), "mandelbulb", &test::TestSurface::name);
   const expression::StraightLine function = test::straight_line(bulb.glsl);

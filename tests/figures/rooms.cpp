@@ -238,7 +238,7 @@ const std::set<std::string> leaking = {
 constexpr const char* cube =
     "v -1 -1 -1\nv -1 -1 1\nv -1 1 -1\nv -1 1 1\nv 1 -1 -1\nv 1 -1 1\nv 1 1 -1\nv 1 1 1\n"
     "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n";
-// Its walls meet at 22 degrees at the eaves.
+// Its walls join at 22 degrees at the eaves.
 constexpr const char* roof =
     "v -1 -0.1 -1\nv 1 -0.1 -1\nv 1 -0.1 1\nv -1 -0.1 1\nv -1 0.3 0\nv 1 0.3 0\n"
     "f 1 2 3 4\nf 1 5 6 2\nf 4 3 6 5\nf 1 4 5\nf 2 6 3\n";

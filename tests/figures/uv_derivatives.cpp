@@ -1,5 +1,5 @@
-// How texture coordinates grow over every shape: the shaders' gradients against the float64 half's
-// derivatives, and those against what the surface itself does a little aside.
+// Gradients of texture coordinates on every shape: the shaders' gradients against the float64 half's
+// derivatives, and those against the surface itself at a small displacement.
 #include <cmath>
 
 #include "host/shapes/registry.hpp"
@@ -35,7 +35,7 @@ bool agree(const shader::Surface& surface, const SurfacePoint& point) {
     return gradient - point.normal_geometric * glm::dot(gradient, point.normal_geometric);
   };
   const Vec3 u = in_plane(Vec3(surface.u_gradient)), v = in_plane(Vec3(surface.v_gradient));
-  // As shares of how large each is.
+  // The errors as shares of each derivative's size.
   const double u_size = glm::length(u) * glm::length(point.along_u),
                v_size = glm::length(v) * glm::length(point.along_v);
   const double crossed = std::max(u_size, v_size);

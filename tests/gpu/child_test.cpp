@@ -1,4 +1,4 @@
-// What needs a process of its own: machines without Vulkan, and work that never ends.
+// Tests that need a separate process: machines without Vulkan, and work that never ends.
 #include <cstdio>
 #include <cstdlib>
 

@@ -73,7 +73,8 @@ struct Case {
   bool staging;
 };
 
-// In a process of its own, does all that with one call failing. How that ended badly; "" when it ended well.
+// Does all that in a separate process, with one call failing. Returns how that ended badly; "" if it ended
+// well.
 std::string fault_of(const Case& failing) {
   const std::string name = SHIM(function_name)(failing.function);
   const TemporaryFolder cache;

@@ -126,7 +126,7 @@ TEST_CASE("a·b + c rounds twice") {
     expected[i] = std::bit_cast<uint32_t>(product + c);
     fused_differs += std::bit_cast<uint32_t>(std::fma(a, b, c)) != expected[i];
   }
-  CHECK(fused_differs > triples / 4);  // the question can tell
+  CHECK(fused_differs > triples / 4);  // the test can detect fusing
   gpu::Buffer data(device(), words.size() * 4, "data");
   data.upload_records(words);
   kernel.set_buffer(0, data);

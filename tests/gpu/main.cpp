@@ -7,8 +7,8 @@
 #define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 
-// doctest's tests; or, as `test_gpu child NAME`, one piece of work in a process of its own that ends as
-// eyeray would.
+// doctest's tests; or, as `test_gpu child NAME`, one piece of work in a separate process that ends as eyeray
+// would.
 int main(int argc, char** argv) {
   if (argc == 3 && std::string_view(argv[1]) == "child") {
     try {

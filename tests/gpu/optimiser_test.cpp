@@ -40,7 +40,7 @@ TEST_CASE("of decorated arithmetic nothing is folded") {
   const std::vector<uint32_t> plain = word_kernel(shortenable);
   const std::vector<uint32_t> strict = gpu::decorate_no_contraction(plain);
   CHECK(arithmetic_in(gpu::optimise(strict)) == arithmetic_in(plain));
-  CHECK(arithmetic_in(gpu::optimise(plain)) + 5 < arithmetic_in(plain));  // the question can tell
+  CHECK(arithmetic_in(gpu::optimise(plain)) + 5 < arithmetic_in(plain));  // the test can detect folding
 }
 
 TEST_CASE("an optimised kernel has the same bits") {

@@ -8,7 +8,7 @@ using namespace eyeray::engine::test;
 namespace {
 
 // A day's work: buffers, an upload, a dispatch that reads what the one before wrote, with a barrier between
-// them or not, and a read. (The layer keeps silent about two dispatches that write one buffer: it cannot tell
+// them or not, and a read. (The layer keeps silent about two dispatches that write one buffer: it cannot know
 // which words.)
 void use(gpu::Device& device, bool with_barrier) {
   gpu::Kernel increment(device, word_kernel("data[i] += 1u;"), "increment", no_cache);

@@ -13,7 +13,7 @@ namespace {
 
 using BitmapPixel = std::array<uint8_t, 4>;
 
-// Three columns, two rows, the top one first. All can be told by five bits a channel.
+// Three columns, two rows, the top one first. Five bits a channel suffice for all.
 const std::vector<BitmapPixel> bitmap_colors = {{255, 0, 0, 255}, {0, 255, 0, 255},     {0, 0, 255, 255},
                                                 {0, 0, 0, 255},   {255, 255, 255, 255}, {255, 0, 0, 255}};
 constexpr int bitmap_columns = 3, bitmap_rows = 2;

@@ -173,7 +173,7 @@ TEST_CASE("pictures that end early are refused, wherever they end") {
   for (const char* file : {"rgb.png", "palette.png", "rgb16.png", "rgba_interlaced.png", "grey.png",
                            "baseline.jpg", "progressive.jpg", "grey.jpg"}) {
     const std::string whole = bytes_of(file);
-    // The last four bytes of a PNG are a checksum, which decoders do not look at.
+    // The last four bytes of a PNG are a checksum, which decoders do not check.
     const size_t longest = whole.starts_with("\x89PNG") ? whole.size() - 5 : whole.size() - 1;
     for (size_t length = 0; length <= longest; ++length) {
       CAPTURE(file);

@@ -24,7 +24,7 @@ std::string test_picture(const std::string& file) {
   return read_file("tests/image/pictures/" + file);
 }
 
-// A PNG with these chunks before its pixels; nobody looks at checksums.
+// A PNG with these chunks before its pixels; checksums are not checked.
 std::string png_with(const std::vector<std::pair<std::string, std::string>>& chunks) {
   constexpr size_t after_header = 8 + 25;
   std::string bytes = test_picture("rgb.png"), added;

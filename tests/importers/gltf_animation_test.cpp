@@ -159,7 +159,7 @@ TEST_CASE("what nothing moves of a node stays, and what lies below moves with it
   file.json["nodes"] = {{{"children", {1}}, {"translation", {0, 0, 5}}, {"scale", {9, 9, 9}}}, {{"mesh", 0}}};
   animate(file, {"scale", "", {0, 1}, {1, 1, 1, 3, 1, 1}});
   CHECK(near(point_at(file, 0.5, {1, 1, 0}), Vec3(2, 1, 5)));
-  // At a moment in which nothing is left of it, there is nothing to see, and nothing to tell.
+  // At a moment at which the mesh has no extent, nothing is shown, and nothing is reported.
   GltfFile hidden = animated_square({"scale", "STEP", {0, 1}, {0, 0, 0, 1, 1, 1}});
   CHECK(at(hidden, 0.5).instances.empty());
   CHECK(at(hidden, 0.5).warnings.empty());

@@ -55,7 +55,7 @@ TEST_CASE("draco: positions, normals, uv and corners, by both methods, at every 
   check_grid(import_file(folder.write("a.gltf", file.gltf("coded.bin"))), 2e-3);
 }
 
-// Vertices of one position and several normals are what edgebreaker has tables of their own for.
+// Edgebreaker has separate tables for vertices of one position and several normals.
 TEST_CASE("draco: corners that share a position only") {
   const std::vector<double> roof = {0, 0, 0, 0, 1, 0, 1, 1, 1, 1, 0, 1, 1, 0, 1, 1, 1, 1, 2, 1, 0, 2, 0, 0};
   const std::vector<double> normals = {-1, 0, 1, -1, 0, 1, -1, 0, 1, -1, 0, 1,
@@ -154,7 +154,7 @@ TEST_CASE("draco: two primitives of one data, and one that is not coded by the s
   file.json["meshes"][0]["primitives"].push_back(coded);
   CHECK(import_sound(file.gltf(), "a.gltf").meshes.size() == 2);
 
-  // The accessors have views of their own, with other numbers, which count where nothing is coded.
+  // The accessors have separate views, with other numbers, which count where nothing is coded.
   GltfFile both = grid_file();
   code_primitive(both, draco_grid_data({}, hilly_grid()),
                  {{"POSITION", 0}, {"NORMAL", 1}, {"TEXCOORD_0", 2}});

@@ -39,7 +39,7 @@ class GltfFile {
                {"accessors", Json::array()}};
   std::vector<Json> more_buffers;  // after the one that the bytes are in
 
-  // The accessor of the numbers, stored as the component type, in a bufferView of its own, with their bounds.
+  // The accessor of the numbers, stored as the component type, in a separate bufferView, with their bounds.
   // Vectors begin at multiples of 4 bytes.
   int add(const std::vector<double>& numbers, int component, const char* type, size_t components,
           bool normalized = false) {

@@ -65,7 +65,7 @@ inline std::function<void(GltfFile&)> attribute(const char* name, const std::vec
 
 const std::string attributes_at = "meshes[0].primitives[0].attributes";
 
-// Breaks each rule in a file of its own.
+// Breaks each rule in a separate file.
 inline void check_rules(std::span<const Rule> table) {
   for (const Rule& rule : table) {
     GltfFile file = rich_file();

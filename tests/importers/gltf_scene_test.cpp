@@ -329,7 +329,7 @@ TEST_CASE("emission, by factor, strength and picture; what is unlit emits its ba
   CHECK(unlit.ambient == Vec3(0));
   CHECK(unlit.specular == Vec3(0));
 
-  // A picture of its own, whichever uv it reads.
+  // A separate picture, whichever uv it reads.
   std::ifstream png("tests/image/pictures/rgb.png", std::ios::binary);
   const std::string picture{std::istreambuf_iterator<char>(png), {}};
   GltfFile file =

@@ -22,7 +22,7 @@ TEST_CASE("the same square as data URI, .glb and two files") {
   const GltfFile file = square_file();
   check_square(import_sound(file.gltf(), "a.gltf"));
   check_square(import_sound(file.glb(), "a.glb"));
-  check_square(import_sound(file.glb(), "a.gltf"));  // told by how it begins
+  check_square(import_sound(file.glb(), "a.gltf"));  // identified by its first bytes
   const Folder folder;
   folder.write("sub/the data.bin", file.data());
   const ImportedScene scene = import_file(folder.write("a.gltf", file.gltf("sub/the%20data.bin")));

@@ -7,8 +7,8 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// Two squares that share an edge along y, the second turned up by `degrees`; each corner is a vertex of its
-// own.
+// Two squares that share an edge along y, the second turned up by `degrees`; each corner is a separate
+// vertex.
 std::string hinge(double degrees) {
   const double angle = degrees * std::numbers::pi / 180;
   return fmt::format(

@@ -75,7 +75,7 @@ TEST_CASE("a process that renders keeps its environment and its signals") {
     return all;
   };
   const auto handlers_before = handlers();
-  // As large as pictures for which the program asks llvmpipe for vectors of 512 bits.
+  // A picture of the size for which the program sets llvmpipe to vectors of 512 bits.
   const Scene scene = with({"image.width=1024", "image.height=1024"});
   CHECK(renderer().render(scene, {.crop = {0, 0, 64, 48}}).complete());
   CHECK(environment() == before);
@@ -130,7 +130,7 @@ TEST_CASE("a picture's planes have the shapes that the header says") {
   CHECK((depth.channels == 1 && depth.values.size() == 64 * 48));
   CHECK((normal.channels == 3 && normal.values.size() == 64 * 48 * 3));
   CHECK(picture.aovs() == std::vector<std::string>{"depth", "normal", "hits"});
-  // The sphere's nearest point is three units away, and its normal looks at the eye; the corner is the
+  // The sphere's nearest point is three units away, and its normal points at the eye; the corner is the
   // background.
   const size_t middle = 24 * 64 + 32;
   CHECK(depth.values[middle] == doctest::Approx(3).epsilon(1e-3));

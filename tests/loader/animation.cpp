@@ -158,7 +158,7 @@ TEST_CASE("two tracks on one target are one error, at the second one's line, how
   for (int i = 0; i < 10'000; ++i) many += eye;
   CHECK(error_of(many) == "17: " + message);
 
-  // A part of a value that moves may move otherwise; moved the other way round, it would stand still.
+  // A part of a moving value may move differently. In the reverse order it would stand still.
   const std::string x = track("camera.eye.0", "7");
   CHECK(at(eye + x, 0).camera.eye == Vec3(7, 0, 1));
   CHECK(error_of(x + eye) == "17: " + message);

@@ -49,7 +49,7 @@ TEST_CASE("a named group stands where instances name it, after its own transform
 }
 
 TEST_CASE("of groups in groups, those are instanced that leave the least to keep") {
-  // 2 × 20 000 × 10 spheres: the inner group is; the other way round, the outer one.
+  // 2 × 20 000 × 10 spheres: the inner group is; in the reverse order, the outer one.
   const auto nested = [](int outer, int inner, int spheres) {
     std::string text = "[[group]]\n" + batch(outer) + "[[group.group]]\n" + batch(inner);
     for (int i = 0; i < spheres; ++i) text += sphere("group.group.sphere", 3 * i);

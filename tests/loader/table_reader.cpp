@@ -1,4 +1,4 @@
-// TableReader over every KeyType, with keys of its own.
+// TableReader over every KeyType, with the test's own keys.
 #include "host/reading/table.hpp"
 //
 #include "tests/support/doctest.hpp"

@@ -8,7 +8,7 @@
 
 namespace eyeray::engine::test {
 
-// As float32 would see the picture: off by less than the offsets that explain.
+// The picture as float32 would render it: off by less than the offsets that explain.
 inline const Vec2 honest_shift(5e-5, 5e-5);
 inline const compare::Pixel on_ball{50, 30};
 

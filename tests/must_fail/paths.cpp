@@ -34,7 +34,7 @@ uint32_t trail_of(const Events& events) {
   return trail;
 }
 
-// As an executor gives it that is so far off.
+// A frame as from an executor whose samples are off by `off`.
 Frame path_frame(double off = 0) {
   Frame frame = picture_frame();
   for (int y = 0; y < picture_height; ++y)

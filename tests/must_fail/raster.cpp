@@ -1,5 +1,5 @@
-// Faults of geometry on the GPU's side, against what the device's rasteriser draws: gate R must notice each
-// that changes what an eye ray hits, and stay silent about the twin and the reference.
+// Faults of geometry on the GPU's side, against what the device's rasteriser draws: gate R must detect each
+// that changes a camera ray's hit, and pass the twin and the reference.
 #include <nlohmann/json.hpp>
 
 #include "tests/support/faults.hpp"

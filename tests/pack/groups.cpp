@@ -83,7 +83,7 @@ Answer by_twin(const PackedScene& scene, const Ray& at, const Vec3& eye) {
 double difference(const Answer& a, const Answer& b, double rounding, double size) {
   if (a.primitive != b.primitive || a.flags != b.flags) return HUGE_VAL;
   if (a.primitive < 0) return 0;
-  // The seam of a texture that goes round.
+  // The seam of a texture that wraps around.
   const Vec2 uv = glm::abs(a.uv - b.uv);
   const double off = std::max(
       {std::abs(a.t - b.t) / size, magnitude(a.position - b.position) / size, magnitude(a.normal - b.normal),

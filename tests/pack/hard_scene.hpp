@@ -176,7 +176,7 @@ class HardScene {
     }
   }
 
-  // In spaces of their own, up to 1 : 100 out of shape.
+  // Adds shapes in object spaces, distorted up to 1 : 100.
   void add_object_shapes(int count) {
     Mat4 map(1.0);
     for (int i = 0; i < count; ++i) {

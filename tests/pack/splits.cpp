@@ -1,4 +1,4 @@
-// Spatial splits: the parts of a triangle have boxes of their own, and change no hit.
+// Spatial splits: the parts of a triangle have separate boxes, and change no hit.
 #include <fmt/format.h>
 
 #include <atomic>

@@ -34,7 +34,7 @@ def test_a_thousand_renders(capsys):
     renderer = eyeray.Renderer()
     for _ in range(200):  # caches and pools fill
         render_once(renderer)
-    # malloc keeps what it may need again, and more by chance: what is kept for good grows with every quarter.
+    # malloc keeps memory that it may need again, and more at random. A leak grows with every quarter.
     growth, before = [], resident()
     for _ in range(4):
         for _ in range(250):

@@ -99,7 +99,7 @@ def test_numpy_takes_a_picture_for_its_colours():
     assert np.array_equal(np.asarray(picture), picture.color) and np.mean(picture) == np.mean(picture.color)
     assert np.asarray(picture, np.float64).dtype == np.float64
     assert np.array(picture).flags.writeable
-    # As numpy 1 calls it, and numpy 2.
+    # The arguments that numpy 1 and numpy 2 pass.
     for dtype, copy, copied in [(None, None, False), (np.float32, None, False), (None, False, False),
                                 ("f4", False, False), (None, True, True), (np.float64, None, True), (np.uint8, True, True)]:
         array = picture.__array__(dtype, copy=copy)

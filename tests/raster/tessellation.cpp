@@ -83,7 +83,7 @@ TEST_CASE("no point of a surface is farther from its triangles than the bound, n
         const auto drawn = tessellate(shape->form(), Mat4(1.0), tolerance);
         REQUIRE(drawn.has_value());
         REQUIRE(drawn->triangles.size() > 2);
-        // As fine as is asked for, and no finer than by far.
+        // The tessellation is as fine as requested, and not much finer.
         CHECK(drawn->bound < 4 * tolerance);
         int hits = 0;
         for (int i = 0; i < 60; ++i) {
@@ -95,7 +95,7 @@ TEST_CASE("no point of a surface is farther from its triangles than the bound, n
           CHECK(distance_to(*drawn, ray.o + ray.d * hit->t) <= drawn->bound + 1e-9);
         }
         CHECK(hits > 5);
-        // From a triangle's middle the surface is met by some line within the bound.
+        // From a triangle's middle some line hits the surface within the bound.
         for (int i = 0; i < 60; ++i) {
           const auto& [a, b, c] = drawn->triangles[size_t(random.below(int(drawn->triangles.size())))];
           const Vec3 corners[] = {drawn->points[a], drawn->points[b], drawn->points[c]};

@@ -1,4 +1,4 @@
-// The forward map undoes what eye rays do, and cuts leave what is before the eye.
+// The forward map inverts camera rays, and cuts leave the parts in front of the eye.
 #include "host/raster/view.hpp"
 
 #include <algorithm>

@@ -107,7 +107,7 @@ TEST_CASE("bezier: a patch that is 1e12 wide and bent within 1: its crossings en
     CHECK(crossings <= 18);
   }
 
-  // Nor do those who ask what is around the eye.
+  // Queries of the media around the eye do not exceed the limit either.
   Scene scene = test::empty_scene();
   scene.materials.push_back(make_dielectric({}));
   scene.shapes.push_back(make_bezier(net));

@@ -1,4 +1,4 @@
-// Shapes in a space of their own against numbers worked out by hand.
+// Shapes in object space against numbers computed by hand.
 #include "tests/support/random.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -92,7 +92,7 @@ TEST_CASE("cone: the apex, the slope, and not its mirror image") {
   // Along the side's own line, the equation is linear.
   CHECK(near(distance(*cone, {{-1, -2, 0}, {1, 2, 0}}), 1, 1e-13));
 
-  // The other way round, and cut off: the larger end is at `to`.
+  // Reversed and cut off: the larger end is at `to`.
   const auto cut = make_cone({0, 0, 0}, {0, 2, 0}, 1, 2, true);
   CHECK(near(distance(*cut, {{9, 1, 0}, {-1, 0, 0}}), 7.5, 1e-14));
   CHECK(distance(*cut, {{0, 9, 0}, {0, -1, 0}}) == -1);

@@ -1,6 +1,6 @@
-// What `principled` sends on of white light. A white surface of any share of metal, glass, coat and sheen
-// sends on all of it: 1, whatever the executors compute. The share that one microfacet mirrors is integrated
-// here.
+// The share of white light that `principled` scatters. A white surface of any share of metal, glass, coat and
+// sheen scatters all of it: 1, whatever the executors compute. The share that one microfacet mirrors is
+// integrated here.
 #include <cmath>
 #include <numbers>
 
@@ -23,7 +23,7 @@ struct Look {
   bool thin = false;
 };
 
-// As a ray that leaves the shape meets it, or one that enters.
+// The BSDF for a ray that leaves the shape, or for one that enters.
 Bsdf bsdf_of(const Look& look, double cosine, bool leaving = false) {
   const Scene scene =
       loader::parse_scene(fmt::format(R"(

@@ -61,8 +61,7 @@ TEST_CASE("a ray that leaves a surface does not hit it again") {
     spawn(*triangle, *make_triangle({.vertices = {a, c, b}}), {eye, (a + b + c) / 3.0 - eye}, size, dice,
           triangles);
 
-    // Both stand for all that are in a space of their own. From the apex and the edges, rays may go on close
-    // by.
+    // Both stand for all shapes in object space. From the apex and the edges, rays may go on close by.
     Mat4 map = glm::translate(Mat4(1.0), center);
     for (int axis = 0; axis < 3; ++axis) map[axis] = Vec4(size * dice.direction(), 0);
     if (why_singular(map).empty()) {

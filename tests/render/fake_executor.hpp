@@ -1,4 +1,4 @@
-// Samples out of a formula: what a driver makes of them can be told exactly, and whatever befalls it.
+// Samples from a formula: the driver's results are known exactly, also after failures.
 #pragma once
 
 #include <bit>

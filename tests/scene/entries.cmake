@@ -88,7 +88,8 @@ file(STRINGS ${CMAKE_SOURCE_DIR}/tests/loader/refused_by_sppm.txt refused)
 list(FILTER refused INCLUDE REGEX "^scenes/")
 list(TRANSFORM refused REPLACE " .*" "")
 set(GATHERED ${SCENES} ${PATHS} ${SHOWCASE})
-# Photons are aimed at twisted's glass, whose pieces touch: which of two is met first parts 9 % of them, all explained, and 4 % may.
+# Photons are aimed at twisted's glass, whose pieces touch. 9 % of them diverge by which of two pieces is hit first; all are explained, and 4
+# % may be.
 list(REMOVE_ITEM GATHERED ${refused} scenes/edges/twisted.toml)
 set(gathered_long ${GATHERED})
 list(FILTER gathered_long INCLUDE REGEX "/(showcase|gallery|forest|group_shapes|mandelbulb|sculpture|intervals|sheet|formulas|implicit|algebraic|csg)")
@@ -202,8 +203,8 @@ foreach(seed 2 3)
   eyeray_verify(mode.seed-${seed} mode NIGHTLY ${quick} ${EDGES} ${of_seed} --seed ${seed})
 endforeach()
 
-# A second driver with a compiler of its own: SwiftShader (docs/lavapipe.md, another driver), within 8 GiB. None takes 60 s
-# of a processor; how long that is depends on what else the machine does.
+# A second driver with its own compiler: SwiftShader (docs/lavapipe.md, another driver), within 8 GiB. None takes 60 s of a processor; how
+# long that is depends on what else the machine does.
 set(SWIFTSHADER /usr/lib/chromium/vk_swiftshader_icd.json CACHE FILEPATH "The manifest of the driver that the label `driver` asks")
 set(driver ${SCENES})
 list(FILTER driver INCLUDE REGEX "^scenes/shapes/")
@@ -229,7 +230,7 @@ eyeray_verify(validation.core.no-constants.shapes validation NIGHTLY ${SHAPE_SCE
 eyeray_verify(validation.sync validation QUICK ${set} --validate sync)
 eyeray_verify(validation.sync.no-constants validation ${set} --validate sync --tune constants=off)
 
-# Mutants of the shaders, three that gates B and C tell (docs/proving-the-proof.md, mutants).
+# Mutants of the shaders, three that gates B and C detect (docs/proving-the-proof.md, mutants).
 add_test(NAME mutate COMMAND python3 scripts/mutate --files math/rng.glsl --count 3 --jobs 1 --least 1 --eyeray $<TARGET_FILE:eyeray>
   WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
 set_tests_properties(mode.packets mode.slow-kernels.packets mode.jittered scene.shapes.mandelbulb scene.shapes.sculpture PROPERTIES COST 40)

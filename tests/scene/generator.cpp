@@ -197,7 +197,7 @@ std::string Writer::value(const Key& key) {
     case KeyType::vec2_list:
       return fmt::format("[{}, {}, {}]", numbers(key, 2), numbers(key, 2), numbers(key, 2));
     case KeyType::vec3_list: {
-      // As many as a Bézier patch has, a bilinear one, or a triangle.
+      // As many points as in a Bézier patch, a bilinear patch, or a triangle.
       const int count = key.name == "points" ? 16 : key.name == "corners" ? 4 : 3;
       std::vector<std::string> points;
       for (int i = 0; i < count; ++i) points.push_back(numbers(key, 3));

@@ -23,7 +23,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// As small as `width` × `height`, of a depth at which trees of rays end, and of few photons.
+// Makes a scene as small as `width` × `height`, of a depth at which trees of rays end, and of few photons.
 Scene shrunk(Scene scene, int width, int height) {
   scene.image.width = width;
   scene.image.height = height;
@@ -108,7 +108,7 @@ TEST_CASE("scenes with extreme values: a clear error or a sound picture") {
       const std::string why = why_useless(error);
       if (!why.empty()) failures.add(fmt::format("{}: {}", i, why), text);
     } catch (const Error& error) {
-      // What only the whole scene tells: an eye inside of too many media.
+      // An error that only the whole scene shows: an eye inside of too many media.
       ++refused;
       if (error.code() != ExitCode::bad_input) failures.add(fmt::format("{}: {}", i, error.what()), text);
     }

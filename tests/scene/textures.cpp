@@ -38,7 +38,7 @@ std::shared_ptr<const ImageTexture> random_image(Random& random) {
   return image;
 }
 
-// Squares side by side before an orthographic camera, each with an image of its own at random places in uv,
+// Squares side by side before an orthographic camera, each with its own image at random positions in uv,
 // small and far from 0; every fifth mirrors another one in a second image.
 Scene patchwork(Random& random, int across, int down) {
   Scene scene = test::empty_scene();

@@ -19,7 +19,7 @@ shader::BezierSection section(float w, float z, float slope) {
   return at;
 }
 
-// z = depth + 1.8·s·(s − 1), and `more` of (s − ½)·s²·(1 − s)², which only z's slope half-way tells.
+// z = depth + 1.8·s·(s − 1), and `more` of (s − ½)·s²·(1 − s)², which only z's slope half-way shows.
 bool doubted(float depth, float more) {
   shader::BezierSection half_way = section(0.5f, depth - 0.45f, more / 16);
   return shader::bezier_arc(section(0, depth, -1.8f), section(1, depth, 1.8f), half_way, 1e-6f).doubted;

@@ -28,8 +28,7 @@ BsdfValue above(const ViewedBsdf& viewed, const Vec3& i) {
   return viewed.at(i, i.z > 0);
 }
 
-// What it sends on in all of light from everywhere, by its own samples: strata of 64 × 64, for 16 of the
-// lobe.
+// The albedo for light from everywhere, by its own samples: strata of 64 × 64, for 16 of the lobe.
 Vec3 albedo(const Bsdf& bsdf, double cosine) {
   const ViewedBsdf viewed(bsdf, towards(cosine));
   constexpr int lobes = 16, side = 64;
@@ -81,7 +80,7 @@ double lattice_error() {
   return 1e-4 * test::amount(10, 3, 1);
 }
 
-// The share of its own samples that a surface itself stands in the way of: by a lattice of three dimensions.
+// The share of its own samples that a surface itself blocks: by a lattice of three dimensions.
 double share_lost(const ViewedBsdf& viewed) {
   const int count = lattice_points();
   // Powers of the root of x⁴ = x + 1.

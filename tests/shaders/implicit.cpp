@@ -1,4 +1,4 @@
-// What the march along a formula tells whoever counts crossings.
+// Results of the march along a formula for callers that count crossings.
 #include "host/twin/shader_functions.hpp"
 
 #include "tests/support/doctest.hpp"

@@ -17,7 +17,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr auto miss = double(T_MISS);
 
-// As the packer writes it, of an eye at the origin.
+// The extent as the packer writes it, for an eye at the origin.
 shader::Frame frame_of(const MediumExtent& extent) {
   const Bounds box = extent.bounds();
   shader::Frame frame{};

@@ -1,4 +1,4 @@
-// Places that are chosen by the solid angle under which a lamp is seen: by the shaders and by the reference.
+// Points chosen by the solid angle of an area light: by the shaders and by the reference.
 #include <cmath>
 #include <functional>
 #include <vector>
@@ -36,7 +36,7 @@ double solid_angle_of_rectangle(const Vec2& low, const Vec2& high, double z) {
   return corner(high.x, high.y) - corner(low.x, high.y) - corner(high.x, low.y) + corner(low.x, low.y);
 }
 
-// A lamp whose surface is cut in cells, of each its solid angle from a point.
+// An area light whose surface is cut into cells, and each cell's solid angle from a point.
 struct CutLamp {
   EmitterForm form;
   std::function<size_t(const Vec2& uv)> cell;
@@ -130,7 +130,7 @@ double both_excess(const CutLamp& lamp, const Vec3& from) {
 const Vec3 corner(-0.5, 0.25, -0.25), along(1.5, 0.25, 0.125), across(0.25, 0.5, -0.5);
 const Vec3 upright = 0.8 * glm::normalize(glm::cross(glm::cross(along, across), along));
 
-// From where lamps near the origin are seen.
+// Points from which area lights near the origin are seen.
 const Vec3 points[] = {
     {0.6, 0.9, 1},                            // as far as they are large
     {-0.45, 0.27, -0.2},                      // next to a corner
@@ -160,7 +160,7 @@ TEST_CASE("their density is 1 / solid angle, by closed forms") {
   int by_angle = 0;
   for (int i = 0; i < 20'000; ++i) {
     const Vec3 from(shader::vec3(anywhere(2)));
-    // In a plane across z, where a rectangle has a form of its own.
+    // In a plane across z, where a rectangle has a closed form.
     const Vec2 low(random.uniform(-2, 2), random.uniform(-2, 2)),
         size(random.uniform(0.1, 3), random.uniform(0.1, 3));
     const double z = random.uniform(-2, 2);

@@ -37,7 +37,8 @@ float value_at(size_t plane, int x, int y, int channel) {
   return float(plane) * 1000 + float(x) + float(y) / 64 + float(channel) / 8192;
 }
 
-// As a render writes it: of the picture the stack, of the AOVs, which stand for those of first hits, tiles.
+// Writes a part as a render does: the picture as a stack, and the AOVs, which stand for those of first hits,
+// as tiles.
 std::string write_part(const TemporaryFolder& folder, const PartHeader& header) {
   const render::ShardTiles tiles(header.area, header.shard);
   const std::string file = folder / fmt::format("{}-{}.eyeray", header.shard.index + 1, header.shard.count);

@@ -111,7 +111,7 @@ TEST_CASE("cancelled and requeued, an array goes on by the same command" * docte
   REQUIRE(happens(runs));
   // Nothing is submitted twice.
   CHECK(array.said().at("submitted").empty());
-  // As preemption does.
+  // Requeues the task as preemption does.
   CHECK(cluster().ask({"scontrol", "requeue", job + "_1"}).code == 0);
   REQUIRE(happens(runs));
   CHECK(cluster().ask({"scancel", "--name=" + first.at("job_name").get<std::string>()}).code == 0);

@@ -1,4 +1,4 @@
-// A cluster of one node on this machine: munged, slurmctld and slurmd of its own, all of it in a temporary
+// A cluster of one node on this machine: its own munged, slurmctld and slurmd, all of it in a temporary
 // folder and on ports that nobody has.
 #pragma once
 

@@ -88,7 +88,7 @@ TEST_CASE("a share that is ended, killed and begun again goes on, and leaves not
   // What fails has eyeray's own exit code.
   CHECK(jobs.run(3) == 2);
   CHECK(jobs.merge() == 4);
-  // As Slurm ends a job that is preempted, and warns one that is near its limit on time.
+  // The signals with which Slurm ends a preempted job, and warns one that is near its time limit.
   for (const int signal : {SIGTERM, SIGUSR1}) {
     const auto job = jobs.start(1);
     REQUIRE(wait_until(
@@ -99,7 +99,7 @@ TEST_CASE("a share that is ended, killed and begun again goes on, and leaves not
     CHECK(std::filesystem::exists(checkpoint));
     CHECK(slurm.read("controlled") == (signal == SIGUSR1 ? "requeue 17\n" : ""));
   }
-  // As a node that goes.
+  // The job ends as on a failed node.
   {
     const auto job = jobs.start(1);
     REQUIRE(wait_until(*job, [&] { return resumes(*job); }));

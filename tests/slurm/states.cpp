@@ -31,7 +31,7 @@ struct Farm {
   }
 
   std::string file(const std::string& name) const { return array.folder / name; }
-  // As each command does: it knows what the folder says.
+  // Starts anew, as each command does: it knows only the folder's contents.
   ArrayState state() const {
     Array now = array;
     prepare(now);

@@ -14,7 +14,7 @@ inline gpu::ShaderSource entry_source(const char* entry, const records::PackedSc
   return gpu::read_shader([&](std::string_view name) { return files.read(name); }, entry);
 }
 
-// As glslang leaves it, with all functions.
+// The module as glslang leaves it, with all functions.
 inline std::vector<uint32_t> compile_entry(const char* entry, const records::PackedScene& scene,
                                            const executors::Specialisation& specialisation,
                                            const char* defines = "") {

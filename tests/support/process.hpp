@@ -1,4 +1,4 @@
-// Running the real program in tests, and a folder of its own for each.
+// Runs the real program in tests, each in a separate folder.
 #pragma once
 
 #include <unistd.h>

@@ -1,4 +1,4 @@
-// Scenes and rays for tests that look at kernels rather than at pictures.
+// Scenes and rays for tests of kernels rather than of pictures.
 #pragma once
 
 #include "host/pack/pack.hpp"

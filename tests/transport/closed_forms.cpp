@@ -192,7 +192,7 @@ TEST_CASE("an environment and lamps beside it, whatever share of the choices eac
     scene.environment = around;
     add(scene, make_sphere({0, 1.6, 1.2}, 0.7), lamp(scene, 2));
     add_point_light(scene, {1.6, 1.2, 0}, Vec3(0.3), Falloff::inverse_square);
-    // The lamp stands before a part of the environment.
+    // The area light covers a part of the environment.
     const double of_lamp = M_PI * 0.7 * 0.7 * 0.8 / 4;
     check(scene, shown(0.5 * (M_PI - of_lamp) + 2 * of_lamp) + albedo * 0.3 * 0.6 / 4, 1e-4);
   }
@@ -260,7 +260,7 @@ TEST_CASE("a lamp between two mirrors shows Σ rⁿ") {
   const int mirror = add(scene, make_mirror({.reflectance = gray(0.9)}));
   add(scene, make_plane({0, 0, 0}, {0, 0, 1}), mirror);
   add(scene, make_plane({0, 0, 1}, {0, 0, -1}), mirror);
-  // Some way aside stands the lamp.
+  // The area light stands to one side.
   scene.camera.target = {0.021, 0, 0};
   add(scene, make_plane({0.5, 0, 0}, {-1, 0, 0}), lamp(scene));
   // On its way to x = 0.5 the ray goes 11.9 in z.
@@ -306,7 +306,7 @@ TEST_CASE("half a sphere behind an edge is half its light") {
 }
 
 TEST_CASE("a thin lens: a straight bright edge out of focus, (arccos x − x √(1 − x²)) / π") {
-  // The eye looks along −z. Rays that meet in (0, 0, −focus) are spread over a disk in the plane z = −2.
+  // The eye looks along −z. Rays that intersect in (0, 0, −focus) are spread over a disk in the plane z = −2.
   const auto edge = [](double e, const Aperture& aperture) {
     Scene scene = patch({0, 0, 0}, {0, 0, -1}, 1024);
     scene.camera.projection =
@@ -326,8 +326,7 @@ TEST_CASE("a thin lens: a straight bright edge out of focus, (arccos x − x √
   // Through a square that stands upright, as far as its sides are from its middle.
   const double side = 0.4 * std::sqrt(0.5) * 0.5;
   check(edge(0.3 * side, {.radius = 0.4, .focus = 4, .blades = 4, .blade_rotation = M_PI / 4}), 0.35, 1e-4);
-  // A triangle with a corner at the right; the eye sees it mirrored where what it looks at is behind the
-  // focus.
+  // A triangle with a corner at the right; the eye sees it mirrored if it is behind the focus.
   const auto triangle = [&](double focus) {
     return edge(0.4 * 0.5 * 0.25, {.radius = 0.4, .focus = focus, .blades = 3});
   };

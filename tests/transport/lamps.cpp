@@ -1,4 +1,4 @@
-// Lamps of each shape that paths choose places on, where the answer is known.
+// Area lights of each shape that paths sample, with known results.
 #include <functional>
 
 #include "patch.hpp"
@@ -8,8 +8,8 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// What a convex body of radiance 1, above the floor, does to its origin: that of its facets that are turned
-// to it. at(u, v) is a place of the body's surface, which u and v in [0, 1] go round.
+// Irradiance at the floor's origin from a convex body of radiance 1 above the floor: that of the facets that
+// face it. at(u, v) is a point of the body's surface, which u and v in [0, 1] cover.
 double irradiance_of_body(const std::function<Vec3(double, double)>& at, const Vec3& middle) {
   constexpr int steps = 400;
   double sum = 0;

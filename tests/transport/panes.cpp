@@ -34,7 +34,7 @@ TEST_CASE("panes: R' = 2R / (1 + R), and what is left goes straight on, seen and
                       {.color = gray(0.5), .roughness = gray(0), .transmission = gray(1), .thin = true})));
   check(tinted, albedo * 3 / 4 * 0.5 * 0.96, 1e-3);
 
-  // All light of a lamp comes by nine panes as by eight, whoever finds it.
+  // All light of an area light comes through nine panes as through eight, whichever strategy finds it.
   for (const int panes : {1, 8, 9}) {
     CAPTURE(panes);
     Scene behind = floor(panes == 9 ? 2560 : 256);

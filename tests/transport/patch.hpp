@@ -56,7 +56,7 @@ inline void check(const Scene& scene, double expected, double least_error = 2e-6
       continue;
     }
     CHECK(found.error < greatest_error() * expected);
-    // At five standard errors one of a million and a half such tests fails by chance.
+    // At five standard errors, one in a million and a half such tests fails by chance.
     CHECK(std::abs(found.mean - expected) < 5 * found.error + least_error * expected);
   }
 }

@@ -143,7 +143,7 @@ TEST_CASE("photons bring what lights send: none is lost on the way, in glass and
     CHECK(brought(*plain, depth) == doctest::Approx(sent * std::pow(0.5, depth)).epsilon(1e-9));
   CHECK(brought(*plain, -1) == doctest::Approx(sent).epsilon(0.003));
 
-  // What meets glass or a mirror on its way has been scattered when it first comes to the wall.
+  // A photon that hits glass or a mirror on its way has been scattered before it first reaches the wall.
   const reference::Renderer with_glass(glass_scene);
   const auto seen = [](double squared, double radius) {
     return (1 - std::sqrt(1 - radius * radius / squared)) / 2;
@@ -159,7 +159,7 @@ TEST_CASE("the radius shrinks as the first sample's, times the root of Π (i + 2
   CHECK(settings.count == 1024);
   CHECK(photon_radius(settings, 0) == 0.25);
   CHECK(photon_radius(settings, 1) == doctest::Approx(0.25 * std::sqrt(5.0 / 6)));
-  // As n^(−1/6), but for a factor.
+  // The radius falls as n^(−1/6), up to a factor.
   const double ratio = photon_radius(settings, 4000) / photon_radius(settings, 500);
   CHECK(ratio == doctest::Approx(std::pow(8, -1.0 / 6)).epsilon(1e-3));
 }

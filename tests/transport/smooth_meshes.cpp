@@ -1,4 +1,4 @@
-// Coarse meshes that are smoothed: their light and shadow, against the round bodies that they stand for.
+// Light and shadow of smoothed coarse meshes, against the curved bodies that they approximate.
 #include <algorithm>
 #include <cmath>
 #include <vector>

@@ -140,7 +140,7 @@ assert.match(await page.locator('#warnings').textContent(), /^\d+ pixels may be 
 await next('gpu', () => writeFileSync(scene_file, scene));
 assert.ok(await page.locator('#warnings-panel').isHidden());
 
-// The camera goes round its target, and back.
+// The camera orbits its target, and returns.
 await page.keyboard.press('o');
 await page.mouse.move(...middle);
 await page.mouse.down();

@@ -1,9 +1,9 @@
 // A Vulkan loader in front of the system's, for EYERAY_VULKAN_LOADER: one chosen call fails without reaching
 // the driver, calls are counted, and so are the objects that were made and not destroyed.
 //
-// EYERAY_FAILING_CALL="vkWaitForFences 3 -4" chooses in a process of its own: the third call answers −4; 1000
-// in its place is a call that says so on standard error and never returns. EYERAY_NO_GRAPHICS=1 hides that
-// queues draw.
+// EYERAY_FAILING_CALL="vkWaitForFences 3 -4" chooses the call in a separate process: the third call answers
+// −4; 1000 in its place is a call that says so on standard error and never returns. EYERAY_NO_GRAPHICS=1
+// hides that queues draw.
 #pragma once
 
 constexpr int never_returns = 1000;
