@@ -146,7 +146,7 @@ TEST_CASE("a mesh for Cycles keeps its normals, and the environment its texels a
   CHECK(picture.pixel(1, 0)[1] == float(scene.environment->texel(1, 0).y));
 }
 
-TEST_CASE("what has no likeness in Blender is refused") {
+TEST_CASE("a scene that Blender cannot render alike is refused") {
   const std::string ball = "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"n\"\n";
   const auto with = [&](const std::string& material) {
     return refused("[[material]]\nname = \"n\"\n" + material + ball);

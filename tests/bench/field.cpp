@@ -82,7 +82,7 @@ TEST_CASE("a report survives JSON, and --compare says what changed") {
   CHECK(changes({}, sample(1)).empty());
 }
 
-TEST_CASE("what is no report is refused in one line") {
+TEST_CASE("a file that is no report is refused in one line") {
   const TemporaryFolder folder;
   const std::string file = folder / "old.json";
   const std::string good = nlohmann::ordered_json{{"field", to_json(sample(0.1))}}.dump();

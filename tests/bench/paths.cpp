@@ -64,7 +64,7 @@ TEST_CASE("slopes, and what an equal error costs") {
     CHECK(report.series[0].processor_until(8 * std::pow(samples, -1.5)) == doctest::Approx(0.25 * samples));
 }
 
-TEST_CASE("what is left after a time, and two renderers at an equal time") {
+TEST_CASE("the error left after a time, and two renderers at an equal time") {
   const PathReport report = sample_path_report();
   // 8 / samples^1.5 at 0.25 s a sample: between levels, at them, before them and beyond.
   for (const int samples : {1, 2, 4, 8, 32, 64, 256})

@@ -12,7 +12,7 @@ using namespace eyeray::engine;
 using namespace eyeray::engine::loader;
 using namespace eyeray::engine::bench;
 
-TEST_CASE("contenders take turns after a round that does not count, and are compared with the first") {
+TEST_CASE("contenders alternate after an untimed run, and are compared with the first") {
   std::string order;
   const auto contender = [&](char letter, double last_t) {
     return Contender{std::string(1, letter), ContenderKind::ours,

@@ -186,7 +186,7 @@ TEST_CASE("bench --paths cuts samples as render does") {
   CHECK(read_text(folder / "paths.svg").find("cornell_box") != std::string::npos);
 }
 
-TEST_CASE("what is no answer of eyeray-bench is not plotted, in one line") {
+TEST_CASE("a file that is no output of eyeray-bench is refused by the plot, in one line") {
   const TemporaryFolder folder;
   for (const char* const text : {"{", "[]", R"({"field": [], "paths": []})", R"({"field": [{}]})"}) {
     CAPTURE(text);

@@ -91,7 +91,7 @@ TEST_CASE("--frames films a glTF file that moves, alone") {
   CHECK(picture("20.pfm") != picture("40.pfm"));
 }
 
-TEST_CASE("what is wrong with frames is said before anything is rendered") {
+TEST_CASE("errors in frames are reported before anything is rendered") {
   const MovingFolder folder;
   const auto error = [&](std::vector<std::string> options) {
     options.insert(options.begin(), {"render", folder.scene()});

@@ -130,7 +130,7 @@ TEST_CASE("an output that cannot be written is refused before rendering") {
   CHECK(folder.names() == std::set<std::string>{"scene.toml", "folder.png"});
 }
 
-TEST_CASE("what a render reads it does not overwrite, by whatever name") {
+TEST_CASE("a render does not overwrite files that it reads, by whatever name") {
   const SceneFolder folder;
   const auto path = [&](const std::string& name) { return std::filesystem::path(folder / name); };
   std::filesystem::create_directory(path("art"));
@@ -228,7 +228,7 @@ TEST_CASE("a shader that does not compile is shown at its line") {
   CHECK(nowhere.err.find("no such folder") != std::string::npos);
 }
 
-TEST_CASE("a shader of --shaders that lies where none is read is told, with its place") {
+TEST_CASE("a shader of --shaders in a place where none is read is reported, with its path") {
   const SceneFolder folder;
   const std::string shaders = folder / "shaders";
   lay_shader(shaders, "sphere.glsl", "as folders were before shaders lay in folders\n");
@@ -241,7 +241,7 @@ TEST_CASE("a shader of --shaders that lies where none is read is told, with its 
   CHECK(result.err.find("own.glsl") == std::string::npos);
 }
 
-TEST_CASE("a kernel of the user's that reads no push constants runs; one that wants others is told") {
+TEST_CASE("a user's kernel without push constants runs; one with other push constants is reported") {
   const SceneFolder folder;
   const std::string shaders = folder / "shaders";
   const auto render = [&](const std::string& kernel) {

@@ -59,7 +59,7 @@ TEST_CASE("--classic sends a ray through each corner, in a crop and in bands too
   CHECK(different == 0);
 }
 
-TEST_CASE("what --classic settles itself cannot be asked for beside it") {
+TEST_CASE("options that --classic sets cannot be given beside it") {
   const SceneFolder folder;
   const auto refused = [&](std::vector<std::string> more) {
     std::vector<std::string> arguments{"render", folder.scene(), "-o", folder / "a.png", "--classic"};

@@ -82,7 +82,7 @@ TEST_CASE("a limit on the size of files is an error of the file, and leaves noth
   }
 }
 
-TEST_CASE("each signal that ends a render keeps its checkpoint, and is told by the exit code") {
+TEST_CASE("each signal that ends a render keeps its checkpoint, and shows in the exit code") {
   for (const int signal : {SIGHUP, SIGTERM}) {
     const SceneFolder folder;
     LongRender render(folder);

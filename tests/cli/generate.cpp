@@ -56,7 +56,7 @@ TEST_CASE("meshes lie beside their scene, as large as they say") {
   CHECK(folder.names() == std::set<std::string>{"alps.ply", "alps.toml", "flake.ply", "flake.toml"});
 }
 
-TEST_CASE("what cannot be generated is refused in one line, and leaves no file") {
+TEST_CASE("a scene that cannot be generated is refused in one line, and leaves no file") {
   const SceneFolder folder;
   struct Refusal {
     std::vector<std::string> arguments;

@@ -63,7 +63,7 @@ TEST_CASE("a golden picture is made on request, compared with, and replaced wher
         std::string::npos);
 }
 
-TEST_CASE("what fails, or is black, becomes no golden picture") {
+TEST_CASE("a picture that fails, or is black, becomes no golden picture") {
   const SceneFolder folder;
   const std::string golden = folder / "ball.pfm";
   const auto verify = [&](std::vector<std::string> options) {

@@ -31,7 +31,7 @@ const std::string endless_at_0 =
 
 }  // namespace
 
-TEST_CASE("GLSL that does not compile is told at its place in the user's file, by every backend") {
+TEST_CASE("GLSL that does not compile is reported at its place in the user's file, by every backend") {
   const FormulaFolder folder("float f(vec3 p) {\n  float r = missing * 2.0;\n  return length(p) - r;\n}\n");
   for (const std::string backend : {"gpu", "twin", "reference"}) {
     const ProcessResult result =
@@ -80,7 +80,7 @@ TEST_CASE("a function that does not end is a time-out, whoever runs it") {
   CHECK(folder.names() == std::set<std::string>{"f.glsl", "scene.toml"});
 }
 
-TEST_CASE("a color's function that does not compile, does not end or is not trusted is told as a surface's") {
+TEST_CASE("errors of a color's function are reported like a surface's: compilation, endless loops, trust") {
   const SceneFolder folder;
   replace_in_file(folder.scene(), "diffuse = [0.8, 0.4, 0.2]",
                   "diffuse = { formula = { file = \"c.glsl\" } }");

@@ -46,7 +46,7 @@ TEST_CASE("an .exr holds the picture and every AOV, bit by bit what their own fi
   CHECK(run_eyeray({"compare", "--layer", "normal", folder / "a.exr", folder / "a.position.pfm"}).code == 1);
 }
 
-TEST_CASE("of several outputs the first has the AOVs, and --half halves the picture alone") {
+TEST_CASE("the first of several outputs has the AOVs, and --half halves the picture alone") {
   const SceneFolder folder;
   const ProcessResult result = run_eyeray({"render", folder.scene(), "--aov", "depth", "--half", "-o",
                                            folder / "a.exr", "-o", folder / "b.exr", "-o", folder / "c.pfm"});

@@ -130,7 +130,7 @@ TEST_CASE("the GPU resumes as well, and says in JSON what it had") {
   CHECK(read_text(folder / "parts.pfm") == read_text(folder / "whole.pfm"));
 }
 
-TEST_CASE("another scene, size, sampling or backend does not resume, and is told why") {
+TEST_CASE("another scene, size, sampling or backend does not resume, and gets the reason") {
   const SceneFolder folder;
   const std::string checkpoint = folder / "work";
   const Arguments command = long_render(folder, "a");
@@ -180,7 +180,7 @@ TEST_CASE("another scene, size, sampling or backend does not resume, and is told
   CHECK(run_eyeray(with(command, {"--resume", checkpoint})).code == 0);
 }
 
-TEST_CASE("what is no checkpoint is an error of that file") {
+TEST_CASE("a file that is no checkpoint is an error of that file") {
   const SceneFolder folder;
   const auto refusal = [&](const std::string& file) {
     const ProcessResult result =

@@ -16,7 +16,7 @@ const std::vector<std::string> project_files{".github/workflows/pictures.yml", "
 
 }  // namespace
 
-TEST_CASE("a new project passes what its README tells to do") {
+TEST_CASE("a new project passes the commands of its README") {
   const TemporaryFolder folder;
   const std::string project = folder / "mine";
   const ProcessResult made = run_eyeray({"new", project, "--json"});

@@ -38,7 +38,7 @@ TEST_CASE(
   CHECK(pictures[0] == pictures[1]);
 }
 
-TEST_CASE("--noise that cannot be reached is told, and what makes none is refused") {
+TEST_CASE("--noise that cannot be reached is reported, and options without noise are refused") {
   const SceneFolder folder;
   const ProcessResult few = run_eyeray({"render", "scenes/path/cornell_box.toml", "-s", "16x16", "--noise",
                                         "0.001", "--spp", "70", "-o", folder / "a.png", "--quiet"});

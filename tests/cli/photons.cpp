@@ -87,7 +87,7 @@ TEST_CASE("--noise stops photons where a pixel is as good as it says, beside a l
   CHECK(double(within) / double(all) > 0.93);
 }
 
-TEST_CASE("what AOVs show of the first hit, and what denoisers ask for, is as in paths") {
+TEST_CASE("AOVs of the first hit, and denoisers' AOVs, are as in paths") {
   const TemporaryFolder folder;
   for (const std::string integrator : {"sppm", "path"}) {
     const ProcessResult result =

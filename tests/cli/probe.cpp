@@ -98,7 +98,7 @@ TEST_CASE("the text has a line a value and a column an executor, the verdict fir
   CHECK(sky.out.find("0.25 0.5 0.75\n") != std::string::npos);
 }
 
-TEST_CASE("of several samples that is shown which differs, or which is asked for") {
+TEST_CASE("the sample that differs, or the requested one, is shown among several") {
   const SceneFolder folder;
   const Probed other = probe({folder.scene(), "32,24", "--spp", "4", "--sample", "3"});
   CHECK(other.code == 0);
@@ -135,7 +135,7 @@ TEST_CASE("a PROBE in a user's shader is a line, and what the shader breaks is f
   CHECK(seen);
 }
 
-TEST_CASE("what cannot be probed is told in one line") {
+TEST_CASE("pixels that cannot be probed are refused in one line") {
   const SceneFolder folder;
   const auto error = [&](std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {"probe", folder.scene()});

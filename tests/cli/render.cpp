@@ -90,7 +90,7 @@ TEST_CASE("the three backends write the same picture") {
         0);
 }
 
-TEST_CASE("AOVs hold what the eye rays hit") {
+TEST_CASE("AOVs hold the hits of the camera rays") {
   const SceneFolder folder;
   const ProcessResult result = run_eyeray({"render", folder.scene(), "--aov", "all", "-o", folder / "a.png"});
   CAPTURE(result.err);

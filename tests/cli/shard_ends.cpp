@@ -104,7 +104,7 @@ TEST_CASE("killed at random a hundred times, too" * doctest::test_suite("long"))
   kill_and_repeat(100);
 }
 
-TEST_CASE("a disk that is full is told, and leaves nothing that looks like a part or a picture") {
+TEST_CASE("a full disk is reported, and leaves nothing that looks like a part or a picture") {
   const SceneFolder folder;
   const Words picture{"render", folder.scene(), "-s", "160x90", "--quiet", "--backend", "twin"};
   const std::set<std::string> before{"scene.toml"};
@@ -134,7 +134,7 @@ TEST_CASE("a disk that is full is told, and leaves nothing that looks like a par
     }
 }
 
-TEST_CASE("a folder that goes away during the render is told") {
+TEST_CASE("a folder that disappears during the render is reported") {
   const SceneFolder folder;
   const std::string shared = folder / "shared";
   std::filesystem::create_directory(shared);

@@ -151,7 +151,7 @@ TEST_CASE("a set that makes no picture is refused, and names what is wrong") {
   CHECK(other.find("the arithmetic of the device (exact, ") != std::string::npos);
 }
 
-TEST_CASE("what cannot be shared is refused before it is rendered") {
+TEST_CASE("a picture that cannot be sharded is refused before it is rendered") {
   const SceneFolder folder;
   const auto refusal = [&](const Words& more) {
     const ProcessResult result = run_eyeray(Words{"render", folder.scene(), "--shard", "1/2"} + more);

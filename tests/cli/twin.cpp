@@ -77,7 +77,7 @@ TEST_CASE("the twin of a user's shaders has the bits of the device, and verify a
   CHECK(compiled.find("gate A: gpu and twin: ") == std::string::npos);
 }
 
-TEST_CASE("what of a user's shaders is no C++ is told as compilers tell it, and what is wanted for them") {
+TEST_CASE("errors of a user's shaders as C++ are reported as compilers do, and so are missing tools") {
   const Users users;
   const int line = users.change_sphere("  vec3 turned = f.zyx;\n");
   for (const char* const command : {"render", "dev"}) {
@@ -112,7 +112,7 @@ TEST_CASE("the twin of eyeray's own shaders is compiled, too") {
   CHECK(read_text(users / "a.pfm") == read_text(users / "b.pfm"));
 }
 
-TEST_CASE("what others may write to is not loaded, and what is damaged is written anew") {
+TEST_CASE("files that others may write to are not loaded, and damaged ones are written anew") {
   const Users users;
   REQUIRE(users.render("twin", "a.pfm").code == 0);
   const std::string twin = users / "cache/twin";

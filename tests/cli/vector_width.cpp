@@ -60,7 +60,7 @@ TEST_CASE("big pictures have vectors of 512 bits on Mesa 22, where the processor
   CHECK(pictures.bits("1024x1024", {{"LP_NATIVE_VECTOR_WIDTH", "256"}}) == 256);
 }
 
-TEST_CASE("what is compiled for vectors of one width is kept apart from what is for another") {
+TEST_CASE("code compiled for vectors of one width is kept apart from that for another") {
   const Pictures pictures;
   const std::filesystem::path mesa = pictures / "mesa";
   std::string first;

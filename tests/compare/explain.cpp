@@ -40,7 +40,7 @@ TEST_CASE("a cause is the first thing along the ray that changes") {
   CHECK(cause_of([](Neighbour& n) { n.direct = false; }) == Cause::refraction_branch);
 }
 
-TEST_CASE("what float32's rounding of where rays start changes is explained as that, and not otherwise") {
+TEST_CASE("changes by float32's rounding of rays' origins are explained as that, and not otherwise") {
   const auto neighbourhood = [](double near, double far) {
     return Neighbourhood(
         [=](int, int, const Vec2&, rounding::Chance) {
@@ -58,7 +58,7 @@ TEST_CASE("what float32's rounding of where rays start changes is explained as t
   CHECK_FALSE(neighbourhood(0.2, 0.0).explains_as_rounding(Vec3(0.7), {}));
 }
 
-TEST_CASE("of two surfaces that float32 cannot tell apart, it may show either") {
+TEST_CASE("either of two surfaces that float32 cannot distinguish may be shown") {
   const Neighbourhood neighbourhood(
       [](int, int, const Vec2&, rounding::Chance chance) {
         Neighbour neighbour;
@@ -122,7 +122,7 @@ TEST_CASE("the neighbourhood is 64 offsets of 0.001 to 0.004 pixels, all around,
   for (const int count : quadrants) CHECK(count >= 14);
 }
 
-TEST_CASE("a jump within a rounding error of the eye ray is undecidable") {
+TEST_CASE("a jump within a rounding error of the camera ray is undecidable") {
   const auto cause = [](double edge, double rounding) {
     const Reference reference = [=](int, int, const Vec2& shift, rounding::Chance) {
       const bool beyond_edge = shift.y > edge;
@@ -147,7 +147,7 @@ TEST_CASE("a jump within a rounding error of the eye ray is undecidable") {
   CHECK(cause(1.5e-3, 1) == Cause::silhouette);
 }
 
-TEST_CASE("what a ray shows that is turned by a rounding error is undecidable") {
+TEST_CASE("the hit of a ray that a rounding error turns is undecidable") {
   const auto neighbourhood = [](double rounding) {
     return Neighbourhood(
         [=](int, int, const Vec2& shift, rounding::Chance chance) {
@@ -185,7 +185,7 @@ TEST_CASE("an edge along the centres of a row of pixels takes up nothing of what
   CHECK_FALSE(shadow.passes());
 }
 
-TEST_CASE("what is narrower than the first ring is found by the second look") {
+TEST_CASE("features narrower than the first ring are found by the second") {
   const Reference reference = [](int, int, const Vec2& shift, rounding::Chance) {
     Neighbour neighbour;
     const double r = glm::length(shift);
@@ -198,7 +198,7 @@ TEST_CASE("what is narrower than the first ring is found by the second look") {
   CHECK_FALSE(Neighbourhood(reference, {0, 0}, 256, true).explains(Vec3(0.8), {}));
 }
 
-TEST_CASE("what is explained lies between the neighbours, a tolerance more at each end") {
+TEST_CASE("explained values lie between the neighbours, a tolerance more at each end") {
   const Reference reference = [](int, int, const Vec2& shift, rounding::Chance) {
     Neighbour neighbour;
     neighbour.samples[0].color = Vec3(shift.x > 0.002 ? 0.7 : 0.2, 10, 0);

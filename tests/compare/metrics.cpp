@@ -82,7 +82,7 @@ TEST_CASE("one pixel's difference, in numbers worked out by hand") {
   CHECK(*log_difference(a, b).pixel(0, 0) == -8.0f);
 }
 
-TEST_CASE("what is not finite is infinitely far") {
+TEST_CASE("a value that is not finite is infinitely far") {
   const Image a = constant(5, 5, Vec3(0.5));
   Image b = a;
   b.pixel(2, 3)[0] = std::numeric_limits<float>::quiet_NaN();

@@ -53,7 +53,7 @@ TEST_CASE("a passing report says so first, and counts") {
   CHECK_FALSE(contains(text, "look closer"));
 }
 
-TEST_CASE("what was hit is named in the words of the scene, where they are known") {
+TEST_CASE("hit objects are named in the words of the scene, where they are known") {
   Frame value = picture_frame();
   FirstHit& hit = value.first_hits[size_t(30 * picture_width + 94)];
   hit.t *= 1.5;

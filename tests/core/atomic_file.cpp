@@ -50,7 +50,7 @@ TEST_CASE("a name without a folder lies in the current one") {
   CHECK(folder.names() == std::set<std::string>{"plain"});
 }
 
-TEST_CASE("what cannot be written is a file error that says why, and leaves everything as it was") {
+TEST_CASE("a failed write is a file error that says why, and leaves everything as it was") {
   const TemporaryFolder folder;
   CHECK(failure([&] { write_file_atomically(folder / "no/such/folder", std::string_view("x")); }) ==
         ExitCode::file_io);

@@ -25,7 +25,7 @@ TEST_CASE("the caret stands under the column, past tabs, long characters and a c
   CHECK(format_diagnostic({Severity::error, {"a", 1, 99}, "m", "12", 1}) == "a:1:99: error: m\n  12\n    ^");
 }
 
-TEST_CASE("of a long line only what is around the column is shown") {
+TEST_CASE("only the part of a long line around the column is shown") {
   const std::string line = std::string(5'000'000, ' ') + "x\x01y" + std::string(5'000'000, ' ');
   Diagnostic diagnostic{Severity::error, {"a", 1, 5'000'001}, "m", "", 1};
   show_source_line(diagnostic, line);
@@ -63,7 +63,7 @@ TEST_CASE("no text of a file is a command to a terminal or to GitHub's workflows
   }
 }
 
-TEST_CASE("an InputError tells everything") {
+TEST_CASE("an InputError reports everything") {
   const InputError error(
       {{Severity::error, {"a", 1, 1}, "x", "", 1}, {Severity::error, {"b", 2, 1}, "y", "", 1}});
   CHECK(std::string(error.what()) == "a:1:1: error: x\nb:2:1: error: y");

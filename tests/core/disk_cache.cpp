@@ -57,7 +57,7 @@ TEST_CASE("a cache folder or entry of another user is not used") {
   CHECK(!cache.load("a"));
 }
 
-TEST_CASE("what a cache makes is private under every umask") {
+TEST_CASE("files that a cache makes are private under every umask") {
   const TemporaryFolder folder;
   const mode_t before = ::umask(0);
   const DiskCache cache(folder.path() / "cache");

@@ -7,7 +7,7 @@
 
 using namespace eyeray::engine;
 
-TEST_CASE("what is freed gives its memory back") {
+TEST_CASE("freed blocks give their memory back") {
   std::string text(1000, 'a');
   free_memory(text);
   CHECK(text.empty());

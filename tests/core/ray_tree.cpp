@@ -54,7 +54,7 @@ TEST_CASE("rays and values come to where they belong, however the loop goes abou
   CHECK(rays[5].values[0].numbers[0] == -4);
 }
 
-TEST_CASE("what has no room is counted") {
+TEST_CASE("records without room are counted") {
   RayRecorder recorder;
   for (uint32_t i = 0; i < RayRecorder::most + 10; ++i) recorder.value("x", 1, 1.0f);
   recorder.ray(RayKind::eye, 0, 0);

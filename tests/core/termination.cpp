@@ -89,7 +89,7 @@ TEST_CASE("child: does not ask" * doctest::skip()) {
   hang();
 }
 
-TEST_CASE("what does not ask is ended, and what it has half written is gone") {
+TEST_CASE("work that does not poll is ended, and its half-written files are gone") {
   const TemporaryFolder folder;
   Child child("does not ask", {{"EYERAY_TEST_FILE", folder / "file"}});
   REQUIRE(child.says("ready"));

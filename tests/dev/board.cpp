@@ -50,7 +50,7 @@ TEST_CASE("a picture grows by rows, and a coarse one fills squares") {
   CHECK(image.pixel(4, 2)[0] == 0.25f);
 }
 
-TEST_CASE("what was not rendered yet has no value") {
+TEST_CASE("rows not rendered yet have no value") {
   Board board;
   board.put_rows(rows(0, 1, 1, grey(5, 1)));
   CHECK(std::isnan(board.picture("gpu")->image.pixel(0, 1)[0]));
@@ -102,7 +102,7 @@ TEST_CASE("rows that do not add up are left out") {
   CHECK_FALSE(board.picture("gpu"));
 }
 
-TEST_CASE("whoever waits for the status is told of changes, and of the end") {
+TEST_CASE("waiting for the status returns at changes, and at the end") {
   Board board;
   uint64_t seen = 0;
   CHECK_FALSE(board.next_status(seen, 0));

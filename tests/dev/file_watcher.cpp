@@ -30,7 +30,7 @@ Names changes_during(FileWatcher& watcher, const Work& work) {
 
 }  // namespace
 
-TEST_CASE("a save is told once, however it is done") {
+TEST_CASE("a save is reported once, however it is done") {
   const TemporaryFolder folder;
   const std::string file = folder / "scene.toml";
   write_text(file, "1");

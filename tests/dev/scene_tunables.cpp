@@ -69,7 +69,7 @@ major = 1.5               # @slider 0 3
         "column: twist\ntorus: major\n");
 }
 
-TEST_CASE("what no control moves is left alone") {
+TEST_CASE("values that no control moves are left alone") {
   for (const char* line : {"a = \"text\"  # @slider 0 1", "a = 1  # @slider 2 1", "a = [1, 2] # @color",
                            "a = 1  # @checkbox", "# a = 1  # @slider 0 1", "a = 1  # slider 0 1"}) {
     CAPTURE(line);

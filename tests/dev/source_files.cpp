@@ -58,7 +58,7 @@ TEST_CASE("a file that was saved while it was read counts as changed") {
   CHECK_FALSE(files.changed().empty());
 }
 
-TEST_CASE("a change that nobody tells of is found once it is over") {
+TEST_CASE("a change without notification is found once it is over") {
   const TemporaryFolder folder;
   const fs::path file = folder / "a.glsl";
   write_text(file, "1");

@@ -61,7 +61,7 @@ TEST_CASE("messages go to a worker and back whole") {
   CHECK(worker.kill() == "exit code 0");
 }
 
-TEST_CASE("how a worker ended is told") {
+TEST_CASE("the way in which a worker ended is reported") {
   for (const auto& [script, how] :
        {std::pair{"kill -ABRT $$", "signal 6 (Aborted)"}, {"exit 7", "exit code 7"}}) {
     Worker worker(shell(script));
@@ -95,7 +95,7 @@ TEST_CASE("a hundred workers leave nothing behind") {
   CHECK(open_descriptors() == before);
 }
 
-TEST_CASE("what is no message closes the socket") {
+TEST_CASE("bytes that are no message close the socket") {
   const std::string huge("\xff\xff\xff\xff\x00\x00\x00\x00{}", 10),
       text("\x02\x00\x00\x00\x00\x00\x00\x00[]", 10), torn("\x08\x00\x00\x00\x00\x00\x00\x00{}", 10), none;
   for (const std::string& bytes : {huge, text, torn, none}) {

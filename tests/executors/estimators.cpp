@@ -93,7 +93,7 @@ int lamp(Scene& scene, double radiance) {
 
 }  // namespace
 
-TEST_CASE("lamps of every form: shadow rays alone, paths alone, both") {
+TEST_CASE("area lights of every form: shadow rays alone, paths alone, both") {
   Scene scene = corner();
   add(scene, make_sphere({1, 1.4, 0.2}, 0.4), lamp(scene, 2));
   add(scene, make_disk({-0.1, 1.4, 0.4}, {0.1, -1, 0}, 0.4), lamp(scene, 3));

@@ -95,7 +95,7 @@ void check_pixels(const std::string& file, int count) {
 
 }  // namespace
 
-TEST_CASE("of PROBE nothing is left in kernels that do not record") {
+TEST_CASE("nothing of PROBE is left in kernels that do not record") {
   const PackedScene packed = pack::pack(loader::load_scene("scenes/whitted.toml"));
   for (const char* entry :
        {"kernels/render.comp.glsl", "kernels/wavefront.comp.glsl", "kernels/query.comp.glsl"}) {
@@ -171,7 +171,7 @@ TEST_CASE("a user's PROBE shows values of every type, where they are and at whic
   CHECK(seen > 3);
 }
 
-TEST_CASE("of more records than there is room the rest is counted") {
+TEST_CASE("records beyond the room are counted") {
   const std::map<std::string, std::string, std::less<>> files{{"a.glsl", "PROBE(x, 1.0f);\n"}};
   const ShaderProbe probe(files);
   std::vector<shader::ProbeRecord> records(3);

@@ -40,7 +40,7 @@ TEST_CASE("a constant with a control is read from the buffer, in its own line") 
   CHECK(tunables.records()[0][0] == 1.5f);
 }
 
-TEST_CASE("as constants they have the values that were chosen") {
+TEST_CASE("constants have the chosen values") {
   Tunables tunables;
   tunables.as_constants = true;
   tunables.choose({{"a:N", {7}}, {"a:C", {0, 1, 0.5}}});
@@ -51,7 +51,7 @@ TEST_CASE("as constants they have the values that were chosen") {
         "const bool B = false;  // @checkbox\nconst float F = float(2.5);  // @slider 0 9\n");
 }
 
-TEST_CASE("what is no such constant stays as it is") {
+TEST_CASE("other constants stay as they are") {
   Tunables tunables;
   for (const char* line :
        {"const float X = 2.0f * Y;  // @slider 0 1\n", "float X = 2.0f;  // @slider 0 1\n",

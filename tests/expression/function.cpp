@@ -121,7 +121,7 @@ TEST_CASE("loops, calls and branches come down to what they compute") {
         std::string::npos);
 }
 
-TEST_CASE("what cannot be straight-line code is refused, at its line") {
+TEST_CASE("code that cannot become straight-line code is refused, at its line") {
   CHECK(refusal("float f(vec3 p) {\n  while (p.x > 1.0) p.x *= 0.5;\n  return p.x;\n}") ==
         "f.glsl:11: this loop has more than 1000 iterations, or a number of them that depends on p");
   CHECK(refusal("float f(vec3 p) {\n  int i = int(p.x);\n  return p[i];\n}") ==

@@ -34,7 +34,7 @@ TEST_CASE("a camera is a function of a place in the picture and one on the lens"
   CHECK(fault_of_camera("vec3 origin(vec2 place, vec2 lens) { return vec3(place, 1.0); }") == missing);
 }
 
-TEST_CASE("where rays go and start, in float32's bits and in float64; without an origin, the eye") {
+TEST_CASE("directions and origins of rays, in float32's bits and in float64; without an origin, the eye") {
   const std::string text =
       "vec3 direction(vec2 place, vec2 lens) {\n  place.x *= scale;\n  return vec3(place, 1.0 / 3.0);\n}\n";
   const formula::Formula from_eye = camera(text, {{"scale", {0.1}}});

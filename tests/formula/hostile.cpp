@@ -80,7 +80,7 @@ TEST_CASE("calls are counted as what they come to") {
         "a formula can have at most 256 functions");
 }
 
-TEST_CASE("what is too long or too deep is refused before a compiler sees it") {
+TEST_CASE("text that is too long or too deep is refused before a compiler sees it") {
   CHECK(refusal_of_f("return p.x" + times(30000, "+1") + ";") == too_long_a_chain);
   CHECK(refusal_of_f("float x; x = 0." + times(30000, ",1") + "; return x;") == too_long_a_chain);
   CHECK(refusal_of_f("vec2 v = p.xy" + times(15000, ".xy") + "; return v.x;") == too_long_a_chain);
@@ -151,7 +151,7 @@ TEST_CASE("arrays are chosen between as a whole") {
   }
 }
 
-TEST_CASE("what is bounded is no longer than drivers compile in seconds") {
+TEST_CASE("a formula within the limits is no longer than drivers compile in seconds") {
   const auto why = [](int terms) -> std::string {
     const formula::Formula formula(
         {"float f(vec3 p) {\n float s = p.x;\n" + times(terms, "s = s * p.y + 0.5;\n") + "return s;\n}\n",

@@ -22,7 +22,7 @@ std::string faults_of(const std::string& text, std::vector<formula::FormulaParam
 
 }  // namespace
 
-TEST_CASE("what is no formula is refused at its place") {
+TEST_CASE("text that is no formula is refused at its place") {
   CHECK(faults_of("float f(vec3 p) { return p.x; }") == "");
   CHECK(faults_of("float g(vec3 p) { return p.x; }") ==
         "10:1: the text must have a function `float f(vec3 p)`\n");
@@ -44,7 +44,7 @@ TEST_CASE("what is no formula is refused at its place") {
         "10:1: this comment has no end\n10:1: the text must have a function `float f(vec3 p)`\n");
 }
 
-TEST_CASE("what would be undefined, or depend on what was asked before, is refused") {
+TEST_CASE("undefined values, and values that depend on earlier calls, are refused") {
   CHECK(faults_of("float kept = 0.0;\nfloat f(vec3 p) { return p.x; }") ==
         "10:7: 'kept' must be const: outside of functions a formula has no variables\n");
   CHECK(faults_of("float f(vec3 p) { float a[100000]; return a[0]; }") ==
@@ -56,7 +56,7 @@ TEST_CASE("what would be undefined, or depend on what was asked before, is refus
   CHECK(faults_of(std::string(70000, ' ')) == "10:1: a formula can have at most 65536 bytes\n");
 }
 
-TEST_CASE("a kernel has operations on numbers, names of its own, and nothing to fold") {
+TEST_CASE("a kernel has operations on numbers, private names, and nothing to fold") {
   const formula::Formula formula(
       {"const float PI = 3.5;\nfloat f(vec3 p) { return sin(PI * p.x) * 0.5 - r; }", {}}, {{"r", {0.25}}},
       "it");
@@ -103,7 +103,7 @@ TEST_CASE("a parameter that no float32 holds is refused") {
   CHECK(faults_of("float f(vec3 p) { return p.x - r; }", {{"r", {3e38}}}) == "");
 }
 
-TEST_CASE("what the compiler says is said of the text, with its own names") {
+TEST_CASE("the compiler's messages refer to the text, with its own names") {
   CHECK(faults_of("float f(vec3 p) {\n  return missing + sin(p.x);\n}") ==
         "11:10: 'missing': undeclared identifier\n");
 }

@@ -26,7 +26,7 @@ double length(const std::array<double, 3>& v) {
 
 }  // namespace
 
-TEST_CASE("what GLSL says is computed") {
+TEST_CASE("formulas are computed as GLSL defines") {
   CHECK(value_of("return p.x + p.y * p.z - r;") == doctest::Approx(0.5 - 6 - 0.25));
   CHECK(value_of("return dot(p, v.zyx);") == doctest::Approx(1.5 - 4 + 3));
   CHECK(value_of("p.xz = p.zx * 2.0; return p.x * 10.0 + p.z;") == doctest::Approx(61));

@@ -49,7 +49,7 @@ TEST_CASE("devices are listed, and nothing is said on standard error") {
   CHECK(result.err == "");
 }
 
-TEST_CASE("a machine without drivers is told what to install") {
+TEST_CASE("a machine without drivers gets a message on what to install") {
   for (const char* path : {"/nonexistent", "tests/gpu"}) {
     const ProcessResult result = run_child("list", {{"VK_DRIVER_FILES", path}, {"VK_ICD_FILENAMES", path}});
     CHECK(result.code == int(ExitCode::no_device));
@@ -60,7 +60,7 @@ TEST_CASE("a machine without drivers is told what to install") {
   }
 }
 
-TEST_CASE("a machine without a loader is told what to install") {
+TEST_CASE("a machine without a loader gets a message on what to install") {
   // A missing library, and one that is no loader.
   for (const char* library : {"/nonexistent/libvulkan.so.1", "libm.so.6"}) {
     const ProcessResult result = run_child("list", {{"EYERAY_VULKAN_LOADER", library}});

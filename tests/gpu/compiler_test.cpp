@@ -67,7 +67,7 @@ TEST_CASE("a syntax error has the column of the sign it is at, where the line ha
   CHECK(column("  { int a = 1 }") == 15);
 }
 
-TEST_CASE("what a registry's macro needs of a row is told in the row's file") {
+TEST_CASE("an error in a registry's row is reported in the row's file") {
   const std::string registry =
       head + "#include \"shapes/ball.glsl\"\n#define SHAPES(X) X(ball)\n#define HIT(name) name##_hit(1.0);\n";
   const auto told = [&](const std::string& ball) {

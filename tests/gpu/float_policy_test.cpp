@@ -97,7 +97,7 @@ TEST_CASE("float modes are declared on the entry point, and the module stays val
         count(plain, spv::OpExecutionMode) + 1);
 }
 
-TEST_CASE("what is not SPIR-V is refused") {
+TEST_CASE("words that are not SPIR-V are refused") {
   std::vector<uint32_t> words = compile(arithmetic);
   CHECK(error_of([] { gpu::decorate_no_contraction(std::vector<uint32_t>{1, 2, 3}); }).second ==
         ExitCode::bad_input);

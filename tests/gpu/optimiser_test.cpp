@@ -36,7 +36,7 @@ const std::string shortenable =
 
 }  // namespace
 
-TEST_CASE("of decorated arithmetic nothing is folded") {
+TEST_CASE("decorated arithmetic is not folded") {
   const std::vector<uint32_t> plain = word_kernel(shortenable);
   const std::vector<uint32_t> strict = gpu::decorate_no_contraction(plain);
   CHECK(arithmetic_in(gpu::optimise(strict)) == arithmetic_in(plain));
@@ -88,7 +88,7 @@ void main() {
   CHECK(spvtools::SpirvTools(SPV_ENV_VULKAN_1_1).Validate(optimised));
 }
 
-TEST_CASE("what inlining would make too large comes back as it was, at once") {
+TEST_CASE("a module that inlining would make too large comes back as it was, at once") {
   const auto doubling = [](int functions) {
     std::string text =
         "#version 450\nlayout(local_size_x = 1) in;\nlayout(std430, binding = 0) buffer Data { float data[]; "
@@ -103,7 +103,7 @@ TEST_CASE("what inlining would make too large comes back as it was, at once") {
   CHECK(gpu::optimise(many) == many);
 }
 
-TEST_CASE("what is not SPIR-V is not optimised") {
+TEST_CASE("words that are not SPIR-V are not optimised") {
   CHECK(error_of([] { gpu::optimise(std::vector<uint32_t>{1, 2, 3}); }).second == ExitCode::bad_input);
 }
 

@@ -30,7 +30,7 @@ gpu::Device& drawing_device() {
 
 }  // namespace
 
-TEST_CASE("a triangle covers the pixels whose centres it has, top left first, either way round") {
+TEST_CASE("a triangle covers the pixels whose centres it contains, top left first, for either winding") {
   for (const bool turned : {false, true}) {
     std::vector<gpu::RasterVertex> triangle = corner(0.5, 0.25, 7);
     if (turned) std::swap(triangle[0], triangle[1]);
@@ -49,7 +49,7 @@ TEST_CASE("a triangle covers the pixels whose centres it has, top left first, ei
   }
 }
 
-TEST_CASE("what is nearer is seen, whatever is drawn first; of what is as near, the first") {
+TEST_CASE("the nearer triangle is seen, whatever is drawn first; among equally near ones, the first") {
   const auto near = corner(1, 0.75, 1), far = corner(2, 0.5, 2), as_far = corner(2, 0.5, 3);
   for (const auto& order : {std::vector{near, far, as_far}, std::vector{far, as_far, near}}) {
     const gpu::RasterPicture picture = draw(drawing_device(), {order});

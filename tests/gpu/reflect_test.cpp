@@ -32,7 +32,7 @@ void main() { many[tile.x].b = once.inner[1].b + weight + once.direction.x; }
   CHECK(describe("Many") == "0: many@0");
 }
 
-TEST_CASE("a texel buffer is told from a storage buffer") {
+TEST_CASE("a texel buffer is distinguished from a storage buffer") {
   const gpu::Reflection reflection = gpu::reflect(compile(R"(#version 450
 layout(local_size_x = 1) in;
 layout(rgba32ui, binding = 4) readonly uniform uimageBuffer texels;

@@ -77,7 +77,7 @@ TEST_CASE("selections that only choose are gone, and every bit stays") {
   CHECK(results[0] == results[1]);
 }
 
-TEST_CASE("what has an effect, or may fault, is done only where it is asked for") {
+TEST_CASE("operations that have an effect, or may fault, run only where they are needed") {
   CHECK(left_of("uint x = data[0]; if (x > 3u) x = x * 2u; data[i] = x;") == 0);
   CHECK(left_of("uint x = data[0]; if (x > 3u) data[1] = 2u; data[i] = x;") == 1);  // a store
   CHECK(left_of("uint x = data[0]; if (x < 9u) x = data[x]; data[i] = x;") == 1);   // a load
@@ -90,7 +90,7 @@ TEST_CASE("what has an effect, or may fault, is done only where it is asked for"
   CHECK(left_of(parts) == (writes_whole_part(word_kernel(parts)) ? 1 : 0));
 }
 
-TEST_CASE("what is not SPIR-V is not flattened") {
+TEST_CASE("words that are not SPIR-V are not flattened") {
   CHECK(error_of([] { gpu::flatten_selections(std::vector<uint32_t>{1, 2, 3}); }).second ==
         ExitCode::bad_input);
 }

@@ -145,7 +145,7 @@ TEST_CASE("layers are chosen by name, and parts are layers") {
   CHECK(holds(read_image(corpus + "one_layer.exr", "beauty"), {0, 1, 2}));
 }
 
-TEST_CASE("what is no picture is refused, each with its own words") {
+TEST_CASE("files that are no pictures are refused, each with its own words") {
   CHECK(refusal_of(corpus + "layers.exr", "nrmal") ==
         "it has no layer 'nrmal', but there are depth, id, normal, uv");
   CHECK(refusal_of(corpus + "grey.exr", "id") == "it has no layer 'id'");

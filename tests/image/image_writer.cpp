@@ -106,7 +106,7 @@ TEST_CASE("flat pictures are short: runs are used where the format has them") {
   CHECK(std::filesystem::file_size(folder / "a.png") < 1000);
 }
 
-TEST_CASE("what is not finished leaves no trace, and the old file where it was") {
+TEST_CASE("an unfinished picture leaves no trace, and the old file where it was") {
   const TemporaryFolder folder;
   const Image image = mixed_image(20, 4, 3);
   for (const std::string name : {"a.png", "a.pfm", "a.hdr", "a.exr"}) {

@@ -154,7 +154,7 @@ TEST_CASE("rotations go evenly the shortest way, whatever their signs") {
   CHECK(at(coarse, 0.5).warnings.empty());
 }
 
-TEST_CASE("what nothing moves of a node stays, and what lies below moves with it") {
+TEST_CASE("keys of a node that nothing animates stay, and nodes below move with it") {
   GltfFile file = square_file();
   file.json["nodes"] = {{{"children", {1}}, {"translation", {0, 0, 5}}, {"scale", {9, 9, 9}}}, {{"mesh", 0}}};
   animate(file, {"scale", "", {0, 1}, {1, 1, 1, 3, 1, 1}});

@@ -293,7 +293,7 @@ TEST_CASE("a material that is not doubleSided is there, and shines, only in fron
   }
 }
 
-TEST_CASE("what is left out is named once, and counted") {
+TEST_CASE("parts left out are named once, and counted") {
   GltfFile file = with_material({{"occlusionTexture", {{"index", 0}}}});
   file.json["textures"].push_back(Json::object());
   file.json["materials"].push_back(file.json["materials"][0]);

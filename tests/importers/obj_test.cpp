@@ -56,7 +56,7 @@ TEST_CASE("wrong OBJ is refused at its line and column") {
   CHECK(contains(refusal("", "a.obj"), "no triangles"));
 }
 
-TEST_CASE("what cannot be seen is left out and counted") {
+TEST_CASE("faces that cannot be seen are left out and counted") {
   const std::string more = square + "v nan 0 0\nv inf 0 0\nv 1e999 0 0\nv 1e-999 0 1\nv 0.5 0 0\n";
   const ImportedScene scene =
       import_sound(more + "f 1 2 3\nf 1 2 5\nf 1 2 6\nf 1 2 7\nf 1 2 2\nf 1 9 2\nf 1 2\nf 1 2 8\n", "a.obj",

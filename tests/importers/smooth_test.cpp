@@ -24,7 +24,7 @@ size_t bent_normals(const Mesh& mesh) {
 
 }  // namespace
 
-TEST_CASE("faces that meet under a small angle are one surface") {
+TEST_CASE("faces that join at a small angle are one surface") {
   // Vertices are the same where their positions are: the hinge has eight, two of them twice, once as −0.
   const Mesh smooth = import_sound(hinge(30), "a.obj").meshes[0];
   CHECK(smooth.positions.size() == 8);

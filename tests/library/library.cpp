@@ -200,7 +200,7 @@ TEST_CASE("a render that is cancelled returns what it has, and the renderer goes
   CHECK(renderer().render(Scene::read(small)).complete());
 }
 
-TEST_CASE("what progress throws goes to who called") {
+TEST_CASE("an exception from progress reaches the caller") {
   const auto progress = [](const Progress&) -> bool { throw std::string("enough"); };
   CHECK_THROWS_AS(static_cast<void>(renderer().render(Scene::read(small), {.progress = progress})),
                   std::string);
@@ -327,7 +327,7 @@ TEST_CASE("verify reports what the program would") {
         }).kind() == ErrorKind::bad_input);
 }
 
-TEST_CASE("what a picture writes is what the program writes") {
+TEST_CASE("a picture writes the same file as the program") {
   const std::string folder = (std::filesystem::temp_directory_path() / "eyeray-library-XXXXXX").string();
   std::string made = folder;
   REQUIRE(mkdtemp(made.data()));

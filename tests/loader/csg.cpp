@@ -50,7 +50,7 @@ TEST_CASE("transforms of a part, of its CSG object, and of the group come one af
   CHECK(scene.shapes[0]->bounds().max.x == doctest::Approx(130));
 }
 
-TEST_CASE("where parts of an intersection lie beside each other there is nothing") {
+TEST_CASE("an intersection of separate parts is empty") {
   const Scene scene = parse(
       "[[csg]]\noperation = \"intersection\"\nmaterial = \"wall\"\n[[csg.sphere]]\nradius = 1\n"
       "batch = { center = [[0, 0, 0], [2.5, 0, 0]] }\n");

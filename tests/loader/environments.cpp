@@ -66,7 +66,7 @@ TEST_CASE("an environment's texels arrive, scaled and turned, from each kind of 
   CHECK_FALSE(load_scene(folder.write("none.toml", "")).environment);
 }
 
-TEST_CASE("what is no light is an error, with its count and its first place; a black one a warning") {
+TEST_CASE("texels that are no light are an error, with their count and first place; a black file a warning") {
   const test::Folder folder;
   const auto said = [&](const auto& spoil) {
     image::Image picture = gray(4, 3, 1);
@@ -90,7 +90,7 @@ TEST_CASE("what is no light is an error, with its count and its first place; a b
   CHECK(said([](image::Image& picture) { picture = gray(1, 1, 2); }) == "accepted");
 }
 
-TEST_CASE("what is no file of light is an error at its name") {
+TEST_CASE("a file that holds no light is an error at its name") {
   const test::Folder folder;
   CHECK(said_of(folder, "image = 'none.hdr'") ==
         "cannot read " + (folder / "none.hdr") + ": No such file or directory");

@@ -39,7 +39,7 @@ TEST_CASE("a batch shows a group once more for each transform; batches multiply"
   CHECK(std::abs(sum - (3 * (1 + 0.5 + 1) + 3 * 30)) < 1e-6);
 }
 
-TEST_CASE("what stands in no group comes first, so that its ids do not depend on groups") {
+TEST_CASE("objects in no group come first, so that their ids do not depend on groups") {
   const Scene scene = parse_walls("[[group]]\n" + sphere("group.sphere", 5) + sphere("sphere", 1));
   REQUIRE(scene.shapes.size() == 2);
   CHECK(std::abs(middle_x(*scene.shapes[0]) - 1) < 1e-12);

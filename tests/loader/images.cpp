@@ -53,7 +53,7 @@ std::string refusal(const std::string& scene, std::span<const Override> override
 
 }  // namespace
 
-TEST_CASE("what a texture says of its image arrives") {
+TEST_CASE("a texture's keys for its image arrive") {
   const Folder folder;
   const auto color = [&](const std::string& settings, const Vec2& uv) {
     const std::string scene = folder.write("scene.toml", scene_with("{ image = \"a.png\"" + settings + " }"));
@@ -135,7 +135,7 @@ TEST_CASE("images stay in the scene's folder tree, unless others are allowed") {
   }
 }
 
-TEST_CASE("what is no picture is an error at its name") {
+TEST_CASE("a file that is no picture is an error at its name") {
   const Folder folder;
   folder.write("text.png", "no picture");
   folder.write("short.png", read_file(picture).substr(0, 60));

@@ -51,7 +51,7 @@ TEST_CASE("included shapes come first; the including file's settings win") {
   CHECK(scene.shapes[0]->position.file == c);
 }
 
-TEST_CASE("errors of all files are told together, each at its place") {
+TEST_CASE("errors of all files are reported together, each at its place") {
   const Folder folder;
   const std::string main = folder.write("main.toml", "include = 'a.toml'\n[image]\nwidth = 0\n");
   const std::string a = folder.write("a.toml", "[image]\nheight = 0\n" + material + material);

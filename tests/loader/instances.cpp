@@ -48,7 +48,7 @@ TEST_CASE("a named group stands where instances name it, after its own transform
   CHECK(std::abs(middle_x(*scene.shapes[2]) - 12) < 1e-9);
 }
 
-TEST_CASE("of groups in groups, those are instanced that leave the least to keep") {
+TEST_CASE("among nested groups, those are instanced that leave the least to keep") {
   // 2 × 20 000 × 10 spheres: the inner group is; in the reverse order, the outer one.
   const auto nested = [](int outer, int inner, int spheres) {
     std::string text = "[[group]]\n" + batch(outer) + "[[group.group]]\n" + batch(inner);
@@ -137,7 +137,7 @@ TEST_CASE("a sphere in a stretched group is an ellipsoid") {
              "scene.toml:6:1: error: "));
 }
 
-TEST_CASE("what is wrong with patterns and instances is said where it stands") {
+TEST_CASE("errors in patterns and instances are reported at their place") {
   const std::string ball = "[[group]]\nname = \"ball\"\npattern = true\n" + sphere("group.sphere", 1);
   CHECK(says(refused(ball + "[[instance]]\ngroup = \"bal\"\n"),
              "scene.toml:12:9: error: no [[group]] is named \"bal\"; did you mean \"ball\"?"));
@@ -163,7 +163,7 @@ TEST_CASE("a group with a name that is no pattern stands where it is written, to
   CHECK(std::abs(middle_x(*scene.shapes[1]) - 11) < 1e-9);
 }
 
-TEST_CASE("what is instanced is called as its copies are") {
+TEST_CASE("an instanced object is named as its copies are") {
   const std::string text = sphere("sphere", 0) + "[[group]]\nname = \"cart\"\n" + batch(2) +
                            sphere("group.sphere", 1) + "name = \"wheel\"\n" + sphere("group.sphere", 2) +
                            "[[group]]\n" + batch(2) + sphere("group.sphere", 3);
@@ -212,7 +212,7 @@ TEST_CASE("named groups that double each time are refused, or instanced where th
   CHECK(says(refused(doubled(40)), "objects; at most 2147483647 can have ids"));
 }
 
-TEST_CASE("what stands in CSG objects counts among what is kept") {
+TEST_CASE("parts of CSG objects count as kept objects") {
   const std::string text =
       "[[group]]\n" + batch(10'000) +
       "[[group.csg]]\nmaterial = \"wall\"\n[[group.csg.minus.sphere]]\ncenter = [0, 0, 0]\n"
@@ -223,7 +223,7 @@ TEST_CASE("what stands in CSG objects counts among what is kept") {
 }
 
 // What stands in a group under a map that only the world knows, too thin, too far or bent too much there.
-TEST_CASE("what a group's map makes of shapes is legal or not, however the group is kept") {
+TEST_CASE("shapes under a group's map are legal or not, however the group is kept") {
   const struct {
     const char* group_map;
     const char* shape;

@@ -84,7 +84,7 @@ TEST_CASE("names are relative to the file that they stand in") {
   CHECK(load_scene(file, {&other, 1}).instances.size() == 1);
 }
 
-TEST_CASE("what is wrong with a mesh is an error at its key") {
+TEST_CASE("a fault in a mesh is an error at its key") {
   const Folder folder;
   folder.write("in/a.obj", square);
   folder.write("in/bad.obj", "v 0 0 0\nf 1 2 3\n");

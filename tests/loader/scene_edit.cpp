@@ -36,7 +36,7 @@ TEST_CASE("a value that is not there is a new line of its table, or a new table 
   CHECK(parse_scene(edited("[image]\nwidth = 8\n[verify]\n"), "scene.toml").verify.max_explained == 0.00042);
 }
 
-TEST_CASE("what is no TOML is told, and not touched") {
+TEST_CASE("text that is no TOML is reported, and not changed") {
   CHECK_THROWS_AS(edited("v 1 2 3\nf 1 2 3\n"), Error);
 }
 

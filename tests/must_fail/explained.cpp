@@ -60,7 +60,7 @@ TEST_CASE("an extreme between the usual places is looked for, in few pixels") {
   CHECK(unexplained(40) == 40);
 }
 
-TEST_CASE("what is not looked into fails, even where all that was looked into is explained") {
+TEST_CASE("unexamined pixels fail, even if all examined ones are explained") {
   // Seventy columns with an edge each: more than are looked into.
   const Reference stripes = [](int x, int y, const Vec2& shift, rounding::Chance) {
     Neighbour neighbour;

@@ -135,7 +135,7 @@ TEST_CASE("too many that part fail, all of them explained") {
   CHECK_FALSE(comparison.passes());
 }
 
-TEST_CASE("what is off by less than any sample may be, but everywhere, is found by its sums") {
+TEST_CASE("errors below any sample's tolerance, but everywhere, are found by their sums") {
   for (const bool everywhere : {true, false}) {
     Frame gpu = path_frame();
     for (int y = 0; y < picture_height; ++y)

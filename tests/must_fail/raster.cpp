@@ -37,7 +37,7 @@ void expect_noticed(const std::string& scene, const std::string& fault, int leas
 
 }  // namespace
 
-TEST_CASE("gate R sees every fault of geometry that changes what an eye ray hits") {
+TEST_CASE("gate R detects every fault of geometry that changes the hit of a camera ray") {
   expect_noticed("scenes/inside_glass.toml", "near_root", 1000);
   expect_noticed("scenes/meshes.toml", "edge", 100);
   expect_noticed("scenes/shapes/superellipsoid.toml", "steps", 100);

@@ -106,7 +106,7 @@ bool has_bvh(const std::string& file) {
 
 }  // namespace
 
-TEST_CASE("a few shapes are in a BVH where their tests have loops of their own") {
+TEST_CASE("a few shapes are in a BVH if their tests have loops") {
   CHECK(!has_bvh("scenes/shapes/cylinder.toml"));
   CHECK(has_bvh("scenes/shapes/polygon.toml"));
   CHECK(has_bvh("scenes/shapes/torus.toml"));

@@ -94,7 +94,7 @@ TEST_CASE("a rasteriser may be farther off in a sliver, and beyond a corner; a r
   CHECK(beyond(Viewer::rasteriser));
 }
 
-TEST_CASE("of two that are as near as depths tell, either may be seen") {
+TEST_CASE("either of two triangles at equal depths may be seen") {
   CHECK(possible({wall(1, 1), wall(1 - 1e-5, 2)}).allows(2, 1 - 1e-5));
   CHECK_FALSE(possible({wall(1, 1), wall(1 - 1e-4, 2)}).allows(2, 1 - 1e-4));
 }

@@ -54,7 +54,7 @@ TEST_CASE("a point on a pixel's ray falls on the pixel's centre, as near as its 
   }
 }
 
-TEST_CASE("what is nearer has more nearness, and moves farther aside") {
+TEST_CASE("a nearer point has more nearness, and is displaced by more pixels") {
   for (const Camera& camera : drawn_cameras()) {
     const View view(camera, picture_size, part);
     CHECK(view.nearness(3, 4, 1) > view.nearness(3, 4, 2));

@@ -85,7 +85,7 @@ TEST_CASE("a panorama's places are longitude and latitude, a cylinder's longitud
   CHECK(near(around.ray({300, 0}).d, glm::normalize(Vec3(1, M_PI / 2, 0)), 1e-15));
 }
 
-TEST_CASE("rays through a lens meet in the plane in focus") {
+TEST_CASE("rays through a lens intersect in the plane in focus") {
   PerspectiveCamera values{70};
   const Vec2 place(130, 20);
   const auto rays = [&] {

@@ -97,7 +97,7 @@ TEST_CASE("a lens: entered by the one ball, left by the other, normals outward")
   CHECK(lens->bounds().max.x == 1);
 }
 
-TEST_CASE("what is taken away shows its surface from within, of its own material") {
+TEST_CASE("a subtracted shape shows its surface from within, in its own material") {
   const auto box = make_csg(false, operands(made_of(make_box(Vec3(-1), Vec3(1)), 3)),
                             operands(made_of(make_sphere({-1, 0, 0}, 0.5), 5)));
   CHECK(ends(*box, along_x) == std::vector<double>{9.5, 11});

@@ -130,7 +130,7 @@ TEST_CASE("checks lie where uv say") {
   CHECK(at(-0.5, 0.5) == Vec3(1, 0, 0));
 }
 
-TEST_CASE("raycast: no shadows, no reflections; a lamp at the eye where there is no light") {
+TEST_CASE("raycast: no shadows, no reflections; a light at the eye if there is no other") {
   Scene scene = floor_seen_from({0, 3, 4}, make_mirror({.reflectance = gray(0.5)}));
   scene.render.integrator = IntegratorType::raycast;
   CHECK(near(look(scene).color, Vec3(0.5 * 0.6), 1e-15));

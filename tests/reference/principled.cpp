@@ -119,7 +119,7 @@ double mirrored_once(double f0, double roughness, double cosine) {
 
 }  // namespace
 
-TEST_CASE("a white principled surface sends on all light: metal, glass, coat and sheen in any shares") {
+TEST_CASE("a white principled surface scatters all light: metal, glass, coat and sheen in any shares") {
   for (const double metallic : {0.0, 0.25, 0.5, 0.75, 1.0})
     for (const double transmission : {0.0, 0.5, 1.0})
       for (const double roughness : {0.0, 0.3, 0.5, 0.8, 1.0})
@@ -139,7 +139,7 @@ TEST_CASE("a white principled surface sends on all light: metal, glass, coat and
             }
 }
 
-TEST_CASE("a blend of paint and metal sends on the blend of their light, to every side") {
+TEST_CASE("a blend of paint and metal scatters the blend of their light, to every side") {
   for (const double roughness : {0.2, 0.6, 1.0})
     for (const double color : {0.2, 0.9}) {
       const Vec3 o = direction_of(0.7);
@@ -156,7 +156,7 @@ TEST_CASE("a blend of paint and metal sends on the blend of their light, to ever
     }
 }
 
-TEST_CASE("rough metal mirrors by one microfacet as an integral of its own has it, and the rest evenly") {
+TEST_CASE("rough metal mirrors by one microfacet as a separate integral does, and the rest evenly") {
   for (const double roughness : {0.4, 0.7, 1.0})
     for (const double cosine : {0.9, 0.4})
       for (const double color : {1.0, 0.5}) {

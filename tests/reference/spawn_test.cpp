@@ -130,7 +130,7 @@ TEST_CASE("of equal hits the lowest primitive wins") {
   CHECK(reference::Renderer(scene).first_hit(0, 0).primitive == -1);
 }
 
-TEST_CASE("a surface that float32 cannot tell from the nearest one is its coincident one") {
+TEST_CASE("a surface that float32 cannot distinguish from the nearest one is coincident with it") {
   const auto coincident = [](double behind) {
     Scene scene = one_pixel({0, 0, 5}, {0, 0, 0});
     const int paint = add(scene, make_phong({}));

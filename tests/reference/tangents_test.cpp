@@ -51,7 +51,7 @@ TEST_CASE("tangents run along u; where the picture is mirrored, vertices are spl
   }
 }
 
-TEST_CASE("a tangent is square to the normal, and there is one where uv say nothing") {
+TEST_CASE("a tangent is perpendicular to the normal, and exists where uv give none") {
   Scene scene = squares(false);
   scene.materials[0]->normal_map = NormalMap{textures::make_constant(Vec3(0.5, 0.5, 1)), 1};
   for (Vec3& normal : scene.meshes[0].normals) normal = glm::normalize(Vec3(0.3, 0.2, 1));

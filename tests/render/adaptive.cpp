@@ -84,7 +84,7 @@ TEST_CASE("pixels stop where they are good: at once, after what their variance w
   }
 }
 
-TEST_CASE("the noise that is told is the noise there is") {
+TEST_CASE("the reported noise is the actual noise") {
   const Scene scene = scene_of(480, 160, 128);
   NoisyExecutor executor;
   RenderOptions options = until(0, 160, 480);

@@ -74,7 +74,7 @@ TEST_CASE("rows are handed on from the top down, each once, in a crop too") {
   }
 }
 
-TEST_CASE("progress tells the band, the sample, and how much of all is done") {
+TEST_CASE("progress reports the band, the sample, and the share of the work done") {
   const Scene scene = scene_of(10, 7, 4);
   FakeExecutor executor;
   RenderOptions options = in_bands(scene, 3);

@@ -256,7 +256,7 @@ TEST_CASE("… at more roughnesses and angles" * doctest::test_suite("long")) {
   check_samples({0.2, 0.5, 1.0}, {1.0, 0.75, 0.35, 0.1, grazing}, 1'000'000);
 }
 
-TEST_CASE("no BSDF sends on more light than it gets") {
+TEST_CASE("no BSDF scatters more light than it gets") {
   for (const double roughness : {0.0, 0.1, 0.3, 0.6, 1.0})
     for (const Named& example : examples(roughness))
       for (const double cosine : std::span(cosines).first(size_t(amount(2, 5, 5)))) {

@@ -212,7 +212,7 @@ TEST_CASE("what is seen under next to nothing, or from its own plane, is chosen 
   }
 }
 
-TEST_CASE("a place on a lamp is never beside it, wherever it is chosen from") {
+TEST_CASE("a sampled point of an area light is never outside of it, from wherever it is sampled") {
   Random random(11);
   int beside = 0;
   for (int i = 0; i < 200'000; ++i) {

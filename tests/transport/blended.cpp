@@ -97,7 +97,7 @@ TEST_CASE("a mirror shows blended layers, and rays behind it decide anew") {
   }
 }
 
-TEST_CASE("a blended lamp shines by its alpha; one behind panes too") {
+TEST_CASE("a blended area light shines by its alpha; one behind panes too") {
   for (const bool pane : {false, true}) {
     CAPTURE(pane);
     Scene scene = floor(4096);

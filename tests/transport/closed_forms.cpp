@@ -184,7 +184,7 @@ TEST_CASE("an environment L cosⁿ θ above the horizon: E = 2π L / (n + 2); an
   check(scene, shown(2 * M_PI * 3 / 32), 1e-3);
 }
 
-TEST_CASE("an environment and lamps beside it, whatever share of the choices each has") {
+TEST_CASE("an environment and area lights beside it, whatever probability each has") {
   for (const double share : {0.1, 0.5, 0.95}) {
     Scene scene = floor(1024);
     const auto around = environment(16, 8, [](const Vec3&) { return Vec3(0.5); });
@@ -225,7 +225,7 @@ TEST_CASE("two endless walls that face each other: L₁ = L / (1 − ρ₁ρ₂)
   check(scene, 0.6 / (1 - 0.5 * 0.6), 1e-4);
 }
 
-TEST_CASE("inside a sphere: light of its own, and a point's") {
+TEST_CASE("inside a sphere: emitted light, and a point's") {
   Scene own = patch({0.1, 0.2, 0.3}, {0.1, 0, -2}, 256);
   own.render.max_depth = 64;
   add(own, make_sphere({0, 0, 0}, 2), add(own, make_phong({.diffuse = gray(0.6), .emission = gray(1)})));
@@ -239,7 +239,7 @@ TEST_CASE("inside a sphere: light of its own, and a point's") {
   check(point, 0.6 / M_PI * (direct + 0.6 * mean / (1 - 0.6)), 1e-4);
 }
 
-TEST_CASE("glass takes nothing: a ball of it in a furnace, and a pane before a lamp") {
+TEST_CASE("glass takes nothing: a ball of it in a furnace, and a pane before an area light") {
   Scene ball = patch({0, 0, 4}, {0.3, 0.4, 0}, 1024);
   ball.render.background = Vec3(1);
   ball.render.max_depth = 64;
@@ -254,7 +254,7 @@ TEST_CASE("glass takes nothing: a ball of it in a furnace, and a pane before a l
   check(pane, 0.923077, 1e-5);
 }
 
-TEST_CASE("a lamp between two mirrors shows Σ rⁿ") {
+TEST_CASE("an area light between two mirrors shows Σ rⁿ") {
   Scene scene = patch({0, 0, 0.5}, {0, 0, 0}, 1024);
   scene.render.max_depth = 64;
   const int mirror = add(scene, make_mirror({.reflectance = gray(0.9)}));
@@ -276,7 +276,7 @@ TEST_CASE("a white ball in the sun behind the eye: two thirds of it") {
     CHECK(estimate(scene, backend).mean == doctest::Approx(M_PI / 4 * 2.0 / 3 * albedo).epsilon(1e-3));
 }
 
-TEST_CASE("N lamps on a ring are N times one; one behind a wall is none") {
+TEST_CASE("N area lights on a ring are N times one; one behind a wall is none") {
   const auto ring = [](int lamps, int hidden) {
     Scene scene = floor(1024);
     const int material = lamp(scene);

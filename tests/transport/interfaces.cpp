@@ -37,7 +37,7 @@ TEST_CASE("interfaces: the light of a sun that a box of air scatters once") {
         1e-4);
 }
 
-TEST_CASE("interfaces: all light of a lamp comes through, whoever finds it") {
+TEST_CASE("interfaces: all light of an area light comes through, whichever strategy finds it") {
   for (const int slabs : {1, 6}) {
     CAPTURE(slabs);
     Scene scene = floor(slabs == 6 ? 2560 : 256);

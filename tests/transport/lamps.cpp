@@ -100,7 +100,7 @@ TEST_CASE("a cylinder, and a tube that stands upright, above the floor") {
   check(tube, shown(M_PI * (0.25 / 1.25 - 0.25 / 9.25)));
 }
 
-TEST_CASE("inside a body that shines: L / (1 − ρ)") {
+TEST_CASE("inside an emitting body: L / (1 − ρ)") {
   const auto inside = [](std::unique_ptr<Shape> body) {
     Scene scene = patch({0.1, 0.2, 0.15}, {0.1, -0.3, -0.4}, 256);
     scene.render.max_depth = 64;
@@ -112,7 +112,7 @@ TEST_CASE("inside a body that shines: L / (1 − ρ)") {
   inside(make_cylinder({0, -0.5, 0}, {0, 0.6, 0}, 0.7));
 }
 
-TEST_CASE("a lamp with a front lights what is before it, and is dark from behind") {
+TEST_CASE("a one-sided area light shines in front, and is dark from behind") {
   const Vec3 a(-0.5, 0.6, 0.2), u(1.2, 0.5, 0.2), v(0.6, 0.3, 1);
   const double of_both = irradiance_of({a, a + u, a + u + v, a + v}),
                of_triangle = irradiance_of({a, a + u, a + v});
@@ -162,7 +162,7 @@ TEST_CASE("a lamp with a front lights what is before it, and is dark from behind
   check(behind, 0);
 }
 
-TEST_CASE("lamps next to the floor: what Lambert says, with little noise") {
+TEST_CASE("area lights next to the floor: Lambert's formula, with little noise") {
   const auto lit = [](std::unique_ptr<Shape> shape, const std::vector<Vec3>& corners) {
     Scene scene = floor(64);
     scene.camera.eye = {0.15, 0.04, 0.1};
@@ -190,7 +190,7 @@ TEST_CASE("lamps next to the floor: what Lambert says, with little noise") {
   lit(make_triangle({.vertices = {a, b, c}}), {a, b, c});
 }
 
-TEST_CASE("a lamp with a picture: each part as bright as it is") {
+TEST_CASE("a textured area light: each part is as bright as its texel") {
   const Vec3 a(-0.5, 0.6, 0.2), u(1.2, 0.5, 0.2), v(0.6, 0.3, 1);
   const double left = irradiance_of({a, a + u / 2.0, a + u / 2.0 + v, a + v}),
                right = irradiance_of({a + u / 2.0, a + u, a + u + v, a + u / 2.0 + v});
@@ -250,7 +250,7 @@ TEST_CASE("a lamp with a picture: each part as bright as it is") {
   check(globe, shown(4 * M_PI * 0.25 / 4), 1e-4);
 }
 
-TEST_CASE("lamps of a group that is instanced: each where it stands") {
+TEST_CASE("area lights of an instanced group: each where it stands") {
   Scene scene = floor(1024);
   const int material = lamp(scene);
   Group group;

@@ -54,7 +54,7 @@ TEST_CASE("a spot's power is that of its cone") {
   CHECK(light_choice(scene).share(0) == doctest::Approx(15.0 / 16 * part + 1.0 / 32).epsilon(1e-5));
 }
 
-TEST_CASE("what emits and has no place to choose is told, with holes or of other shapes") {
+TEST_CASE("emitters that cannot be sampled are reported: with holes, or of other shapes") {
   Scene scene = empty_scene();
   add(scene, make_torus({0, 0, 0}, {0, 1, 0}, 1, 0.2), lamp(scene, 1));
   const int checkered =
@@ -67,7 +67,7 @@ TEST_CASE("what emits and has no place to choose is told, with holes or of other
   CHECK(emitters(scene).unsampled.size() == 2);
 }
 
-TEST_CASE("a lamp without power has its share, and more than 2^20 are refused") {
+TEST_CASE("an area light without power has its share, and more than 2^20 are refused") {
   Scene scene = empty_scene();
   scene.render.light_sampler = LightSampler::power;
   scene.meshes.push_back({.name = "",

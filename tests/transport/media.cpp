@@ -49,7 +49,7 @@ double henyey_greenstein(double g, double cosine) {
 
 }  // namespace
 
-TEST_CASE("what absorbs around all: light is weakened to the eye, and from a lamp") {
+TEST_CASE("absorption around all: light is weakened to the eye, and from an area light") {
   Scene scene = patch({0.4, 0.9, 0.5}, {0, 0, 0}, 4);
   scene.render.max_depth = 0;
   scene.medium.absorption = Vec3(0.3, 0, 0);
@@ -58,7 +58,7 @@ TEST_CASE("what absorbs around all: light is weakened to the eye, and from a lam
   check(scene, 0.8 * 3 / 4 * std::exp(-0.3 * (2 + glm::length(scene.camera.eye))), 1e-5);
 }
 
-TEST_CASE("a lamp and a floor within an absorbing medium: their light too is weakened") {
+TEST_CASE("an area light and a floor within an absorbing medium: their light too is weakened") {
   Scene scene = patch({0.4, 0.9, 0.5}, {0, 0, 0}, 4);
   scene.render.max_depth = 0;
   add(scene, make_sphere({0, 0, 0}, 10), add(scene, make_dielectric({.absorption = Vec3(0.3)})));
@@ -82,7 +82,7 @@ TEST_CASE("a white medium in a furnace is not seen, whatever it scatters") {
   }
 }
 
-TEST_CASE("a white medium within a lamp: shadow rays and paths share one light") {
+TEST_CASE("a white medium within an area light: shadow rays and paths share one light") {
   for (const double g : {0.0, 0.9, -0.7}) {
     CAPTURE(g);
     Scene scene = patch({0.1, 0.2, 0.3}, {0.1, 0, -2}, 1024);

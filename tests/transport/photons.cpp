@@ -65,7 +65,7 @@ double brought(const reference::PhotonMap& map, int depth) {
 
 }  // namespace
 
-TEST_CASE("what one surface sends on is as in paths: no photon counts twice") {
+TEST_CASE("light scattered by one surface is as in paths: no photon counts twice") {
   Scene scene = by_photons(floor(), 256, 0.1, 64, 0);
   add_point_light(scene, {0, 2, 0}, Vec3(3), Falloff::inverse_square);
   check_photons(scene, albedo * 3 / 4, 1e-4);
@@ -116,7 +116,7 @@ TEST_CASE("a wall lights a floor as paths say it does; bias falls with the radiu
   check_wall(WallLight::sun, Backend::twin, 1 << 14, 64, 0.02);
 }
 
-TEST_CASE("a wall lights a floor as paths say it does, whatever the lamp" * doctest::test_suite("long")) {
+TEST_CASE("a wall lights a floor as with paths, whatever the area light" * doctest::test_suite("long")) {
   for (const WallLight light : {WallLight::sphere, WallLight::ring, WallLight::parallelogram, WallLight::box,
                                 WallLight::triangle, WallLight::spot, WallLight::environment, WallLight::sun})
     for (const Backend backend : {Backend::twin, Backend::reference})
