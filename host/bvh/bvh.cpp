@@ -13,7 +13,7 @@
 namespace eyeray::engine::bvh {
 namespace {
 
-// How much more a test of an item costs than one of a node's two boxes.
+// The cost of testing an item, relative to that of a node's two boxes.
 constexpr float node_cost = 1.0f;
 constexpr float item_cost = 1.0f;
 // Embree makes leaves of whatever is left there; ours may go a little deeper.
@@ -55,7 +55,7 @@ void set_bounds(RTCBounds& bounds, const Box& box) {
   bounds.upper_z = box.upper.z;
 }
 
-// What Embree calls back with. `user`: the BvhOptions.
+// Callbacks of Embree. `user`: the BvhOptions.
 void* create_node(RTCThreadLocalAllocator allocator, unsigned, void*) {
   auto* node = static_cast<BuildInner*>(rtcThreadLocalAlloc(allocator, sizeof(BuildInner), 16));
   node->leaf = false;
@@ -204,7 +204,7 @@ class Flattener {
   Bvh bvh_;
 };
 
-// What Embree builds from, and sorts.
+// The items from which Embree builds, and which it sorts.
 struct BuildItems {
   RawVector<RTCBuildPrimitive> all;  // and room for what splits add
   size_t count;

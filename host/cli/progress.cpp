@@ -1,4 +1,4 @@
-// How far a render has come.
+// Shows the progress of a render.
 #include <fmt/ranges.h>
 
 #include <cstdio>

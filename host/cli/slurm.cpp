@@ -110,7 +110,7 @@ slurm::Array SlurmCommand::array_of(const std::string& scene) const {
   return array;
 }
 
-// How far a picture is and what became of its jobs, and which were `submitted` now.
+// Prints the progress of a picture, the states of its jobs, and the jobs `submitted` now.
 void print(const slurm::Array& array, const slurm::ArrayState& state,
            const std::vector<std::string>& submitted) {
   const size_t there = size_t(array.shards) - state.missing.size();

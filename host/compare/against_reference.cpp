@@ -17,8 +17,8 @@ struct Judgement : PixelOutcome {
 
 constexpr int64_t always_allowed = 4;     // so that a small crop around an edge can pass
 constexpr size_t examined_at_once = 256;  // so that failures are reported soon
-// Where a colour runs to and fro, the usual places may all miss its extreme: pixels that they leave
-// unexplained, if these are few, are looked at again at more places.
+// Where a colour oscillates, the usual positions may all miss its extreme. If they leave only few pixels
+// unexplained, these are examined again at more positions.
 constexpr int usual_angles = 16;
 constexpr int many_angles = 256;
 constexpr size_t few = 32;

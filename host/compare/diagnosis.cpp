@@ -1,4 +1,4 @@
-// Where a fault is to be looked for, from which executors part and at which value.
+// Derives the place of a fault from the executors that diverge and the value at which they do.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -41,7 +41,7 @@ std::string side(const Report& report) {
       pair.other);
 }
 
-// What is wrong first along the life of a ray.
+// The first wrong value along the life of a ray.
 std::string place(const ReferenceResult& result) {
   const ReferenceComparison& c = result.comparison;
   const std::span<const TallyType> types = c.types();

@@ -21,7 +21,7 @@ double tone_mapped(double x) {
   return std::clamp((k0 * x + k1) * x / ((k3 * x + k4) * x + k5), 0.0, 1.0);
 }
 
-// What the tone mapper makes `shown` of.
+// The luminance that the tone mapper maps to `shown`.
 double brightest_shown() {
   const double a = k0 - shown * k3, b = k1 - shown * k4, c = -shown * k5;
   return -b / (2 * a) + std::sqrt(b * b / (4 * a * a) - c / a);

@@ -31,8 +31,8 @@ Sums sums_of(const Frame& value, const Frame& reference, const Rect& tile) {
   return sums;
 }
 
-// How many pixels of the tile show a place within that distance of what one of them shows, at most. All are
-// asked, or of many some, evenly: neighbours have nearly as many.
+// The largest number of the tile's pixels that show a point within that distance of the point of one of them.
+// All pixels are counted, or an even selection of many: neighbours have nearly equal numbers.
 double most_near(const Frame& frame, const Rect& tile, double distance) {
   constexpr int asked_along = 16;
   std::vector<Vec3> places;

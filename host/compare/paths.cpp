@@ -30,7 +30,8 @@ struct Apart : PixelOutcome {
   double excess;
 };
 
-// Where two paths part. Neither is a part of the other: both end with an event that says so.
+// The index at which two paths diverge. Neither is a prefix of the other: both end with an event for their
+// end.
 size_t parting_of(const Events& a, const Events& b) {
   return size_t(std::ranges::mismatch(a, b).in1 - a.begin());
 }
@@ -161,7 +162,7 @@ class PathJudge {
     });
   }
 
-  // The same path brings other light: the reference's must vary as much, nearby.
+  // If the same path brings different light, the reference's light must vary as much nearby.
   void judge_steep(Apart& sample, int angles, bool between) const {
     const Neighbourhood around(paths_.around(int(sample.sample % each_)), pixel_of(sample.sample), angles,
                                between);

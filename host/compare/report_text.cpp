@@ -126,7 +126,7 @@ void add(std::string& text, const Report& report, const RasterResult& result) {
                                       in_words(report.primitives, result.drawn), result.drawn_t));
 }
 
-// What was drawn is the same for all.
+// The drawing is the same for all executors.
 void add_drawing(std::string& text, const RasterResult& result) {
   line(text, "  rasteriser: {}, {} triangles{}", result.device, result.triangles,
        result.not_drawn.empty() ? "" : "; not drawn: " + numbered(result.not_drawn));
@@ -192,7 +192,7 @@ std::string to_text(const Report& report) {
   if (const std::string diagnosis = report.diagnosis(); !diagnosis.empty())
     line(text, "  diagnosis: {}", diagnosis);
 
-  // Who took part, and every gate in detail.
+  // The participants, and every gate in detail.
   for (const Participant& p : report.participants) {
     line(text, "  {} ({} rays in {:.3g} s)", p.description, p.rays, p.seconds);
   }
@@ -219,7 +219,7 @@ std::string to_text(const Report& report) {
   for (const RasterResult& result : report.raster) add(text, report, result);
   if (report.golden) add(text, report, *report.golden);
 
-  // What to do next.
+  // The next command to run.
   if (const std::string command = report.command_to_look(); !command.empty())
     line(text, "  look closer: {}\n  its rays: {}", command, report.command_to_probe());
   if (!report.kept.empty()) line(text, "  pictures and the command line are kept in {}", report.kept);

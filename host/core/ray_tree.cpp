@@ -12,7 +12,8 @@ bool RayRecorder::has_room() {
 
 void RayRecorder::ray(RayKind kind, uint32_t number, uint32_t depth) {
   if (!has_room()) return;
-  // How many rays lead to it. One that skips a depth, as an integrator of a user's may, follows the last.
+  // The number of rays that lead to it. A ray that skips a depth, as a user's integrator may, follows the
+  // last one.
   const size_t before = std::min(size_t(depth) + (kind == RayKind::shadow), last_of_depth_.size());
   const size_t parent = before == 0 ? 0 : last_of_depth_[before - 1];
   current_ = tree_.rays.size();

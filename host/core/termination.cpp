@@ -29,7 +29,7 @@ constexpr double grace_seconds = 0.3;
 constexpr int64_t tick = second / 50;  // of the watch, while it measures time
 constexpr size_t stack_bytes = 256 << 10;
 
-// What a signal handler may touch.
+// The variables that a signal handler may access.
 std::atomic<int64_t> first_signal = 0;  // when it came, on the monotonic clock; 0: none did
 std::atomic<int> signal_number = SIGINT;
 std::atomic<bool> insisted = false;

@@ -11,7 +11,7 @@
 namespace eyeray::engine::dev {
 namespace {
 
-// How long a band of rows should take: what is seen grows so smoothly, and an edit waits so long.
+// The wanted time of a band of rows: the picture then grows smoothly, and an edit waits no longer.
 constexpr double wanted_seconds = 0.04;
 constexpr int first_pixels = 4096;  // of the first band
 constexpr int coarse_stride = 8;

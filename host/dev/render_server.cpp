@@ -115,7 +115,7 @@ void RenderServer::load(const Json& request) {
                           {"high", each.high},
                           {"written", each.written},
                           {"value", each.written}});
-  // What has sliders is about to move.
+  // A shader with sliders is about to change.
   own_kernel_ = request.value("shaders_changed", true) && tunables.empty();
   Json files = Json::array();
   for (const auto& file : scene_->files) files.push_back(file.string());
@@ -154,7 +154,7 @@ executors::Executor& RenderServer::executor_for(const View& view) {
   try {
     executor = executors::make_executor(view.backend, *scene_, options);
   } catch (const InputError&) {
-    // What moves may stand where the language wants a constant.
+    // A tunable may stand where the language requires a constant.
     if (tunables_->found().empty() || tunables_->as_constants) throw;
     tunables_->as_constants = true;
     executor = executors::make_executor(view.backend, *scene_, options);

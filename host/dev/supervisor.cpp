@@ -21,7 +21,7 @@ namespace {
 
 constexpr double seconds_between_looks = 1;
 constexpr double patience = 5;  // beyond the worker's own time-out
-// How long what is outdated may go on: the worker may be in a driver's compiler, or wait for a device.
+// The time for which outdated work may go on: the worker may be in a driver's compiler, or wait for a device.
 constexpr double grace = 1.5;
 
 // All shaders below a folder: the files that might be read, if the files read are unknown.
@@ -251,7 +251,7 @@ void Supervisor::handle(const Message& message) {
 void Supervisor::fail(Json failure) {
   result_ = ExitCode(failure.value("code", 2));
   if (std::exchange(probing_, false)) probe_.reset();  // it would fail again
-  // What the attempt read is not known; its messages name some of it.
+  // The files that the attempt read are not known; its messages name some of them.
   for (const Json& diagnostic : failure.value("diagnostics", Json::array()))
     scene_files_.insert(diagnostic.value("file", ""));
   for (const fs::path& shader : shaders_in(options_.shader_folder)) shader_files_.insert(shader);

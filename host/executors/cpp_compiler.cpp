@@ -101,7 +101,7 @@ Environment sanitizer_environment(const std::string& sanitizers) {
     const char* const own = std::getenv(name);
     environment.emplace_back(name, own ? options + ":" + own : options);
   };
-  // What the driver and this program never give back is not the shaders'.
+  // Leaks of the driver and of this program are not the shaders'.
   add("ASAN_OPTIONS", "detect_leaks=0:exitcode=2");
   add("UBSAN_OPTIONS", "print_stacktrace=1:exitcode=2");
   if (!has_address(sanitizers)) return environment;

@@ -199,7 +199,7 @@ class TwinExecutor final : public Twin {
   twin::SceneView view_{};
   Vec3 eye_;
 
-  // Where the scene's integrator gathers photons: those of one sample.
+  // The photons of one sample, if the scene's integrator gathers photons.
   std::optional<PhotonSettings> photon_settings_;
   std::optional<uint32_t> photons_of_;
   shader::PhotonPass photon_pass_{};

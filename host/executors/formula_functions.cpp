@@ -14,7 +14,7 @@ using expression::LoadedNumbers;
 using formula::FormulaKind;
 using records::PackedFormula;
 
-// How rays find the surface of formula `i`.
+// The functions with which rays find the surface of formula `i`.
 std::string surface_functions(size_t i, const PackedFormula& packed, LoadedNumbers* numbers) {
   const formula::Formula& formula = *packed.formula;
   if (packed.by_bounds) {

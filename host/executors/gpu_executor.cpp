@@ -146,7 +146,7 @@ class GpuExecutor final : public Executor {
     });
   }
 
-  // Those of sample `index`, if there are to be any. Returns false when interrupted.
+  // Emits the photons of sample `index`, if there are any. Returns false if interrupted.
   bool send_out_photons(uint32_t index) {
     return !photons_ || photons_->send_out(index, options_.left_out.of(index));
   }

@@ -6,7 +6,8 @@
 namespace eyeray::engine::executors {
 namespace {
 
-// A capped driver grants an invocation 65 535 iterations. We count on this many of them (docs/lavapipe.md).
+// A capped driver grants an invocation 65 535 iterations. This many of them are relied upon
+// (docs/lavapipe.md).
 constexpr uint64_t granted_iterations = 60000;
 
 }  // namespace

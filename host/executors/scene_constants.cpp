@@ -23,7 +23,7 @@ std::string literal(float x) {
 std::string literal(uint32_t x) {
   return fmt::format("{}u", x);
 }
-// What is GLSL already.
+// Text that is GLSL already.
 std::string literal(std::string_view text) {
   return std::string(text);
 }

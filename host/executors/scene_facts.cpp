@@ -37,7 +37,7 @@ bool any_reflects(const records::PackedScene& scene) {
 }  // namespace
 
 bool varies(const records::PackedScene& scene, const shader::Material& material) {
-  // What bends normals asks at least how uv grow.
+  // Materials that bend normals need at least the gradients of uv.
   return bends(material) ||
          std::ranges::any_of(rows::material_textures, [&](const rows::MaterialTexture& one) {
            const uint32_t index = material.*one.texture;

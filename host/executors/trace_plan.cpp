@@ -8,8 +8,8 @@
 namespace eyeray::engine::executors {
 namespace {
 
-// Where a triangle is less than a pixel, rays of a packet hardly share a leaf: beyond so many primitives each
-// ray goes alone, unless packets are asked for (docs/performance.md).
+// If triangles are smaller than pixels, rays of a packet hardly share a leaf: beyond so many primitives each
+// ray is traced alone, unless packets are requested (docs/performance.md).
 constexpr size_t most_in_packets = 1 << 20;
 // Pictures take packets where they save more than their kernels take to make: of so many samples, and up to
 // so many primitives.

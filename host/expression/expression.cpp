@@ -127,7 +127,7 @@ Term Expression::folded(Op op, Term x, Term y) {
     for (const double from_a : {a - ea, a + ea})
       for (const double from_b : {b - eb, b + eb})
         error = std::max(error, std::abs(compute(op, from_a, from_b, 0) - result));
-  // What these compute of numbers without error has none that counts; sums and products of whole numbers none
+  // These operations on exact numbers have no error that counts. Sums and products of whole numbers have none
   // at all.
   const bool exact = std::abs(result) < 0x1p24 && result == std::round(result * 256) / 256;
   return constant(result, exact ? error : error * (1 + 1e-6) + 1e-15 * std::abs(result));
@@ -136,7 +136,7 @@ Term Expression::folded(Op op, Term x, Term y) {
 Term Expression::apply(Op op, Term x, Term y, Term z) {
   const Term simple = simplified(op, x, y, z);
   if (simple != no_term) return simple;
-  // The same sum by another order is the same step.
+  // A sum in another order is the same step.
   const bool commutes = op == Op::add || op == Op::multiply || op == Op::minimum || op == Op::maximum ||
                         op == Op::equal || op == Op::both || op == Op::either;
   if (commutes && y < x) std::swap(x, y);

@@ -146,7 +146,7 @@ void Execution::run_instruction(Call& call, const Instruction& instruction) {
   if (run_memory(call, instruction) || run_composite(call, instruction) || run_branch(call, instruction))
     return;
 
-  // What is left computes.
+  // The remaining instructions compute.
   const Type& type = module_.type(instruction.type);
   std::optional<Value> result;
   if (instruction.op == spv::OpExtInst) {

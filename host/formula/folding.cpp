@@ -31,7 +31,7 @@ bool computes(const Instruction& instruction) {
   }
 }
 
-// Those of its words that are values.
+// The words of the instruction that are values.
 std::span<const uint32_t> operands(const Instruction& instruction) {
   const std::span<const uint32_t> words = instruction.words;
   switch (instruction.op) {

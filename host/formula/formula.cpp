@@ -77,7 +77,7 @@ std::string constants(const std::vector<FormulaParameter>& parameters, std::stri
 constexpr const char* main_file = "formula.comp";
 constexpr const char* text_file = "text";
 
-// What glslang makes of a text, and of the declarations before it.
+// The SPIR-V that glslang makes from a text and the declarations before it.
 std::vector<uint32_t> spirv_of(FormulaKind kind, bool has_other, const std::string& before,
                                const std::string& text) {
   gpu::ShaderSource source{main_file, {}};
@@ -116,7 +116,7 @@ Diagnostic located(const FormulaText& text, int line, int column, std::string me
   return diagnostic;
 }
 
-// What a compiler said, with the names as they were written.
+// A compiler's message, with the names as they were written.
 std::string without_prefix(std::string_view message) {
   std::string result;
   while (!message.empty()) {
@@ -128,7 +128,7 @@ std::string without_prefix(std::string_view message) {
   return result;
 }
 
-// The same text with the same parameters is compiled once for as long as somebody has it.
+// One text with equal parameters is compiled once, for as long as it is in use.
 std::shared_ptr<const Compiled> compiled(FormulaKind kind, const Text& text,
                                          const std::vector<FormulaParameter>& parameters,
                                          std::vector<Fault>& faults) {
@@ -137,7 +137,7 @@ std::shared_ptr<const Compiled> compiled(FormulaKind kind, const Text& text,
   const std::string entry = mangled(entry_of(kind)), key = entry + constants(parameters, "") + text.glsl();
   const std::scoped_lock lock(mutex);
   std::erase_if(known, [](const auto& known_text) { return known_text.second.expired(); });
-  // Who has it may let go of it meanwhile.
+  // Its owner may release it meanwhile.
   if (const auto found = known.find(key); found != known.end())
     if (auto still_there = found->second.lock()) return still_there;
 
@@ -188,7 +188,7 @@ Formula::Formula(FormulaText text, std::vector<FormulaParameter> parameters, std
 
 Formula::~Formula() = default;
 
-// What a compiler said of Text::glsl() as said of the user's text.
+// Converts a compiler's errors in Text::glsl() to errors in the user's text.
 std::vector<Diagnostic> Formula::in_text(const InputError& error, const Text& text) const {
   std::vector<Diagnostic> diagnostics;
   for (const Diagnostic& said : error.diagnostics()) {

@@ -71,7 +71,7 @@ class Formulas {
   Expression& expression_;
 };
 
-// Those of one number.
+// Functions of one number.
 std::optional<Term> of_one(Formulas& f, Expression& expression, uint32_t function, Term x) {
   switch (function) {
     case GLSLstd450FAbs:
@@ -128,7 +128,7 @@ std::optional<Term> of_one(Formulas& f, Expression& expression, uint32_t functio
   }
 }
 
-// Those of two or three, component by component.
+// Functions of two or three numbers, component by component.
 std::optional<Term> of_more(Formulas& f, Expression& expression, uint32_t function, Term x, Term y, Term z) {
   switch (function) {
     case GLSLstd450Atan2:
@@ -163,7 +163,7 @@ std::optional<Term> of_more(Formulas& f, Expression& expression, uint32_t functi
   }
 }
 
-// Those of whole vectors.
+// Functions of whole vectors.
 std::optional<Value> of_vectors(Formulas& f, Expression& expression, uint32_t function,
                                 const std::vector<Value>& from) {
   const Value& a = from[0];

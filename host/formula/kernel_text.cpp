@@ -343,8 +343,8 @@ class Writer {
     close();
   }
 
-  // What follows each turn stands at its end, or, where a turn may go on from elsewhere, at the start of the
-  // next.
+  // The code after each iteration stands at its end, or at the start of the next one if an iteration may
+  // continue from elsewhere.
   void write(const ir::Loop& loop) {
     const bool jumps = has_next(loop.body) && !loop.next.empty();
     const size_t number = loops_++;

@@ -97,7 +97,7 @@ class Measure {
   double most_called_ = 0;
 };
 
-// How many instructions write to a register.
+// The number of instructions that write to a register.
 size_t Measure::writes(const ir::Block& block, ir::Operand to) {
   size_t count = 0;
   const auto in_place = [to](const ir::Place& place) {

@@ -7,7 +7,7 @@ namespace eyeray::engine::formula {
 
 namespace {
 
-// What computes nothing: its result is its operands' numbers, put together anew.
+// True for instructions that compute nothing: the result is the operands' numbers, rearranged.
 bool only_arranges(spv::Op op) {
   return op == spv::OpCompositeConstruct || op == spv::OpCompositeExtract || op == spv::OpVectorShuffle ||
          op == spv::OpCompositeInsert || op == spv::OpCopyObject || op == spv::OpBitcast;
@@ -23,7 +23,7 @@ ir::Program lower(const Module& module, std::string_view value, std::string_view
   ir::Program program;
   std::map<uint32_t, uint32_t> numbers;
 
-  // What is called comes first. glslang refuses recursion.
+  // Called functions come first. glslang refuses recursion.
   const auto lower_with_callees = [&](const auto& self, const Function& function) -> void {
     if (numbers.contains(function.id)) return;
     for (const Block& block : function.blocks)

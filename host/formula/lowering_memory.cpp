@@ -19,7 +19,7 @@ bool FunctionLowering::lower_memory(const Instruction& instruction, ir::Block& o
       pointers_[id] = {.variable = id, .place = new_place(type, as_array), .type = &type};
       const ir::Place& place = pointers_[id].place;
       if (instruction.words.size() > 1) copy(place, value(instruction.words[1]), out);
-      // What is read before it is written is 0.
+      // A variable read before it is written is 0.
       if (accesses.first_is_store && (accesses.first_block == 0 || accesses.blocks.size() == 1)) return true;
       if (as_array) out.push_back({ir::Instruction{.op = ir::Op::clear, .array = place.array}});
       for (const ir::Operand number : place.numbers) assign({number}, {constant(scalar(type), 0)}, out);
@@ -86,7 +86,7 @@ void FunctionLowering::load(const Instruction& instruction, ir::Block& out) {
   const Type& type = module_.type(instruction.type);
   ir::Place& result = values_[instruction.result];
 
-  // As long as nobody writes to the variable, its own numbers serve.
+  // If nothing writes to the variable, its own numbers serve.
   const Accesses& accesses = accesses_[at.variable];
   const Uses& uses = uses_[instruction.result];
   const auto writes = accesses.writes.find(block_);
@@ -162,7 +162,7 @@ void FunctionLowering::lower_call(const Instruction& instruction, ir::Block& out
     const uint32_t id = instruction.words[i + 1];
     const bool by_pointer = module_.type_of(id).op == spv::OpTypePointer;
     ir::Place given = by_pointer ? pointer(id).place : value(id);
-    // Where one side keeps numbers and the other an array, a copy of the other's kind goes in, and back.
+    // If one side has numbers and the other an array, a copy of the other's kind goes in, and back.
     if (given.is_array != parameters[i].place.is_array) {
       const Type& type = by_pointer ? *pointer(id).type : module_.type_of(id);
       const ir::Place between = new_place(type, parameters[i].place.is_array);

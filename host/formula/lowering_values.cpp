@@ -1,4 +1,4 @@
-// What computes, and what puts numbers together.
+// Lowers instructions that compute, and those that combine numbers.
 #include <spirv/unified1/GLSL.std.450.h>
 
 #include <algorithm>
@@ -11,8 +11,8 @@ namespace {
 
 using ir::Op;
 
-// What an instruction of SPIR-V does to each component; `swaps`: to its operands in the other order,
-// `negates`: and the opposite comes of it.
+// The operation of a SPIR-V instruction on each component. `swaps`: with its operands in reverse order.
+// `negates`: with the opposite result.
 struct Row {
   spv::Op from;
   Op op;
@@ -290,7 +290,7 @@ bool FunctionLowering::lower_composite(const Instruction& instruction, ir::Block
   const auto put = [&](uint32_t i, ir::Operand number) {
     out.push_back({ir::Instruction{.op = Op::store, .from = {whole(i), number}, .array = result.array}});
   };
-  // Where the numbers of a member begin, along literal indices from words[first] on.
+  // The first number of a member, along literal indices from words[first] on.
   const auto offset = [&](const Type& composite, size_t first) {
     const Type* t = &composite;
     uint32_t sum = 0;

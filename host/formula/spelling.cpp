@@ -27,7 +27,7 @@ bool is_literal(const Token& token) {
          token.is("false");
 }
 
-// What an unset variable begins as. No user's name begins so (user_prefix).
+// The initial value of an unset variable. No user's name begins so (user_prefix).
 std::string zero_of(const Text::Unset& variable) {
   return variable.length == 0 ? fmt::format("{}(0)", variable.type)
                               : fmt::format("zero_{}_{}", variable.type, variable.length);

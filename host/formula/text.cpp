@@ -158,7 +158,8 @@ std::optional<size_t> Judge::size_written_at(size_t i) const {
   return size <= most_elements ? std::optional(size) : std::nullopt;
 }
 
-// Where the names begin that TYPE at i declares: TYPE NAME, NAME [ SIZE ] = …, NAME; none for a function.
+// The positions of the names that TYPE at i declares: TYPE NAME, NAME [ SIZE ] = …, NAME; none for a
+// function.
 std::vector<size_t> Judge::declared_at(size_t i) const {
   std::vector<size_t> names;
   if (!type_at(i) || !is_word(i + 1) || is(i + 2, "(")) return names;
@@ -206,8 +207,8 @@ void Judge::judge_arrays() {
                      largest, comparisons)});
 }
 
-// How long a chain each statement is, with all that it stands in: a + b + …, if … else if …. Compilers go as
-// deep as that. The parts of a list, as of an argument's, are no chain.
+// Limits the length of each statement's chain, with all statements around it: a + b + …, if … else if ….
+// Compilers recurse as deeply as that. The parts of a list, as of an argument's, are no chain.
 void Judge::judge_chains() {
   struct Bracket {
     size_t links;  // where it was opened
@@ -245,7 +246,7 @@ void Judge::judge_chains() {
   }
 }
 
-// What lies outside of functions and is no constant would make f depend on what it was asked before.
+// A variable outside of functions would make f depend on earlier calls, unless it is a constant.
 void Judge::judge_globals() {
   bool constant = false;
   for (size_t i = 0; i < t_.tokens.size(); ++i) {

@@ -72,8 +72,8 @@ double terrain_height(const TerrainOptions& options, const Vec2& p) {
   const double cells_to_one = std::max(1.0, options.grid / (2 * reach * frequency));
   const int octaves = std::max(1, int(std::bit_width(uint32_t(cells_to_one))) - 1);
 
-  // Where it is steep already, further octaves count for less: ridges stay sharp, slopes smooth, valleys
-  // flat, as erosion leaves them (Quilez, "Painting a landscape with maths", 2020).
+  // Further octaves count for less on steep slopes: ridges stay sharp, slopes smooth, valleys flat, as
+  // erosion leaves them (Quilez, "Painting a landscape with maths", 2020).
   Vec2 q = p * frequency, slope(0.0);
   double sum = 0, amplitude = 1;
   for (int octave = 0; octave < octaves; ++octave) {

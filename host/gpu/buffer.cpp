@@ -37,7 +37,7 @@ size_t find_damage(const std::byte* all, size_t begin, size_t end) {
   return end;
 }
 
-// What was copied or filled is there for kernels and further copies.
+// Makes copied or filled bytes visible to kernels and further copies.
 void transfer_then_shaders(VkCommandBuffer commands) {
   record_barrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,

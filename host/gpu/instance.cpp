@@ -20,8 +20,7 @@ namespace {
 
 constexpr const char* validation_layer = "VK_LAYER_KHRONOS_validation";
 
-// What to do where no driver has a device. Where one of these variables names drivers the loader sees no
-// others.
+// Advice if no driver has a device. If one of these variables names drivers, the loader sees no others.
 std::string way_out() {
   std::string variables;
   for (const char* variable : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"}) {

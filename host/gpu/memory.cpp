@@ -61,7 +61,7 @@ void require_room_in_files(const Context& context, VkDeviceSize bytes) {
   info.memoryTypeIndex = *type;
   VkDeviceMemory memory = VK_NULL_HANDLE;
   if (vkAllocateMemory(context.device, &info, nullptr, &memory) != VK_SUCCESS) return;
-  // What is freed stays a part of the driver's file.
+  // Freed memory stays a part of the driver's file.
   const bool backed = is_backed(context.device, memory, info.allocationSize);
   vkFreeMemory(context.device, memory, nullptr);
   if (!backed)

@@ -204,7 +204,7 @@ void RasterTarget::clear() {
   context_->submit_and_wait("clear a picture");
 }
 
-// And back to where it is drawn on.
+// Copies the images, and makes them ready for drawing again.
 void RasterTarget::record_copy(size_t index) const {
   const AttachmentType& type = types[index];
   const VkImage image = attachments_[index].image;

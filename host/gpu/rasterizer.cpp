@@ -151,7 +151,7 @@ void Rasterizer::draw(std::span<const RasterVertex> vertices) {
     context_->begin();
     const VkCommandBuffer commands = context_->commands;
 
-    // What was copied, or written by the processor, is there for the vertex shader.
+    // Makes bytes that were copied, or written by the processor, visible to the vertex shader.
     record_barrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_HOST_BIT,
                    VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_HOST_WRITE_BIT,
                    VK_PIPELINE_STAGE_VERTEX_INPUT_BIT, VK_ACCESS_VERTEX_ATTRIBUTE_READ_BIT);

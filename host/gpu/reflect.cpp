@@ -109,7 +109,7 @@ struct Module {
   }
 };
 
-// What a variable is, if it is something that eyeray binds.
+// The kind of a variable's binding, if eyeray binds it.
 std::optional<BindingKind> binding_kind(const Module& module, const Variable& variable) {
   if (variable.storage == spv::StorageClassStorageBuffer) return BindingKind::storage;
   const std::vector<uint32_t>& type =

@@ -50,7 +50,7 @@ bool is_harmless(const Instruction& instruction) {
   }
 }
 
-// Which types OpSelect chooses between, and the conditions it wants for them.
+// The types between which OpSelect can choose, and the types of their conditions.
 class Types {
  public:
   explicit Types(SpirvModule& module) : module_(module) {
@@ -173,7 +173,7 @@ class Flattener {
     return std::all_of(body.begin(), body.end() - 1, is_harmless);
   }
 
-  // What a phi of two blocks chooses where the selection came by this one.
+  // The value of a phi of two blocks if control came from this block.
   uint32_t value_from(const Instruction& phi, uint32_t label) const {
     CHECK_EQ(phi.size(), 7u);
     return now(phi[4]) == label ? phi[3] : phi[5];

@@ -87,7 +87,7 @@ DeviceFacts judge(const Device& device, const Inputs& inputs, std::span<const ui
   facts.loop_iterations = special[2];
   facts.loop_cap = facts.loop_iterations != loop_iterations;
 
-  // Whatever number of iterations was made, each must have done its work.
+  // However many iterations ran, each must have done its work.
   uint32_t state = 0;
   for (uint32_t i = 0; i < facts.loop_iterations && i < loop_iterations; ++i)
     state = state * 1664525u + 1013904223u;

@@ -36,7 +36,7 @@ constexpr const char* inlining[] = {
     "--eliminate-dead-functions",
 };
 
-// What flattening asks for, and what it leaves to do.
+// The passes that flattening requires before it, and those after it.
 constexpr const char* before_flattening[] = {
     "--ssa-rewrite",
     "--eliminate-dead-code-aggressive",
@@ -66,8 +66,7 @@ Passes passes(bool flatten) {
 // which has all shapes, has 290 000.
 constexpr uint64_t most_inlined = 1 << 19;
 
-// How many instructions the largest function has when every call is replaced by what it calls. (GLSL knows no
-// recursion.)
+// The number of instructions of the largest function after inlining every call. (GLSL has no recursion.)
 uint64_t inlined_instructions(std::span<const uint32_t> spirv) {
   struct Function {
     uint64_t instructions = 0;

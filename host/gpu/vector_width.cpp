@@ -25,7 +25,7 @@ bool has_wide_vectors() {
 #endif
 }
 
-// Where Mesa keeps what it compiles: one of them, by its version.
+// The folders in which Mesa may cache compiled kernels: it uses one, by its version.
 std::vector<std::filesystem::path> driver_caches() {
   if (const char* const chosen = std::getenv(cache_variable)) return {chosen};
   if (std::getenv(width_variable)) return {};  // below eyeray's own

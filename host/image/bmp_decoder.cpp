@@ -14,7 +14,7 @@ using Pixel = std::array<uint8_t, 4>;
 constexpr uint64_t file_header = 14, core_header = 12, info_header = 40;
 enum Compression : uint32_t { plain = 0, bit_fields = 3, alpha_bit_fields = 6 };
 
-// What stands behind the file header's 14 bytes, in the form of Windows 3 and later; OS/2 1's is shorter.
+// The header behind the file header's 14 bytes, in the form of Windows 3 and later; OS/2 1's is shorter.
 struct Header {
   uint64_t pixels_at, size;
   int64_t width, height;

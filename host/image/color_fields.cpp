@@ -51,7 +51,7 @@ std::string inflated(std::string_view chunk) {
 
 constexpr std::string_view taken_as_srgb = " is ignored: its colours are read as sRGB";
 
-// What a PNG's chunks say of colours, the one that counts.
+// The deciding statement on colours in a PNG's chunks.
 std::string png_colors(const std::map<std::string_view, std::string_view>& chunks) {
   const auto chunk = [&](std::string_view name) {
     const auto found = chunks.find(name);

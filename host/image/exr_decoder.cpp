@@ -23,8 +23,8 @@ namespace eyeray::engine::image {
 
 namespace {
 
-// How many bytes one of a file can stand for. Deflate makes 1032 at most (RFC 1951), all else that is
-// compressed fewer; but DWA holds an even block of 8 · 8 halves in two, and deflates these.
+// The largest number of bytes that one byte of a file can expand to. Deflate makes 1032 at most (RFC 1951),
+// other compressions fewer. But DWA stores an even block of 8 · 8 halves in two, and deflates these.
 constexpr uint64_t most_deflated = 1032;
 constexpr uint64_t most_of_cosines = 64 * most_deflated;
 // Limit on the pixels of a tile.

@@ -52,7 +52,7 @@ Imf::Header header_of(int width, int height, const std::vector<ExrChannel>& chan
   return header;
 }
 
-// What is finite stays so.
+// Finite values stay finite.
 half to_half(float value) {
   constexpr float most = HALF_MAX;
   return half(std::isfinite(value) ? std::clamp(value, -most, most) : value);

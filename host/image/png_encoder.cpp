@@ -101,7 +101,7 @@ class PngEncoder final : public RowEncoder {
   }
 
  private:
-  // What libpng can still complain of is that it got no memory.
+  // libpng can fail here only for want of memory.
   static void check(bool done) {
     if (!done) throw std::bad_alloc();
   }

@@ -117,7 +117,7 @@ class TgaReader {
             header_.bits == 16 && has_alpha_ ? uint8_t(number_at(bytes_, at_ + 1, 1)) : uint8_t(255)};
   }
 
-  // What the header says of alpha, and what TGA 2 says more in its last bytes.
+  // Reads the header's statement on alpha, and TGA 2's further one in its last bytes.
   void look_at_extension(std::vector<std::string>& warnings) {
     has_alpha_ = header_.alpha_bits() > 0;
     const uint64_t bits = header_.is_mapped() ? header_.map_bits : header_.bits;

@@ -197,7 +197,7 @@ bool GltfReader::is_flat(const Mat4& world) {
   return true;
 }
 
-// What the animation makes of a key of a node; null where it leaves it.
+// The animated value of a key of a node; null if the animation does not change it.
 const std::vector<double>* GltfReader::moved(size_t node, const char* key) const {
   const auto found = motion_.values.find({node, key});
   return found == motion_.values.end() ? nullptr : &found->second;
@@ -257,7 +257,7 @@ void GltfReader::read_mesh(size_t index, size_t mesh, const Mat4& world) {
     pose.joints = *joints;
     if (joints->empty()) left_out_.add("skins whose joints are not in the scene");
   }
-  // What joints hold is in the world already, wherever its node is.
+  // A skinned mesh is in world space already, wherever its node is.
   const bool skinned = !pose.joints.empty();
   std::vector<Mat4> transforms = {skinned ? Mat4(1.0) : world};
   if (const auto instancing = node.extension("EXT_mesh_gpu_instancing")) {

@@ -11,7 +11,7 @@ namespace eyeray::engine::importers {
 
 namespace {
 
-// What a channel may move, and of what type its outputs are.
+// The keys that a channel may animate, and the types of their outputs.
 struct AnimatedKey {
   std::string_view name;
   std::string_view type;
@@ -157,7 +157,7 @@ class AnimationReader {
     return curve;
   }
 
-  // Those of an accessor, which many samplers may share.
+  // The times of an accessor, which many samplers may share.
   const std::vector<double>& times(size_t index) {
     const auto [entry, fresh] = times_.try_emplace(index);
     if (!fresh) return entry->second;

@@ -122,7 +122,7 @@ std::string_view GltfBuffers::view(size_t index) {
     decoded = decode_meshopt(source, *coding, range(*coding));
     decoded_bytes_ += decoded->size();
     allow(decoded->size() / 2);
-    // The same bytes may be those of many views.
+    // Many views may share the same bytes.
     if (decoded_bytes_ > std::max<uint64_t>(1 << 20, 64 * byte_size()))
       source.fail("makes the decoded data larger than a file of this size may have");
   }
@@ -167,7 +167,7 @@ void GltfBuffers::check_layout(const GltfObject& owner, size_t index, size_t com
     breaches_.add("strides that are not multiples of 4 from 4 to 252", view.place() + ".byteStride");
 }
 
-// What is said of the data that the data do not keep is a sign that they are others than were meant.
+// Data that contradict their description are a sign of wrong data.
 template <typename T>
 void GltfBuffers::check_range(const GltfObject& accessor, const std::vector<T>& all, size_t components) {
   if (all.empty() || !(accessor.has("min") || accessor.has("max"))) return;
@@ -257,7 +257,7 @@ std::vector<T> GltfBuffers::read(size_t index, std::string_view type, size_t com
   return all;
 }
 
-// What is no attribute of vertices lies packed, and some readers do not look for a stride.
+// Data other than vertex attributes are packed, and some readers ignore a stride.
 void GltfBuffers::refuse_stride(const GltfObject& owner, size_t views) const {
   const auto view = owner.index("bufferView", views);
   if (!view) return;

@@ -15,7 +15,7 @@ namespace {
 constexpr uint64_t list_of_triangles = 4;
 constexpr uint64_t strip_of_triangles = 5;
 
-// What decoding may make of a file: numbers in all its meshes. A vertex and its two triangles have about 30;
+// Limit on the numbers decoded from a file, in all its meshes. A vertex and its two triangles have about 30;
 // they are coded in 1.5 bytes where the mesh is smooth, in next to none where it is flat and regular.
 constexpr uint64_t most_values_always = uint64_t{1} << 25;
 constexpr uint64_t most_values_a_byte = 128;

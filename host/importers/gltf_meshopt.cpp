@@ -31,7 +31,7 @@ uint64_t least_bytes(const Coding& coding) {
   return 1 + coding.stride * blocks + std::max<uint64_t>(32, coding.stride);
 }
 
-// What the library takes for granted, too.
+// Checks the library's own assumptions too.
 void check(const GltfObject& view, const GltfObject& object, const Coding& coding) {
   const bool attributes = coding.mode == "ATTRIBUTES";
   const uint64_t stride = coding.stride;

@@ -245,7 +245,7 @@ constexpr Property document[] = {object("asset", asset).must(),
 
 }  // namespace shapes
 
-// Those that are read, or change nothing that is.
+// The extensions that are read, or change nothing that is read.
 constexpr std::string_view known_extensions[] = {
     "KHR_lights_punctual",     "KHR_materials_ior",       "KHR_materials_transmission",
     "KHR_materials_volume",    "KHR_materials_unlit",     "KHR_materials_emissive_strength",

@@ -13,7 +13,7 @@ namespace eyeray::engine::importers {
 
 namespace {
 
-// What maps normals, up to a factor: perpendicular to what the map makes of two edges.
+// The map of normals, up to a factor: the result is perpendicular to two mapped edges.
 Mat3 cofactors(const Mat3& m) {
   return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
 }

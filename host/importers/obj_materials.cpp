@@ -174,7 +174,7 @@ void ObjMaterials::parse(std::string text) {
   std::string unused;
   tinyobj::LoadMtl(&names, &sources, &stream, &unused, &unused);
   for (const tinyobj::material_t& source : sources) {
-    // What stands before the first `newmtl` has no name, and nobody uses it.
+    // Statements before the first `newmtl` belong to no name, and are unused.
     if (source.name.empty() || indices_.contains(source.name)) continue;
     indices_[source.name] = static_cast<int>(materials.size());
 

@@ -15,7 +15,7 @@ namespace eyeray::engine::importers {
 
 namespace {
 
-// What a property of a vertex is, or none of it.
+// The meaning of a property of a vertex, or none.
 enum Slot { x, y, z, nx, ny, nz, u, v, red, green, blue, none };
 
 constexpr std::pair<std::string_view, Slot> slot_names[] = {
@@ -49,7 +49,7 @@ Slot slot_of(std::string_view name) {
   return known == std::end(slot_names) ? none : known->second;
 }
 
-// What a colour is at its brightest.
+// The largest value of a colour.
 double brightest(PlyType type) {
   switch (type) {
     case PlyType::uint8:
@@ -107,8 +107,7 @@ class PlyReader {
   Values values_;
 };
 
-// Whatever the header says, no more can come than there are bytes; so memory may be taken for all that it
-// says.
+// The file's size bounds the header's counts, so memory may be allocated for all of them.
 template <typename Values>
 void PlyReader<Values>::check_count(const PlyElement& element) const {
   const size_t least = element.least_bytes(header_.format);

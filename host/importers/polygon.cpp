@@ -79,7 +79,7 @@ void Triangulator::cut_ears() {
   uint32_t at = 0;
   uint32_t tried = 0;
   for (uint32_t left = n; left > 3;) {
-    // Where there is no ear the polygon crosses itself or has corners in line: clip what comes.
+    // Without an ear the polygon crosses itself or has collinear corners: clip the next corner.
     if (!is_ear(at) && tried < left) {
       ++tried;
       at = after_[at];

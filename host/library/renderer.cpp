@@ -49,7 +49,7 @@ executors::ExecutorOptions executor_options(v0::Renderer::Data& renderer, bool g
   options.gpu.device = renderer.options.device;
   options.shader_folder = renderer.options.shaders;
   options.gpu.timeout_seconds = renderer.options.timeout_seconds;
-  // What a driver reads of the environment is the process's, and other threads may be reading it.
+  // The environment that a driver reads belongs to the process, and other threads may be reading it.
   options.gpu.sets_environment = false;
   options.twin.compile = !renderer.options.shaders.empty();
   if (gpu) open_device(renderer, options.gpu);

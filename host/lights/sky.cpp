@@ -69,8 +69,9 @@ class Table {
   std::vector<Vec3> values_;
 };
 
-// What the atmosphere leaves of light from its rim to a radius, of rays that miss the ground. By Bruneton's
-// places: the length of the ray among all that there are, and the distance to the horizon.
+// The share of light that the atmosphere leaves between its rim and a radius, for rays that miss the ground.
+// Indexed by Bruneton's coordinates: the ray's length among all possible ones, and the distance to the
+// horizon.
 class Transmittance {
  public:
   Vec3 operator()(double radius, double cosine) const {
@@ -112,8 +113,8 @@ class Atmosphere {
     return to_ground(radius, cosine) >= 0 ? Vec3(0) : transmittance_(radius, cosine);
   }
 
-  // What a ray from `radius` gathers: `source(medium, radius, sun's cosine, sunlight)` a length, and the
-  // ground's light. `d`, `to_sun`: unit, y up. `steps` grow with the distance.
+  // The light gathered by a ray from `radius`: `source(medium, radius, sun's cosine, sunlight)` per length,
+  // and the ground's light. `d`, `to_sun`: unit, y up. `steps` grow with the distance.
   template <typename Source>
   Vec3 gather(double radius, const Vec3& d, const Vec3& to_sun, int steps, bool with_ground,
               const Source& source) const {
@@ -169,7 +170,7 @@ class Atmosphere {
     });
   }
 
-  // What is seen in direction `d` from a little above the ground, for a sun of irradiance 1.
+  // The radiance seen in direction `d` from a little above the ground, for a sun of irradiance 1.
   Vec3 radiance(const Vec3& d, const Vec3& to_sun) const {
     const double cosine = glm::dot(d, to_sun), g = mie_forward;
     const double air = 3 / (16 * M_PI) * (1 + cosine * cosine);

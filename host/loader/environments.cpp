@@ -41,7 +41,7 @@ constexpr Key keys_of_image[] = {
      .fallback = "0"},
 };
 
-// What is wrong with the texels, or "".
+// The fault of the texels, or "".
 std::string fault_of(const image::Image& image) {
   int64_t wrong = 0;
   int x = 0, y = 0;

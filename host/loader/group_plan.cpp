@@ -13,7 +13,7 @@ namespace eyeray::engine::loader {
 
 namespace {
 
-// What is kept, one by one, shown or not.
+// Limit on the objects kept one by one, shown or not.
 constexpr double most_kept = 0x4000000;
 // Primitives are identified by 31 bits.
 constexpr double most_shown = std::numeric_limits<int32_t>::max();
@@ -24,7 +24,7 @@ constexpr double instance_cost = 2;
 // Rays in a separate group are traced alone: the saved memory must be worth it.
 constexpr double worth_keeping_once = 0x40000;
 
-// How many of the table its batch shows; what is no sound batch counts as one.
+// The number of copies that the table's batch shows. An unsound batch counts as one.
 double batch_size(const toml::table& table) {
   const toml::table* batch = table[batch_key].as_table();
   if (!batch || batch->empty()) return 1;
@@ -42,8 +42,8 @@ std::vector<const toml::table*> tables(const toml::table& holder, std::string_vi
   return found;
 }
 
-// How many shapes and CSG objects there are in a shape's table, itself, those of a CSG object and its batch
-// included.
+// The number of shapes and CSG objects in a shape's table, including itself, the parts of a CSG object, and
+// its batch.
 double count_shapes(const toml::table& table) {
   double count = 1;
   for (const toml::table* held : {&table, table[minus_key].as_table()}) {
@@ -181,7 +181,7 @@ void GroupPlan::visit(Node& node, std::vector<std::string_view>& chain) {
 }
 
 void GroupPlan::choose(Node& node, GroupStorage storage) {
-  // What it takes when it is instanced, and at best when not it but its groups are.
+  // Its cost if it is instanced, and its least cost if its groups are instead.
   const double once = node.items + instance_cost * node.shown;
   double apart = node.own * node.shown;
   for (const auto& [group, count] : node.members) {

@@ -174,8 +174,8 @@ class Between {
   bool sound_ = true;
 };
 
-// What is in it that cannot move: a string, which may name a file or be a formula, a date, or a key that no
-// scene has; null where nothing is.
+// The part of the node that cannot move: a string, which may name a file or be a formula, a date, or a key
+// that no scene has; null if there is none.
 const toml::node* immovable(const toml::node& node) {
   if (const toml::array* array = node.as_array()) {
     for (const toml::node& element : *array)

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double fov_degrees = 30;
 const Vec3 towards_eye = glm::normalize(Vec3(0.6, 0.55, 1.0));
-// How much of the picture's shorter side is left free.
+// The share of the picture's shorter side that is left free.
 constexpr double margin = 0.06;
 
 toml::array list(const Vec3& v) {

@@ -47,7 +47,7 @@ std::string no_such_animation(const std::string& wanted, std::span<const std::st
                      names.size() > all.size() ? ", …" : "");
 }
 
-// Where an object stands, and what it is called.
+// The placement and the name of an object.
 struct Placing {
   Mat4 to_world{1.0};
   NameRef name;
@@ -260,7 +260,7 @@ void Builder::add_instance(reading::TableReader& reader, const Placing& placing)
                                     nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", nearest)));
 }
 
-// What is wrong in a pattern that nothing shows is wrong all the same.
+// Errors in a pattern that nothing shows are errors all the same.
 void Builder::check_idle_patterns() {
   for (const toml::table* group : plan_->idle()) {
     Group unused;

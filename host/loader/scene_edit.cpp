@@ -9,7 +9,7 @@
 namespace eyeray::engine::loader {
 namespace {
 
-// Where line `line` of the text begins, from 1.
+// The position at which line `line` of the text, from 1, begins.
 size_t line_start(const std::string& text, uint32_t line) {
   size_t at = 0;
   for (; line > 1; --line) at = text.find('\n', at) + 1;

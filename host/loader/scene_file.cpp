@@ -79,8 +79,8 @@ Document read_mesh(const fs::path& file, std::span<const Override> overrides, Me
   return {mesh_scene(file, *loaded.scene, rest ? *rest : *loaded.scene, around), {}};
 }
 
-// Where the scene moves while its shutter is open: how it is to be had at another moment, by `load` with one
-// more override.
+// If the scene moves while its shutter is open, sets the function that makes it for another moment, by `load`
+// with one more override.
 template <typename Load>
 Scene with_moments(Scene scene, std::span<const Override> overrides, const Load& load) {
   if (scene.animation.tracks == 0 || scene.animation.shutter == 0) return scene;

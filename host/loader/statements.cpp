@@ -44,7 +44,7 @@ std::vector<std::string> take_key(std::string_view& text) {
   }
 }
 
-// What a line starts, if it starts a statement.
+// The kind of statement that a line starts, if any.
 struct Start {
   bool is_header = false;
   std::vector<std::string> parts;
@@ -109,13 +109,13 @@ Statement statement_at(std::string_view text, int line) {
   if (found == all.begin()) return whole_line(text, line);
   --found;
 
-  // Where a statement starts in spite of an error, the one before may still be open.
+  // If a statement starts in spite of an error, the one before may still be open.
   if (found != all.begin() && found->line == line) {
     const Statement& before = *std::prev(found);
     if (!parses(text.substr(before.begin, before.end - before.begin))) return before;
   }
 
-  // What follows a statement that is whole is no part of it.
+  // Text after a complete statement is no part of it.
   const Statement rest = whole_line(text, line);
   if (found->line < line && parses(text.substr(found->begin, rest.begin - found->begin))) return rest;
 

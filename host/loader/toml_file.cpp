@@ -40,7 +40,7 @@ const toml::key* find_key(const toml::table& tree, const std::vector<std::string
   return found;
 }
 
-// Where the key or table that `statement` defines again was defined first.
+// The position of the first definition of the key or table that `statement` defines again.
 std::optional<SourcePosition> first_definition(const std::string& text, const Statement& statement) {
   const auto tree = [&]() -> std::optional<toml::table> {
     try {
@@ -57,7 +57,7 @@ std::optional<SourcePosition> first_definition(const std::string& text, const St
   return reading::position_of(key->source());
 }
 
-// What stands in quotes in the message, or "".
+// The quoted name in the message, or "".
 std::string quoted_name(std::string_view message) {
   const size_t open = message.find('\'');
   const size_t close = message.rfind('\'');

@@ -144,7 +144,7 @@ class Dielectric final : public Material {
   }
 
  private:
-  // What both its faces mirror together, of what one does.
+  // The reflectance of both faces together, from that of one.
   static double of_pane(double mirrored) { return 2 * mirrored / (1 + mirrored); }
   double pane_transmittance() const {
     const double r = (values_.ior - 1) / (values_.ior + 1);

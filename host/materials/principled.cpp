@@ -212,7 +212,7 @@ class Principled final : public Physical {
                    transmission = values_.transmission->pack(packer), sheen = values_.sheen->pack(packer),
                    sheen_roughness = values_.sheen_roughness->pack(packer),
                    emission = values_.emission->pack(packer);
-    // What is the same everywhere is multiplied here already.
+    // Constant values are multiplied here already.
     const std::optional<Vec3> level = values_.specular->constant(), tint = values_.specular_color->constant();
     const TexturePtr white = textures::make_constant(Vec3(1));
     const uint32_t specular_level = (level ? white : values_.specular)->pack(packer);

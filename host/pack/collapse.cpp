@@ -10,7 +10,7 @@
 namespace eyeray::engine::pack {
 namespace {
 
-// What a step costs at a node, and at a leaf.
+// The cost of a step at a node, and at a leaf.
 constexpr float node_cost = 1.0f;
 constexpr float leaf_cost = 1.0f;
 constexpr float never = std::numeric_limits<float>::infinity();
@@ -28,7 +28,7 @@ uint32_t make_leaf(uint32_t first, uint32_t count) {
   return LEAF | first << 3 | (count - 1);
 }
 
-// How a part of the binary BVH is best covered by at most i = 1 … width children of one node.
+// The best cover of a part of the binary BVH by at most i = 1 … width children of one node.
 template <uint32_t width>
 struct Cover {
   std::array<float, width + 1> cost{};    // by i; [0] is not used

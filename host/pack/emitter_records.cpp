@@ -5,7 +5,8 @@
 namespace eyeray::engine::pack {
 namespace {
 
-// How many roundings, of the largest coordinate, a place on an emitter may be off it (emitters/*.glsl).
+// The largest distance of a sampled point from its emitter, in roundings of the largest coordinate
+// (emitters/*.glsl).
 constexpr double roundings = 16;
 
 double most_of(const Vec3& v) {

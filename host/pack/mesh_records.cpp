@@ -24,7 +24,7 @@ MeshRecords::MeshRecords(const Mesh& mesh, const Affine& map, const Vec3& origin
   const bool second_uv = !mesh.second_uv.empty();
   if (!normals && !uv && !second_uv && !colors && !bends) return;
 
-  // What corners look up, and by triangle which its corners are.
+  // The values that corners look up, and the corners of each triangle.
   const auto first_vertex = uint32_t(vertices.size());
   const uint32_t beside_normal = colors ? 2 : 1;
   const uint32_t vertex_records = beside_normal + (second_uv ? 1 : 0) + (tangents ? 1 : 0);

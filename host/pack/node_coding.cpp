@@ -11,7 +11,7 @@ namespace {
 
 constexpr double largest_code = 65535;
 
-// Where planes at q = 0 … 65535 stand.
+// The coordinates of planes at q = 0 … 65535.
 struct Grid {
   explicit Grid(const bvh::Box& box) {
     for (int axis = 0; axis < 3; ++axis) {

@@ -78,7 +78,7 @@ class Judge {
 
   void judge_presence(Ray& ray) {
     if (!misses(ray)) return;
-    // What a missing ray leads to is missing, too.
+    // The descendants of a missing ray are missing too.
     if (ray.parent != 0 && overlay_.rays()[ray.parent].traced == ray.traced) return;
     std::vector<std::string> with;
     bool same = true;

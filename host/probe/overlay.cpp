@@ -7,7 +7,7 @@
 namespace eyeray::engine::probe {
 namespace {
 
-// What has come so often before: of equal ones, the n-th is laid over the n-th.
+// The number of earlier occurrences: among equal ones, the n-th is matched with the n-th.
 template <typename Key>
 class Occurrences {
  public:

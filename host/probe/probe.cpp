@@ -21,10 +21,10 @@ namespace {
 using executors::Backend;
 using executors::Executor;
 
-// How many places on each ring around the pixel.
+// The number of positions on each ring around the pixel.
 constexpr int angles = 16;
 
-// What makes one pixel, by each executor.
+// The rays and values of one pixel, by each executor.
 class Pixel {
  public:
   Pixel(const Scene& scene, const Options& options)
@@ -137,7 +137,8 @@ class Pixel {
     return tree;
   }
 
-  // What the reference shows around the pixel, as verify explains what differs (verify/neighbours.cpp).
+  // Adds the reference's values around the pixel, with which verify explains differences
+  // (verify/neighbours.cpp).
   void add_around(Overlay& overlay) const {
     if (!renderer_) return;
     uint32_t hits = 0;

@@ -72,7 +72,7 @@ class HelpFormatter final : public CLI::Formatter {
       name.erase(open, name.find('}', open) + 1 - open);
     return name;
   }
-  // What CLI11 would add, types and what is excluded, is in the description.
+  // The description already contains the types and exclusions that CLI11 would add.
   std::string make_option_opts(const CLI::Option* option) const override {
     return option->get_option_text().empty() ? "" : " " + option->get_option_text();
   }

@@ -11,7 +11,7 @@
 namespace eyeray::engine::raster {
 namespace {
 
-// How far, in pixels, a tessellation may be from its surface where it is nearest to the eye.
+// The largest distance, in pixels, of a tessellation from its surface where it is nearest to the eye.
 constexpr double aim = 0.02;
 // A shape about the eye is taken to be no nearer than this share of its size.
 constexpr double least_share = 0.02;

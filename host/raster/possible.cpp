@@ -31,15 +31,15 @@ bool contains(const ScreenTriangle& triangle, const Vec2& point) {
   return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
 }
 
-// What a driver's floats make of the plane through a sliver: its slope is a quotient of differences between
-// products as long as the triangle, and of its area.
+// The error of a driver's floats in the plane through a sliver: its slope is a quotient of differences
+// between products as long as the triangle, and of its area.
 double plane_error(const ScreenTriangle& triangle, double range) {
   const Vec2 u(triangle.at[1] - triangle.at[0]), v(triangle.at[2] - triangle.at[0]), w = v - u;
   const double square = std::max({glm::dot(u, u), glm::dot(v, v), glm::dot(w, w)});
   return 8 * 0x1p-24 * range * square / std::fabs(cross(u, v));
 }
 
-// How nearness rises along x and y; nothing where the triangle is seen from its edge.
+// The slope of nearness along x and y; empty if the triangle is seen edge-on.
 std::optional<Vec2> slope(const ScreenTriangle& triangle) {
   const Vec3 u = triangle.at[1] - triangle.at[0], v = triangle.at[2] - triangle.at[0];
   const double area = u.x * v.y - u.y * v.x;
@@ -103,7 +103,7 @@ Vec2 slack(const ScreenTriangle& triangle, const Vec2& center, const View& view,
   // The nearer, the more pixels the bound is.
   if (tessellated && triangle.bound > 0) most += view.shift(center.x, center.y, nearest, triangle.bound);
   most.y += exactness.depth_error * (nearest - exactness.depth_floor);
-  // Where something large is close, t is as exact as the large one's coordinates.
+  // If a large object is close, t is only as exact as that object's coordinates.
   if (triangle.reach > 0)
     most.y += view.shift(center.x, center.y, nearest, coordinate_error * triangle.reach).y;
   return most;
@@ -113,7 +113,7 @@ Possible::Possible(Viewer viewer, const Vec2& center, std::span<const ScreenTria
                    const View& view, const Exactness& exactness, bool tessellated) {
   tolerance_ = exactness.t;
 
-  // What is near enough to be seen, and how near the eye.
+  // The triangles that are near enough to be seen, and their distance from the eye.
   std::vector<const ScreenTriangle*> near;
   std::vector<double> radii;
   for (const ScreenTriangle& triangle : triangles) {
@@ -162,7 +162,7 @@ Possible::Possible(Viewer viewer, const Vec2& center, std::span<const ScreenTria
     covered_ = true;
     surely_ = std::max(surely_, sheet.low);
   }
-  // What is surely behind cannot be seen.
+  // Pieces that are surely behind cannot be seen.
   std::erase_if(pieces_, [&](const Piece& piece) { return piece.high < surely_; });
 }
 

@@ -9,7 +9,7 @@
 namespace eyeray::engine::raster {
 namespace {
 
-// How far, in pixels, a ray of float32 may pass from where it should: the neighbourhood of gates B and C.
+// The largest displacement, in pixels, of a float32 ray: the neighbourhood of gates B and C.
 constexpr double ray_error = 0.004;
 constexpr double epsilon = 0x1p-24;
 
@@ -27,8 +27,8 @@ Witness::Witness(const Scene& scene, const Rect& area, gpu::DeviceOptions option
     throw Error(ExitCode::no_device, "the validation layer has {} complaints about drawing; the first: {}",
                 messages.size(), messages[0]);
 
-  // What rounding does to corners: to the driver's grid, to floats some pictures wide, and of planes through
-  // them to floats at the picture's far side.
+  // The rounding of corners: to the driver's grid, and to floats some pictures wide; that of planes through
+  // them: to floats at the picture's far side.
   const double longest = std::max({area.width, area.height, 64});
   exactness_.snap = ray_error + std::sqrt(2.0) * std::ldexp(1.0, -int(device.info().limits.subpixel_bits)) +
                     32 * epsilon * longest;
@@ -46,7 +46,7 @@ Seen Witness::traced_at(const compare::Frame& frame, size_t pixel) const {
   const FirstHit& hit = frame.first_hits[pixel];
   if (hit.primitive < 0) return {};
   const auto id = uint64_t(hit.primitive);
-  // What is no primitive at all is not excused as one that is not drawn.
+  // An id of no primitive is not excused as one that is not drawn.
   const bool in_list = id >= scene_.primitive_count() || list().draws(id);
   const auto width = size_t(view().area().width);
   return {true, in_list, uint32_t(hit.primitive),

@@ -155,7 +155,7 @@ std::string suggest_name(std::string_view word, std::span<const std::string_view
   constexpr size_t longest = 32;  // of theirs
   if (word.size() > longest) return nearest_name(word, names);
 
-  // The same but for how words are joined; what others say; a slip.
+  // In order: a word that is joined differently, another renderer's word, a typing error.
   const std::string said = plain(word);
   for (const std::string_view name : names)
     if (plain(name) == said) return std::string(name);

@@ -35,7 +35,7 @@ double width_of(double roughness) {
   return std::max(roughness * roughness, least_width);
 }
 
-// How many microfacets lie along h.
+// The density of microfacets with normal h.
 double ggx(const Vec3& h, double width) {
   const double tan_squared = (h.x * h.x + h.y * h.y) / (h.z * h.z);
   const double cos_squared = h.z * h.z, sum = 1 + tan_squared / (width * width);
@@ -74,7 +74,7 @@ Vec3 once(const Fresnel& fresnel, double once, double edge) {
   return fresnel.f0 * (once - edge) + fresnel.f90 * edge;
 }
 
-// What the layer and the metal mirror together: by one microfacet, and by more.
+// The reflection of layer and metal together: by one microfacet, and by more.
 Vec3 mirrored_at(const Bsdf& bsdf, double cosine) {
   return bsdf.layered * bsdf.layer.at(cosine) + bsdf.metallic * bsdf.metal.at(cosine);
 }
@@ -87,7 +87,7 @@ Vec3 mirrored_often(const Bsdf& bsdf, const GgxAlbedo& albedo) {
   return bsdf.layered * often(bsdf.layer, albedo) + bsdf.metallic * often(bsdf.metal, albedo);
 }
 
-// What a layer mirrors in all, of one direction and in the mean.
+// The total reflection of a layer, for one direction and on average.
 Vec3 layer_albedo(const Fresnel& fresnel, const GgxAlbedo& albedo) {
   return once(fresnel, albedo.once, albedo.edge) + often(fresnel, albedo) * (1 - albedo.once);
 }
@@ -95,14 +95,14 @@ Vec3 mean_layer_albedo(const Fresnel& fresnel, const GgxAlbedo& albedo) {
   return once(fresnel, albedo.mean_once, albedo.mean_edge) + often(fresnel, albedo) * (1 - albedo.mean_once);
 }
 
-// What a coat leaves of light that crosses it once.
+// The share of light that a coat leaves when light crosses it once.
 double through_coat(double coat, double roughness, double cosine) {
   if (coat == 0) return 1;
   const GgxAlbedo albedo = tables::ggx_albedo(cosine, roughness);
   return 1 - coat * once(coat_fresnel(), albedo.once, albedo.edge).x;
 }
 
-// The same of sheen.
+// The share of light that sheen leaves when light crosses it once.
 double through_sheen(const Vec3& sheen, double roughness, double cosine) {
   return sheen == Vec3(0) ? 1 : 1 - largest(sheen) * tables::sheen_albedo(cosine, roughness).albedo;
 }
@@ -321,7 +321,7 @@ Vec3 ViewedBsdf::direction(Lobe lobe, double part, const Vec2& u) const {
   }
   const Vec3 h = ggx_normal(o_, width_of(bsdf_.roughness), u);
   const double along = std::min(1.0, glm::dot(o_, h));
-  // What a microfacet sends to the wrong side is lost.
+  // Light that a microfacet scatters to the wrong side is lost.
   if (lobe != glass) {
     const Vec3 i = 2 * along * h - o_;
     return i.z > 0 ? Vec3(i.x, i.y, lobe == thin ? -i.z : i.z) : Vec3(0);

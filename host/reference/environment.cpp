@@ -10,8 +10,8 @@ namespace eyeray::engine::reference {
 
 namespace {
 
-// Where a direction lies: columns from the first one's centre on, in [−½, width − ½), and rows likewise, with
-// half a row at each pole.
+// The position of a direction in the picture: columns from the first one's centre on, in [−½, width − ½), and
+// rows likewise, with half a row at each pole.
 Vec2 place(const EnvironmentMap& environment, const Vec3& d) {
   const double u = 0.5 + std::atan2(d.x, -d.z) / (2 * M_PI) + environment.turn();
   const double polar = std::acos(std::clamp(d.y, -1.0, 1.0));

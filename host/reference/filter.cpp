@@ -33,7 +33,7 @@ double integral(double x) {
   return sum / terms[0];
 }
 
-// Where the integral is as much: by Newton's method, which from the middle never goes too far, since the
+// The point where the integral reaches u, by Newton's method. From the middle it never overshoots, since the
 // window falls from there on.
 double blackman_harris(double u) {
   const double wanted = std::abs(u - 0.5);

@@ -86,7 +86,7 @@ std::optional<Ray> PathSample::scatter(const Interaction& at, const LocalFrame& 
   }
   if (kind == RayKind::refracted) media = at.media_beyond;
 
-  // What is seen through a surface stays on its line.
+  // A ray that passes through a surface straight stays on its line.
   const bool bent = passes || sample.kind == BsdfSample::Kind::refracted;
   const Leaving side = bent                         ? Leaving::straight
                        : kind == RayKind::reflected ? Leaving::in_front

@@ -39,12 +39,12 @@ Vec3 PathSample::emitted(const Interaction& at) const {
   return light * power_heuristic(density_, share * emitter_density(found->form, vertex_, place));
 }
 
-// How likely the environment is chosen, and not a light.
+// The probability of choosing the environment, and not a light.
 double PathSample::environment_share() const {
   return environment_numbers(scene_.environment.get(), !tracer_.light_choice().ends.empty()) * 0x1p-24;
 }
 
-// What the path sees that hits nothing, likewise.
+// The light seen by a path that hits nothing, weighted in the same way.
 Vec3 PathSample::missed(const Vec3& d) const {
   Vec3 light = rays_.surroundings(d);
   const double share = environment_share();
@@ -69,7 +69,7 @@ std::optional<Arriving> PathSample::arriving_from_around(const Interaction& at) 
                   uint64_t(-1)};
 }
 
-// What one light, chosen at random, sends to the point. Classic units: one of intensity 1 is π times that.
+// The light of one randomly chosen light at the point. Classic units: one of intensity 1 is π times that.
 std::optional<Arriving> PathSample::arriving(const Interaction& at) {
   const LightChoice& choice = tracer_.light_choice();
   const Vec2 chance = pair(light_pair);
@@ -93,7 +93,7 @@ std::optional<Arriving> PathSample::arriving(const Interaction& at) {
     return Arriving{arriving.l, ray, distance, M_PI / share * arriving.color, 0, light};
   }
   const Emitter& emitter = choice.emitters[light - scene_.lights.size()];
-  // What is flat does not light itself.
+  // A flat emitter does not light itself.
   if (emitter.primitive == at.primitive && is_flat(emitter.form)) return std::nullopt;
   const EmitterSample place = sample_emitter(emitter.form, p, pair(place_pair));
   const Vec3 l = glm::normalize(place.position - p);

@@ -63,7 +63,7 @@ Ray SampleRays::spawn_ray(const SurfacePoint& point, const Vec3& d, Leaving leav
 
   Vec3 aside;
   for (uint32_t i = 0; i < 3; ++i) aside[int(i)] = 2 * random(displacement_.seed, spawned_, i, 0) - 1;
-  // Where the edges are of other shapes than triangles is not known: one ray in eight may be near any.
+  // Edges of shapes other than triangles are not known: one ray in eight may be near any.
   if (displacement_.room > 0 && random(displacement_.seed, spawned_, 7, 0) < 0.125 &&
       point.weights == Vec3(0))
     aside *= displacement_.room / displacement_.share;
@@ -100,13 +100,13 @@ Vec3 SampleRays::surroundings(const Vec3& d) const {
                             : scene_.render.background;
 }
 
-// What float32 may add at most to the cosine between a surface and what lies at that distance from it.
+// The largest error by float32 of the cosine between a surface and a point at that distance from it.
 double SampleRays::cosine_rounding(const SurfacePoint& point, double distance) const {
   if (displacement_.share == 0) return 0;
   return displacement_.share * (1 + glm::length(point.position - scene_.camera.eye) / distance);
 }
 
-// What it may be of that.
+// A random share of that error.
 double SampleRays::tilt(const SurfacePoint& point, double distance) const {
   return cosine_rounding(point, distance) * (2 * random(displacement_.seed, spawned_, 3, 0) - 1);
 }

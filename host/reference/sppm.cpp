@@ -36,7 +36,8 @@ Vec3 PathSample::gathered(const Interaction& at, const LocalFrame& frame, const 
     const Vec3 apart = photon.position - p;
     const double distance = glm::length(apart);
     const bool before = leaving(at, photon.direction) == Leaving::in_front;
-    // What it counts for by this share of the radius nearer, also to the plane and to facing as it does.
+    // The photon's weight if it were nearer by this share of the radius, also to the plane and to facing the
+    // same way.
     const auto weight = [&](double nearer) {
       const double moved = std::max(0.0, distance - nearer * radius);
       const bool counts = moved < radius && std::abs(glm::dot(apart, n)) < (0.1 + nearer) * radius &&

@@ -26,7 +26,7 @@ std::vector<uint64_t> first_ids(const Scene& scene, const PrimitiveIds& ids) {
   return first;
 }
 
-// And of a group's.
+// The first ids of a group's objects.
 std::vector<uint64_t> first_ids(const Group& group, const std::vector<Mesh>& meshes) {
   std::vector<uint64_t> first(group.shapes.size());
   std::iota(first.begin(), first.end(), uint64_t(0));

@@ -7,7 +7,7 @@ namespace eyeray::engine::render {
 
 namespace {
 
-// What a display may show alike.
+// The difference up to which a display may show two values alike.
 constexpr double alike = 1.0 / 512;
 // The share of a picture that must differ from the background, at least.
 constexpr double least_foreground = 1e-3;

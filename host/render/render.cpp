@@ -15,16 +15,17 @@
 namespace eyeray::engine::render {
 namespace {
 
-// How many pixels are traced at a time: tens of megabytes of whatever is made of them.
+// The number of pixels traced at a time: tens of megabytes of results.
 constexpr int most_traced = 1 << 20;
-// How many are handed on: what is made of them stays in the caches, and in memory that was used before.
+// The number of pixels passed on at a time: their results stay in the caches, and in memory that was used
+// before.
 constexpr int most_handed_on = 1 << 16;
 
 int rows_of(int pixels, int width) {
   return std::max(1, pixels / width);
 }
 
-// How many rows to ask for at a time: as many as take about a fifth of a second, so that progress shows and
+// The number of rows to request at a time: they take about a fifth of a second, so that progress shows and
 // Ctrl-C works.
 class RowsAtATime {
  public:
@@ -170,7 +171,7 @@ class Driver {
     return parts;
   }
 
-  // Where in the picture a part of the band lies.
+  // The position in the picture of a part of the band.
   Rect in_picture(Rect part) const {
     part.y += int(position_.finished_rows);
     return tiles_ ? tiles_->in_picture(part)

@@ -62,7 +62,7 @@ class Shutter final : public Executor {
     executor_.reset();
     gone_ = times_;
     moment_ = std::make_unique<Scene>(scene_.animation.at(frame));
-    // What all samples of one picture have in common.
+    // The settings that all samples of one picture share.
     moment_->image = scene_.image;
     moment_->render.integrator = scene_.render.integrator;
     moment_->render.max_depth = scene_.render.max_depth;

@@ -27,7 +27,7 @@ Places places_around(double rounding, double surfaces, int angles, bool between)
   };
   const double reach = std::min(most_reach, 1 + surfaces / 8);
 
-  // What varies more quickly than from ring to ring, the rings within show: a caustic's rim may be a
+  // Features narrower than the distance of two rings show on the rings within: a caustic's rim may be a
   // hundred-thousandth of a pixel wide.
   if (const double least = std::min(rounding, radius_step); least > 0) {
     add_ring(least, angles, 0.25);

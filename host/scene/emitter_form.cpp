@@ -9,7 +9,7 @@ namespace eyeray::engine {
 
 namespace {
 
-// What QuadricForm says of a sphere or a cylinder in its own space.
+// The emitter form of a QuadricForm that is a sphere or a cylinder in object space.
 std::optional<EmitterForm> quadric_form(const QuadricForm& it) {
   if (it.product != Vec3(0) || it.linear != Vec3(0) || it.constant != -1) return std::nullopt;
   const Vec2 low(it.clip.min.x, it.clip.min.z), high(it.clip.max.x, it.clip.max.z);

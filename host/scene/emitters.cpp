@@ -23,7 +23,7 @@ Vec3 mean_radiance(const Material& material, const Vec3& position) {
   return sum / double(steps * steps);
 }
 
-// And over a triangle.
+// The mean radiance over a triangle.
 Vec3 mean_radiance(const Material& material, const TriangleForm& triangle, const EmitterCorners& corners) {
   constexpr int steps = 4;
   Vec3 sum(0);

@@ -20,7 +20,7 @@ double angle_between(const Vec3& a, const Vec3& b) {
 // The directions of the cone around `b` into that around `a`.
 void add_cone(LightBounds& a, const LightBounds& b) {
   a.reach = std::max(a.reach, b.reach);
-  // Where light goes both ways, the axis is a line.
+  // If light leaves both sides, the axis is a line.
   const bool flips = b.both_sides && glm::dot(a.axis, b.axis) < 0;
   const Vec3 axis = flips ? -b.axis : b.axis;
   a.both_sides = a.both_sides || b.both_sides;
@@ -43,7 +43,7 @@ void add_cone(LightBounds& a, const LightBounds& b) {
   a.spread = spread;
 }
 
-// What lights of a range have in common: their box as well, by which they are split.
+// The bounds of a range of lights, and their box, by which they are split.
 struct Cluster {
   Bounds box;
   LightBounds cone;  // power and directions alone

@@ -28,7 +28,7 @@ double reach(const Scene& scene) {
   return glm::length(all.max - all.min) / 2;
 }
 
-// What a light sends into the scene; of one that no other program knows, as if it stood everywhere.
+// The power that a light emits into the scene. A light of an unknown form counts as if it stood everywhere.
 double power(const Light& light, double radius) {
   const LightForm form = light.form();
   if (const auto* point = std::get_if<PointLight>(&form); point && point->falloff == Falloff::inverse_square)
@@ -66,8 +66,8 @@ std::optional<LightBounds> bounds_of(const Light& light) {
   return std::nullopt;
 }
 
-// What reaches a point at distance 1 that the light is turned to most: of two with the same power the one
-// that shines into a narrower cone sends more to where it shines.
+// The irradiance at distance 1 in the light's main direction: of two lights with equal power the one with the
+// narrower cone is stronger there.
 double strength(const Light& light) {
   const LightForm form = light.form();
   if (const auto* spot = std::get_if<SpotLight>(&form)) return M_PI * luminance(spot->intensity);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double pixels_across = 2;
 
-// How far apart rays of neighbouring pixels are in the middle of the picture, at that distance.
+// The distance between rays of neighbouring pixels in the middle of the picture, at that distance.
 double pixel_at(const Scene& scene, double distance) {
   const CameraAxes axes = camera_axes(scene.camera);
   const Vec2 size = scene.image.size();

@@ -60,7 +60,7 @@ void add_tangents(Mesh& mesh) {
       sums[vertex].w = side;
     }
   }
-  // Where uv say nothing, any direction will do.
+  // If uv give no direction, any will do.
   mesh.tangents.reserve(sums.size());
   for (size_t i = 0; i < sums.size(); ++i) {
     const Vec3& n = mesh.normals[i];

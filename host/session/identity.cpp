@@ -9,7 +9,7 @@ namespace eyeray::engine::session {
 
 namespace {
 
-// What decides the bits of every picture, whoever renders it.
+// The facts that decide the bits of every picture, on any machine.
 std::vector<render::IdentityPart> identity_of_picture(const Plan& plan) {
   const Request& request = plan.request;
   const Scene& scene = plan.scene;

@@ -9,7 +9,7 @@ namespace fs = std::filesystem;
 namespace eyeray::engine::session {
 namespace {
 
-// How many values are put together at a time.
+// The number of values assembled at a time.
 constexpr int assembled_samples = 1 << 22;
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 namespace eyeray::engine::session {
 namespace {
 
-// How many pixels are painted at a time.
+// The number of pixels painted at a time.
 constexpr int painted_pixels = 1 << 20;
 
 bool is_exr(const std::string& output) {

@@ -112,7 +112,7 @@ class Bezier final : public Shape {
   double thickness_margin() const override { return thickness(net_) / least_thickness; }
 
   void pack(records::Packer& packer) const override {
-    // What all pieces share.
+    // The values that all pieces share.
     Bounds all = bounds();
     const Vec3 middle = (all.min + all.max) * 0.5;
     double radius = 0;
@@ -145,8 +145,8 @@ class Bezier final : public Shape {
   }
 
  private:
-  // Where the derivatives are parallel, as where an edge is one point, the normal next to it towards the
-  // middle.
+  // The normal. If the derivatives are parallel, as where an edge is one point, it is the normal next to it
+  // towards the middle.
   Vec3 normal(const BezierPoint& at, const Vec2& uv) const {
     Vec3 n = glm::cross(at.along_u, at.along_v);
     const double size = glm::dot(at.along_u, at.along_u) + glm::dot(at.along_v, at.along_v);

@@ -76,10 +76,10 @@ class Search {
       const Vec2 before = part.range.to - part.range.from;
       if (!clip(part, 0) || !clip(part, 1)) continue;
       const Vec2 size = part.range.to - part.range.from;
-      // What takes so long grazes, and is as sharp as that allows.
+      // A search that takes so long grazes, and is as precise as that allows.
       const double blur = cuts < many_cuts ? 1 : 1e4;
       if (std::max(size.x, size.y) > small * blur && extent(part) > room_ * blur) {
-        // Where clipping gains little, the ray may hit it several times.
+        // If clipping gains little, the ray may hit the piece several times.
         if (std::max(size.x / before.x, size.y / before.y) > 0.7)
           split(part);
         else
@@ -90,7 +90,7 @@ class Search {
       const double t = t_of(bezier_point(part.net, 0.5, 0.5).position.z);
       if (t > 0 && (!best || t < best->t)) best = Intersection{.t = t, .u = at.x, .v = at.y};
     }
-    // What is left is sure to be hit no earlier than its control points are.
+    // The remaining pieces cannot be hit earlier than their control points.
     double sure_until = best ? best->t : HUGE_VAL;
     for (const Part& part : parts_) sure_until = std::min(sure_until, t_of(least_z(part)));
     if (sure_until < (best ? best->t : HUGE_VAL))

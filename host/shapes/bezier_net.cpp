@@ -44,7 +44,7 @@ Vec3 slope(const Curve& c, double t) {
   return 3.0 * ((c[1] - c[0]) * (s * s) + (c[2] - c[1]) * (2 * s * t) + (c[3] - c[2]) * (t * t));
 }
 
-// How much the derivatives of a part vary along u and along v, in units of those in its middle.
+// The variation of a part's derivatives along u and along v, in units of those in its middle.
 struct Bend {
   double along_u = 0, along_v = 0;
 };

@@ -46,7 +46,7 @@ constexpr Key keys[] = {
      .max = max_coordinate},
 };
 
-// Which share of the cube of its longest edge or diagonal the corners' tetrahedron fills, six times.
+// Six times the volume of the corners' tetrahedron, as a share of the cube of its longest edge or diagonal.
 double thickness(const Corners& p) {
   double longest = 0;
   for (const Vec3& a : p)

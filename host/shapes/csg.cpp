@@ -95,7 +95,7 @@ std::vector<Span> Csg::spans(const Ray& ray) const {
             : all_                ? shapes::intersect(spans, other)
                                   : unite(spans, other);
   }
-  // Where the search for an operand gave up, nothing is known any more.
+  // If the search for an operand gave up, nothing beyond is known.
   if (gave_up) {
     std::erase_if(spans, [&](const Span& span) { return span.in.t >= gave_up->t; });
     if (!spans.empty() && spans.back().out.t > gave_up->t)
@@ -114,7 +114,7 @@ std::optional<Intersection> Csg::intersect(const Ray& ray) const {
   return std::nullopt;
 }
 
-// What is removed shows its surface from within.
+// A subtracted shape shows its surface from within.
 SurfacePoint Csg::surface(const Ray& ray, const Intersection& hit) const {
   const Leaf& leaf = leaves_[hit.part];
   SurfacePoint surface = leaf.shape->surface(ray, hit);

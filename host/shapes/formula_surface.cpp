@@ -66,7 +66,7 @@ class LipschitzSearch {
   int values_ = 0;
 };
 
-// The same where nothing says how steep f is: piece by piece as Chebyshev series.
+// The search if no bound of f's slope is known: piece by piece as Chebyshev series.
 class SeriesSearch {
  public:
   SeriesSearch(const FormulaSurface& surface, const Ray& ray, double unit)

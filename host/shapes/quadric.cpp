@@ -89,7 +89,7 @@ struct Form {
   Vec3 gradient(const Vec3& p) const { return hessian() * p + values.linear; }
 };
 
-// What f is in the coordinates in which the box is the cube, times what makes its largest factor ±1.
+// The function f in the coordinates in which the box is the cube, scaled so that its largest factor is ±1.
 Form in_cube(const QuadricValues& values, const Vec3& min, const Vec3& max) {
   const Vec3 half = (max - min) * 0.5;
   const Vec3 center = min + half;

@@ -1,4 +1,4 @@
-// What may be wrong with the outlines that a scene's author writes: the reader of planar_region.hpp.
+// Checks the outlines that a scene's author writes: the reader of planar_region.hpp.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -207,7 +207,7 @@ class RegionCheck {
                                          after.start.vertex + 1));
   }
 
-  // What neither crosses nor touches lies within another outline with all or none of its vertices.
+  // An outline that neither crosses nor touches another one lies within it with all or none of its vertices.
   bool is_nested() {
     for (size_t k = 1; k < flat_.size(); ++k) {
       if (winding(flat_[0], flat_[k][0]) == 0)

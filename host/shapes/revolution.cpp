@@ -68,7 +68,7 @@ ObjectShape::Point Revolution::point(const Vec3& near, const Intersection& hit) 
   const double distance = std::hypot(near.x, near.z);
   const double end = hit.u == bottom_cap ? bottom : top;
   const double rim = profile_.radius(end);
-  // What would be a cap without a rim is the side's tip.
+  // A cap without a rim is the side's tip.
   if (hit.u == side || rim == 0) {
     const Vec2 outward = distance > 0 ? Vec2(near.x, near.z) / distance : Vec2(1, 0);
     const double y = std::clamp(near.y, bottom, top);

@@ -94,7 +94,7 @@ class Sphere final : public Shape {
   }
 
  private:
-  // Where the line is within it.
+  // The span of the line within the sphere.
   std::optional<Span> inside(const Ray& ray) const {
     // Take the discriminant from the point of the ray's line that is nearest to the centre.
     const Vec3 f = ray.o - center_;

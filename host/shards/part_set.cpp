@@ -47,7 +47,7 @@ void allow_open_files() {
   ::setrlimit(RLIMIT_NOFILE, &limit);
 }
 
-// What parts of one picture have in common.
+// The identity that parts of one picture share.
 std::string picture_of(const PartHeader& header) {
   PartHeader common = header;
   common.shard.index = 0;
@@ -55,7 +55,7 @@ std::string picture_of(const PartHeader& header) {
   return to_text(common);
 }
 
-// What of `header` is not as in `wanted`, in words.
+// The differences of `header` from `wanted`, in words.
 std::string difference(const PartHeader& header, const PartHeader& wanted) {
   std::vector<std::string> differences;
   if (header.shard.count != wanted.shard.count)
@@ -68,7 +68,7 @@ std::string difference(const PartHeader& header, const PartHeader& wanted) {
     differences.push_back(part.shown ? fmt::format("the {} ({}, of most {})", part.name, value, part.value)
                                      : "the " + part.name);
   }
-  // What else there is follows from the scene and the options.
+  // All other facts follow from the scene and the options.
   if (differences.empty()) differences.push_back("its scene's file or the program");
   return fmt::format("{}", fmt::join(differences, ", "));
 }
@@ -124,7 +124,7 @@ PartSet::PartSet(const std::vector<std::filesystem::path>& files) {
   }
 }
 
-// Which picture is meant is what most parts are of; of as many, the one that was named first.
+// Keeps the picture of most parts; among equally frequent ones, the one that was named first.
 void PartSet::keep_most_frequent(std::vector<PartReader> read) {
   std::vector<std::string> pictures;
   for (const PartReader& part : read) pictures.push_back(picture_of(part.header()));

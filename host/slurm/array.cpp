@@ -24,7 +24,7 @@ constexpr double patience = 120;
 // Tasks of one array: what Slurm allows where a site has not said otherwise (MaxArraySize).
 constexpr int most_tasks = 1000;
 
-// What a command of Slurm prints. Error (file_io) with its words where it fails.
+// The output of a Slurm command, as lines. Error (file_io) with its message if it fails.
 std::vector<std::string> ask(const std::vector<std::string>& words) {
   ProcessResult answer;
   try {

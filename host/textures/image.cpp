@@ -62,7 +62,7 @@ size_t wrapped(double i, int size, Wrap wrap) {
   return own > 0 ? static_cast<size_t>(std::min(own, n - 1)) : 0;  // and NaN is 0
 }
 
-// What a code stands for.
+// The value that a code stands for.
 double decoded(uint8_t code, bool srgb) {
   static const auto curve = [] {
     std::array<double, 256> values;

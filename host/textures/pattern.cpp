@@ -89,7 +89,7 @@ double Pattern::detail() const {
 }
 
 uint32_t Pattern::pack(records::Packer& packer) const {
-  // What the shaders know is where a place is from the eye.
+  // The shaders know positions relative to the eye.
   const Vec3 eye = -packer.relative(Vec3(0)), offset = to_pattern_.point(eye);
   const Mat3 rows = glm::transpose(to_pattern_.linear);
   std::vector<shader::uvec4> data;

@@ -47,7 +47,7 @@ Json origin(const Golden& golden, const Scene& scene, const compare::Report& rep
           {"eyeray", golden.version}};
 }
 
-// Which of these are not what they were.
+// The entries that have changed.
 std::vector<std::string> changes(const Golden& golden, const Json& now) {
   const fs::path file = sidecar(golden.picture);
   if (!fs::exists(file)) return {"unknown, as it has no " + file.filename().string()};

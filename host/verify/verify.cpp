@@ -15,7 +15,7 @@
 namespace eyeray::engine::verify {
 namespace {
 
-// How many samples a pixel are kept, so that those of one executor fit into some 400 MB.
+// Limit on the kept samples of all pixels, so that those of one executor fit into some 400 MB.
 constexpr size_t most_kept = size_t{1} << 24;
 
 // Keeps the first samples of each pixel, as Frame::samples has them.
@@ -83,7 +83,7 @@ std::vector<std::vector<compare::PixelOutcome>> compare_each_with_reference(
   std::vector<std::vector<compare::PixelOutcome>> outcomes(options.backends.size());
   for (size_t i = 0; i < options.backends.size(); ++i) {
     const std::string& value = report.participants[i].name;
-    // What is the first executor's, bit by bit, compares as that does.
+    // A picture that equals the first executor's bit by bit compares as that does.
     if (i > 0 && report.exact[i - 1].comparison.passes(0)) {
       report.against_reference.push_back(report.against_reference[0]);
       report.against_reference.back().value = value;
@@ -152,7 +152,7 @@ compare::Report verify_scene(const Subject& subject, const Options& options) {
   report.area = options.crop == Rect{} ? Rect{0, 0, scene.image.width, scene.image.height} : options.crop;
   report.samples = scene.image.samples;
 
-  // What cannot be drawn is said before anything is rendered.
+  // Scenes that cannot be drawn are reported before anything is rendered.
   const std::optional<raster::Witness> drawn = draw(scene, report.area, options);
 
   // Render, the reference last.
