@@ -42,7 +42,7 @@ ProcessResult run_eyeray(std::vector<std::string> arguments, const Environment& 
 TimedRun run_render(const std::vector<std::string>& arguments, const std::filesystem::path& output,
                     const Environment& environment = {});
 
-// Whether POV-Ray is installed.
+// True if POV-Ray is installed.
 bool have_povray();
 // Error (file_io), which says so, where it is not; or Blender.
 void check_povray();

@@ -32,7 +32,7 @@ struct Timing {
   uint64_t differing = 0;  // rays whose hit is not the first contender's
 };
 
-// Whether two hits are the same to within 1e-3 of t. Primitives are not compared: on an edge either is right.
+// True if two hits are the same to within 1e-3 of t. Primitives are not compared: on an edge either is right.
 bool agree(const QueryHit& a, const QueryHit& b);
 
 // Runs each contender once untimed, to compare hits, then `runs` times timed. Error (interrupted) after

@@ -29,7 +29,7 @@ struct Bounds {
     low = glm::min(low, value);
     high = glm::max(high, value);
   }
-  // Whether `value` lies within them, widened by `beyond` times their width, and by `margin` or by
+  // True if `value` lies within them, widened by `beyond` times their width, and by `margin` or by
   // `tolerance` · max(1, |bound|); false where it is NaN.
   bool hold(const Value& value, double margin, double beyond) const {
     return hold(value, beyond, [&](double) { return margin; });

@@ -142,7 +142,7 @@ void add(std::string& text, const Report& report, const GoldenResult& result) {
   if (result.updated) line(text, "  updated {}", result.file);
 }
 
-// Whether gate A found every bit of this executor equal to the first one's, so that there is nothing new to
+// True if gate A found every bit of this executor equal to the first one's, so that there is nothing new to
 // say.
 bool same_as_first(const Report& report, const ReferenceResult& result) {
   return std::any_of(report.exact.begin(), report.exact.end(), [&](const ExactResult& exact) {

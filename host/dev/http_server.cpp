@@ -156,7 +156,7 @@ void HttpServer::Loop::Client::drop() {
   ::shutdown(socket(), SHUT_RDWR);
 }
 
-// Whether a client of events has closed the connection, which the library does not see of a suspended one.
+// True if a client of events has closed the connection, which the library does not see of a suspended one.
 bool HttpServer::Loop::Client::has_gone() const {
   char next;
   return state == State::receives_events && ::recv(socket(), &next, 1, MSG_PEEK | MSG_DONTWAIT) == 0;
@@ -279,7 +279,7 @@ void HttpServer::Loop::publish(std::string text) {
   wake();
 }
 
-// Whether both addresses, or 127.0.0.1 on a machine without IPv6, have the port free; else errno says why
+// True if both addresses, or 127.0.0.1 on a machine without IPv6, have the port free; else errno says why
 // not.
 bool HttpServer::Loop::listen(int port) {
   std::vector<int> sockets;

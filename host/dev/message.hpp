@@ -32,11 +32,11 @@ class MessageSocket {
   bool closed() const { return descriptor_ < 0; }
   void close();
 
-  // Whether it went out as a whole.
+  // True if it went out as a whole.
   bool send(const Message& message);
   // The next message, if it comes whole within so many seconds.
   std::optional<Message> receive(double seconds);
-  // Whether there is something to receive, or the other end is gone.
+  // True if there is something to receive, or the other end is gone.
   bool readable() const;
 
  private:

@@ -20,7 +20,7 @@ class SourceFiles {
   // changed, once.
   void set(const std::set<std::filesystem::path>& files, Clock::time_point began);
   const std::set<std::filesystem::path>& files() const { return files_; }
-  // Whether there is such a file.
+  // True if there is such a file.
   bool any_unknown() const;
 
   // Those whose bytes are others than at the last call: saving what was there counts for nothing.

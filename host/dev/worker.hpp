@@ -23,7 +23,7 @@ class Worker {
   void start();
   bool running() const { return pid_ >= 0; }
   MessageSocket& socket() { return socket_; }
-  // Whether a debugger is attached to it, and may hold it for as long as a person thinks.
+  // True if a debugger is attached to it, and may hold it for as long as a person thinks.
   bool debugged() const;
   // Ends it, whatever it does: soon, and with its unfinished files gone. How it ended, for people: "signal 11
   // (Segmentation fault)"; a process that ends by itself does so before it is killed.

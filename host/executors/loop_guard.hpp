@@ -23,7 +23,7 @@ class LoopGuard {
   // `text` of a file that takes the place of eyeray's `original`, called `shown` in messages. Counts the
   // loops of all functions that `original` does not have; no line moves.
   std::string guard(const std::string& shown, std::string_view text, std::string_view original);
-  // Whether any text that was guarded differs from eyeray's.
+  // True if any text that was guarded differs from eyeray's.
   bool active() const { return !files_.empty(); }
 
   uint32_t most() const { return most_; }

@@ -46,7 +46,7 @@ struct ExecutorOptions {
   TwinOptions twin;
 };
 
-// Whether so many samples repay kernels that have the scene inside, where kernels without it would do for
+// True if so many samples repay kernels that have the scene inside, where kernels without it would do for
 // the next scene too.
 bool repay_kernels(int64_t samples);
 // For scenes that come one after the other and differ in what moved, each a picture of so many samples:

@@ -7,36 +7,36 @@
 
 namespace eyeray::engine::executors {
 
-// Whether any texture of the material varies over a surface.
+// True if any texture of the material varies over a surface.
 bool varies(const records::PackedScene& scene, const shader::Material& material);
-// Whether any triangle has normals at its corners.
+// True if any triangle has normals at its corners.
 bool any_smooth(const records::PackedScene& scene);
 bool any_emits(const records::PackedScene& scene);
-// Whether a surface that a path may choose has a texture for its light.
+// True if a surface that a path may choose has a texture for its light.
 bool any_emission_texture(const records::PackedScene& scene);
 bool any_emits_in_front(const records::PackedScene& scene);
 bool any_blends(const records::PackedScene& scene);
 bool any_front_only(const records::PackedScene& scene);
-// Whether a coat's normal may be another than its surface's.
+// True if a coat's normal may be another than its surface's.
 bool any_bent_coat(const records::PackedScene& scene);
-// Whether any diffuse material is not Lambert's.
+// True if any diffuse material is not Lambert's.
 bool any_rough_diffuse(const records::PackedScene& scene);
-// Whether light goes through any principled material, and through any at all.
+// True if light goes through any principled material, and through any at all.
 bool any_principled_transmits(const records::PackedScene& scene);
 bool transmits(const records::PackedScene& scene);
-// Whether `specular` or `specular_color` of any principled material is not the same everywhere.
+// True if `specular` or `specular_color` of any principled material is not the same everywhere.
 bool any_specular_varies(const records::PackedScene& scene);
 bool any_dims(const records::PackedScene& scene);
 bool any_scatters(const records::PackedScene& scene);
-// Whether a light is seen under an angle.
+// True if a light is seen under an angle.
 bool any_light_disk(const records::PackedScene& scene);
 // The largest number of bounces of a path: 0 if no material, or not the integrator, continues rays.
 uint32_t most_bounces(const records::PackedScene& scene);
-// Whether a path may go on in two ways at once.
+// True if a path may go on in two ways at once.
 bool splits(const records::PackedScene& scene);
 // The number of shadow rays at each hit.
 uint32_t shadow_rays(const records::PackedScene& scene);
-// Whether paths draw random numbers on their way.
+// True if paths draw random numbers on their way.
 bool walks_at_random(const records::PackedScene& scene);
 
 }  // namespace eyeray::engine::executors

@@ -74,7 +74,7 @@ Tunable::Type type_named(const std::string& name) {
   return name == "bool" ? Tunable::Type::boolean : Tunable::Type::vector;
 }
 
-// Whether a control of this kind moves values of this type.
+// True if a control of this kind moves values of this type.
 bool fits(const std::string& control, Tunable::Type type) {
   if (control == "color") return type == Tunable::Type::vector;
   if (control == "checkbox") return type == Tunable::Type::boolean;

@@ -72,7 +72,7 @@ class Expression {
   Term power(Term x, double exponent);
   Term apply(Op op, Term x, Term y = no_term, Term z = no_term);
 
-  // Whether it is a constant, number or truth, that value() has.
+  // True if it is a constant, number or truth, that value() has.
   bool known(Term t) const { return step(t).op == Op::constant || step(t).op == Op::truth; }
   double value(Term t) const { return step(t).value; }
   bool is(Term t, double value) const { return known(t) && this->value(t) == value && step(t).error == 0; }

@@ -15,7 +15,7 @@ bool is_access(spv::Op op) {
   return op == spv::OpAccessChain || op == spv::OpInBoundsAccessChain;
 }
 
-// Whether it computes something from its operands and nothing else.
+// True if it computes something from its operands and nothing else.
 bool computes(const Instruction& instruction) {
   switch (instruction.op) {
     case spv::OpVariable:
@@ -135,7 +135,7 @@ class Folding {
     return once;
   }
 
-  // Whether nothing is left to do for it: its result is made a constant, or is a place in one.
+  // True if nothing is left to do for it: its result is made a constant, or is a place in one.
   bool replace(const Instruction& instruction) {
     if (is_access(instruction.op)) {
       return find_part(instruction);

@@ -47,9 +47,9 @@ class Formula {
   FormulaKind kind() const { return kind_; }
   const std::string& title() const { return title_; }
   const FormulaText& text() const { return text_; }
-  // Whether it is the same function as the other one.
+  // True if it is the same function as the other one.
   bool same(const Formula& other) const;
-  // Whether the text has the function that it may have beside (other_entry_of): a surface's gradient, a
+  // True if the text has the function that it may have beside (other_entry_of): a surface's gradient, a
   // camera's origin.
   bool has_other() const;
   // Instructions, with functions written where they are called: what a kernel's compiler has to do with it.

@@ -121,7 +121,7 @@ void Judge::find_functions() {
   }
 }
 
-// Whether it is a name of the text's own.
+// True if it is a name of the text's own.
 bool Judge::judge_word(size_t i) {
   const std::string& word = text(i);
   if (i > 0 && is(i - 1, ".")) {
@@ -259,7 +259,7 @@ void Judge::judge_globals() {
   }
 }
 
-// Whether there is TYPE NAME(TYPE a, …) { … }, its parameters of the types that it is written with.
+// True if there is TYPE NAME(TYPE a, …) { … }, its parameters of the types that it is written with.
 bool Judge::defines(const Entry& entry) const {
   return std::ranges::any_of(functions_, [&](const Function& function) {
     size_t i = function.type;

@@ -41,7 +41,7 @@ std::string way_out() {
 // MiB.
 constexpr size_t needed_addresses = size_t{1} << 30;
 
-// Whether a driver of this machine makes pictures sooner with wide vectors. Its version is known only once it
+// True if a driver of this machine makes pictures sooner with wide vectors. Its version is known only once it
 // is loaded; it is loaded again, with the width that it is to have, when this instance is gone.
 bool finds_gain_from_wide_vectors(double timeout_seconds) {
   DeviceOptions options;

@@ -36,7 +36,7 @@ uint32_t choose_memory(const Context& context, uint32_t allowed, MemoryKind kind
 // Descriptors of a kernel take some kilobytes.
 constexpr VkDeviceSize drivers_share = 1 << 20;
 
-// Whether the memory, which can be mapped, has pages up to its end. Kernels before Linux 5.14 do not know the
+// True if the memory, which can be mapped, has pages up to its end. Kernels before Linux 5.14 do not know the
 // question, and it counts as answered.
 bool is_backed(VkDevice device, VkDeviceMemory memory, VkDeviceSize bytes) {
   void* address = nullptr;

@@ -15,13 +15,13 @@ namespace {
 using Instruction = SpirvInstruction;
 using Block = SpirvBlock;
 
-// Whether a function of GLSL.std.450, the only set of functions that shaders use, takes values alone. Modf
+// True if a function of GLSL.std.450, the only set of functions that shaders use, takes values alone. Modf
 // and the functions after FMix write through pointers.
 bool is_function_of_values(uint32_t function) {
   return function <= GLSLstd450FMix && function != GLSLstd450Modf;
 }
 
-// Whether it may be computed where nobody asks for it. An integer division by zero may not, and neither may a
+// True if it may be computed where nobody asks for it. An integer division by zero may not, and neither may a
 // load from who knows where.
 bool is_harmless(const Instruction& instruction) {
   const spv::Op opcode = opcode_of(instruction);
@@ -163,7 +163,7 @@ class Flattener {
     return label;
   }
 
-  // Whether the arm is nothing but what may be computed in any case, and then the end of the selection.
+  // True if the arm is nothing but what may be computed in any case, and then the end of the selection.
   bool is_harmless_arm(uint32_t label, uint32_t end) {
     if (label == end) return true;
     const std::vector<Instruction>& body = at(label).body;

@@ -10,7 +10,7 @@ namespace eyeray::engine::gpu {
 // not set.
 bool may_widen_vectors();
 
-// Whether a driver of this version makes pictures sooner with vectors of 512 bits: Mesa 22 does. Later ones
+// True if a driver of this version makes pictures sooner with vectors of 512 bits: Mesa 22 does. Later ones
 // gain nothing from them, and take up to six times as long to compile (docs/experiments/wide-vectors.md).
 bool gains_from_wide_vectors(std::string_view driver_version);
 

@@ -22,7 +22,7 @@ uint32_t number(std::string_view bytes, size_t at, size_t size) {
   return value;
 }
 
-// Whether an ICC profile describes itself as sRGB, in ASCII or in UTF-16.
+// True if an ICC profile describes itself as sRGB, in ASCII or in UTF-16.
 bool is_srgb_profile(std::string_view profile) {
   using namespace std::string_view_literals;
   return std::ranges::any_of(

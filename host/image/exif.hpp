@@ -20,7 +20,7 @@ int tiff_orientation(std::string_view tiff);
 void for_each_jpeg_segment(std::string_view jpeg,
                            const std::function<void(uint32_t marker, std::string_view content)>& visit);
 
-// Whether the JPEG has a marker of its end, outside its segments: a thumbnail in one of them has its own.
+// True if the JPEG has a marker of its end, outside its segments: a thumbnail in one of them has its own.
 bool has_jpeg_end(std::string_view jpeg);
 
 // The picture as it is to be seen, from one that was stored with this orientation.

@@ -104,7 +104,7 @@ Rgbe to_rgbe(const float* color) {
   return rgbe;
 }
 
-// Whether the chromaticities of red, green, blue and white are near Rec. 709's or Radiance's own.
+// True if the chromaticities of red, green, blue and white are near Rec. 709's or Radiance's own.
 bool usual_primaries(const std::string& line) {
   constexpr double usual[2][8] = {{0.64, 0.33, 0.3, 0.6, 0.15, 0.06, 0.3127, 0.329},
                                   {0.64, 0.33, 0.29, 0.6, 0.15, 0.06, 0.3333, 0.3333}};

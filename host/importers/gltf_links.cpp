@@ -61,7 +61,7 @@ class Tree {
   }
 
   size_t parents(size_t node) const { return parents_[node]; }
-  // Whether no walk from a node without parents comes to it, since it is below itself.
+  // True if no walk from a node without parents comes to it, since it is below itself.
   bool is_in_loop(size_t node) const { return first_[node] == no_object; }
   size_t root(size_t node) const { return roots_[node]; }
   bool is_at_or_below(size_t node, size_t above) const {
@@ -154,7 +154,7 @@ struct Links {
   Roles roles;
 };
 
-// Whether the values that `value_of` has for the primitives of a mesh differ.
+// True if the values that `value_of` has for the primitives of a mesh differ.
 template <typename Value>
 bool differ(const Json& mesh, const Value& value_of) {
   const Json& primitives = list(mesh, "primitives");
@@ -169,7 +169,7 @@ size_t sets_of_joints(const Json& primitive) {
   return sets;
 }
 
-// Whether `holds` is true of all joints of a skin that stand in the tree.
+// True if `holds` is true of all joints of a skin that stand in the tree.
 template <typename Holds>
 bool all_joints(const Links& links, const Json& skin, const Holds& holds) {
   return std::ranges::all_of(list(skin, "joints"), [&](const Json& value) {
@@ -192,7 +192,7 @@ bool has_sound_skeleton(const Links& links, const Json& skin) {
          all_joints(links, skin, [&](size_t joint) { return links.tree.is_at_or_below(joint, skeleton); });
 }
 
-// Whether each element of an attribute begins at a multiple of 4 bytes of its view.
+// True if each element of an attribute begins at a multiple of 4 bytes of its view.
 bool is_aligned(const Links& links, const Json& accessor) {
   const Json& views = list(links.document, "bufferViews");
   const size_t view = index(accessor, "bufferView", views.size());

@@ -34,14 +34,14 @@ std::vector<IndexTriangle> assemble(uint64_t mode, const std::vector<uint32_t>& 
   return triangles;
 }
 
-// Whether a normal's length is not 1. Rounding alone makes a deviation of 0.007 if normals are in bytes. A
+// True if a normal's length is not 1. Rounding alone makes a deviation of 0.007 if normals are in bytes. A
 // normal of length 0 is counted elsewhere.
 bool is_no_unit(const Vec3& normal) {
   const double length = glm::length(normal);
   return length > 0 && !(std::abs(length - 1) < 0.01);
 }
 
-// Whether a vertex has a direction along u, and a side of it for v.
+// True if a vertex has a direction along u, and a side of it for v.
 bool is_direction(const Vec4& tangent) {
   const double length = glm::length(Vec3(tangent));
   return std::isfinite(length) && length > 0 && std::abs(tangent.w) == 1;

@@ -76,7 +76,7 @@ void check_version(const GltfObject& object, const Coding& coding, std::string_v
   }
 }
 
-// Whether they could be decoded.
+// True if they could be decoded.
 bool decode(const Coding& coding, std::string_view coded, std::string& decoded) {
   const auto* bytes = reinterpret_cast<const unsigned char*>(coded.data());
   if (coding.mode == "TRIANGLES")

@@ -64,7 +64,7 @@ struct ImportedScene {
   std::vector<std::filesystem::path> files;  // every file read, this one first
 };
 
-// Whether the name ends as those of mesh files do, in any case: .obj .ply .gltf .glb.
+// True if the name ends as those of mesh files do, in any case: .obj .ply .gltf .glb.
 bool is_mesh_file(const std::filesystem::path& file);
 
 // Reads a mesh file by its ending, and what it refers to. Error (file_io) when a file cannot be read,

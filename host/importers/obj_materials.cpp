@@ -47,7 +47,7 @@ bool is_glass(const tinyobj::material_t& source) {
   return refracts(source.illum) && (source.ior > 1 || source.dissolve < 1);
 }
 
-// Whether it has a value of the physically based extension (Pr, Pm, Pc, Ps), which `illum` does not describe.
+// True if it has a value of the physically based extension (Pr, Pm, Pc, Ps), which `illum` does not describe.
 bool is_principled(const tinyobj::material_t& source) {
   return source.roughness > 0 || source.metallic > 0 || source.clearcoat_thickness > 0 || source.sheen > 0;
 }
@@ -151,7 +151,7 @@ void ObjMaterials::load(std::string_view names) {
   for (std::string name; words >> name;) read(name, true);
 }
 
-// Whether there is such a file; where there is none and this was the `last` name to try, warns.
+// True if there is such a file; where there is none and this was the `last` name to try, warns.
 bool ObjMaterials::read(const std::string& name, bool last) {
   if (done_.contains(name)) return true;
   std::string text;

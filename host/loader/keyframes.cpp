@@ -84,7 +84,7 @@ class Between {
   Between(const std::array<double, 4>& frames, double frame, Curve curve, DiagnosticLog& log)
       : frames_(frames), share_((frame - frames[1]) / (frames[2] - frames[1])), curve_(curve), log_(log) {}
 
-  // Whether no two values were unlike so far.
+  // True if no two values were unlike so far.
   bool sound() const { return sound_; }
 
   std::string text(const Four& values) {

@@ -14,7 +14,7 @@ namespace eyeray::engine::loader {
 
 namespace {
 
-// Whether it is a name or the path of a file, which needs no quotes.
+// True if it is a name or the path of a file, which needs no quotes.
 bool is_word(std::string_view text) {
   const auto letter = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||

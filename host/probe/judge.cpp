@@ -47,7 +47,7 @@ class Judge {
     for (size_t i = 0; i < executors.size(); ++i) (is_exact(i) ? exact_ : reference_).push_back(i);
   }
 
-  // Whether anything is beyond tolerance, the surroundings not yet asked.
+  // True if anything is beyond tolerance, the surroundings not yet asked.
   bool any_beyond() const {
     return std::ranges::any_of(overlay_.rays(), [&](const Ray& ray) {
       return misses(ray) || std::ranges::any_of(ray.lines, [&](const Line& line) {
@@ -71,7 +71,7 @@ class Judge {
     return reference_.empty() || !line.values[reference_[0]] ? nullptr : &*line.values[reference_[0]];
   }
 
-  // Whether some of the executors have the ray, and others have not.
+  // True if some of the executors have the ray, and others have not.
   bool misses(const Ray& ray) const {
     return !incomplete_ && std::ranges::find(ray.traced, false) != ray.traced.end();
   }
@@ -129,7 +129,7 @@ class Judge {
     return tolerances.color * std::max(1.0, std::abs(reference));
   }
 
-  // Whether what the ray hits, or one before it, is another primitive somewhere around the pixel: there all
+  // True if what the ray hits, or one before it, is another primitive somewhere around the pixel: there all
   // runs like a square root, and may lie as far beyond what was seen as that is apart.
   bool at_rim(const Ray& ray) const {
     for (const Ray* at = &ray; at->kind != RayKind::pixel; at = &overlay_.rays()[at->parent]) {
@@ -140,7 +140,7 @@ class Judge {
     return false;
   }
 
-  // Whether executor i's value is not the reference's: within tolerance, or `around` the pixel.
+  // True if executor i's value is not the reference's: within tolerance, or `around` the pixel.
   bool beyond(const Ray& ray, const Line& line, size_t i, bool around) const {
     const ProbedValue* const other = reference(line);
     if (!other || !line.values[i]) return false;

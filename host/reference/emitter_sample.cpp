@@ -185,7 +185,7 @@ double cylinder_density(const CylinderForm& it, const Vec3& from, const EmitterS
   return side * density_of_area(4 * M_PI * glm::length(glm::cross(along, m[1])), from, place);
 }
 
-// Whether places are chosen by solid angle, and not by area.
+// True if places are chosen by solid angle, and not by area.
 bool by_solid_angle(double solid_angle, double least = 3e-4) {
   return solid_angle >= least && solid_angle <= 6.22;
 }

@@ -83,7 +83,7 @@ struct Animation {
 };
 inline constexpr double most_frames = 1e6;
 
-// Whether the material fills the shapes that are made of it: to paths, panes have no inside.
+// True if the material fills the shapes that are made of it: to paths, panes have no inside.
 bool fills(const Material& material, IntegratorType integrator);
 
 struct Scene {

@@ -174,7 +174,7 @@ class Shape {
   virtual Bounds bounds() const = 0;
   // The shape that has the surface there, and whose material it is of: itself, or a CSG object's part.
   virtual const Shape& part(const Intersection&) const { return *this; }
-  // Whether it encloses a volume, so that CSG objects can be made of it.
+  // True if it encloses a volume, so that CSG objects can be made of it.
   virtual bool is_closed() const { return false; }
   // The spans of the ray's whole line, t < 0 included, that lie within a closed shape: in order, none touches
   // another. Beyond an end that is `iteration_limit` no span is known.
@@ -183,7 +183,7 @@ class Shape {
   virtual ShapeForm form() const { return {}; }
   // The formula of a shape that is made of one; else null.
   virtual const FormulaUse* formula_use() const { return nullptr; }
-  // Whether shadow rays are weakened by each of its crossings, √(the material's share), as by a mesh's
+  // True if shadow rays are weakened by each of its crossings, √(the material's share), as by a mesh's
   // triangles, and not once in all: of an open shape that may be part of a closed surface.
   virtual bool counts_crossings() const { return false; }
   // How many times thicker it is than the thinnest of its kind that can be computed, if a map could make it

@@ -43,7 +43,7 @@ class Texture {
   virtual TexturePtr as_data() const { return nullptr; }
   // How far apart to look for a slope: in uv, or for what is in_space() in the world.
   virtual double detail() const { return 0.01; }
-  // Whether it asks for the place in the world, which nothing knows where cutouts are looked at.
+  // True if it asks for the place in the world, which nothing knows where cutouts are looked at.
   virtual bool in_space() const { return false; }
   // Which texture coordinates of a mesh it reads.
   virtual bool reads_second_uv() const { return false; }

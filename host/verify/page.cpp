@@ -43,7 +43,7 @@ size_t compared(const compare::Report& report) {
   return failing == report.against_reference.end() ? 0 : size_t(failing - report.against_reference.begin());
 }
 
-// Whether gate A found the i-th executor's pixels to be the first one's, bit by bit.
+// True if gate A found the i-th executor's pixels to be the first one's, bit by bit.
 bool same_as_first(const compare::Report& report, size_t i) {
   return std::ranges::any_of(report.exact, [&](const compare::ExactResult& exact) {
     return exact.other == report.participants[i].name && exact.comparison.passes(0);

@@ -30,7 +30,7 @@ vec3 bsdf_albedo(Bsdf bsdf) {
   return vec3(minimum(all.x, 1.0f), minimum(all.y, 1.0f), minimum(all.z, 1.0f));
 }
 
-// Whether light leaves in single directions alone.
+// True if light leaves in single directions alone.
 bool is_specular(Bsdf bsdf) {
   bool any = false;
 #define HAS_LOBE(name, number, layers) any = any || max_component(name##_albedo(bsdf)) > 0.0f;
@@ -79,7 +79,7 @@ LobeShares lobe_shares(Bsdf bsdf) {
 }
 
 #if HAS_BENT_COAT
-// Whether light from i shines on the coat.
+// True if light from i shines on the coat.
 bool coat_faces(Bsdf bsdf, vec3 i) { return bsdf.coat > 0.0f && into_coat(bsdf, i).z > 0.0f; }
 #endif
 

@@ -27,7 +27,7 @@ Ray camera_ray(Frame frame, vec2 place, vec2 lens) {
 #define SEEN_IN_picture(name, across, lens) true
 #define SEEN_IN_circle(name, across, lens) (dot3(across, across) <= dot3(frame.forward, frame.forward))
 #define SEEN_IN_itself(name, across, lens) name##_sees(frame, across, lens)
-// Whether anything is seen there; else the picture is black, and there is no ray.
+// True if anything is seen there; else the picture is black, and there is no ray.
 bool camera_sees(Frame frame, vec2 place, vec2 lens) {
   vec3 across = across_picture(frame, place);
   bool sees = true;

@@ -55,7 +55,7 @@ vec3 emitter_radiance(Emitter e, EmitterSample place, vec3 direction) {
   return light;
 }
 
-// Whether it may light a point of that primitive.
+// True if it may light a point of that primitive.
 bool may_light(Emitter e, uint primitive) {
   bool itself = true;
 #define LIGHTS_ITSELF(name, number, itself_too) \

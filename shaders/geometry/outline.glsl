@@ -12,7 +12,7 @@ vec3 seen_along(Ray ray, vec3 vertex) {
   return vec3(v.x - ray.shear.x * v.z, v.y - ray.shear.y * v.z, v.z);
 }
 
-// Whether the edge between p and q crosses the half line y = 0, x > 0 that starts at the ray. A ray passes within an outline whose edges do so an
+// True if the edge between p and q crosses the half line y = 0, x > 0 that starts at the ray. A ray passes within an outline whose edges do so an
 // odd number of times. The answer is the same for q and p: their products are each other's exact negatives. So of all shapes that have
 // the edge, each takes it alike, whatever rounding makes of it, and a ray that passes within a patch of them passes within an odd
 // number of them: never between.

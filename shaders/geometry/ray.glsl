@@ -219,7 +219,7 @@ Ray spawn_ray(Surface s, vec3 d) {
   return make_ray((s.p + s.inward) + (steep ? d * (s.offset / abs(cosine)) : s.normal_geometric * side), d);
 }
 
-// Whether scattered rays leave it from elsewhere than its points.
+// True if scattered rays leave it from elsewhere than its points.
 bool lifts(Surface s) {
 #if HAS_SMOOTH
   return s.lift.x >= 0.0f;

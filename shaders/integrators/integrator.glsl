@@ -12,7 +12,7 @@
 
 SHADER_BEGIN
 
-// Whether paths go on.
+// True if paths go on.
 bool scatters() {
   bool any = false;
 #define SCATTERS_OF(name, number, lights, ways) \

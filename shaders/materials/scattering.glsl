@@ -76,7 +76,7 @@ float highlight(Material material, vec3 n, vec3 to_light, vec3 to_viewer) {
 }
 
 #if RANDOM_WALK && HAS_PANES
-// Whether the material's surface is a border between media of one index, which refracts nothing.
+// True if the material's surface is a border between media of one index, which refracts nothing.
 bool is_interface(Material material, ScatteringContext context) {
   return material.medium != 0u && context.ior_from == context.ior_to && ANY_INTERFACE;
 }

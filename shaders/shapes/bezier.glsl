@@ -49,7 +49,7 @@ BezierRow bezier_row_along(BezierRow r, vec3 o, vec3 x, vec3 y, vec3 z) {
   return row;
 }
 
-// Whether the ray comes near the piece.
+// True if the ray comes near the piece.
 bool bezier_reject(Primitive s, Ray ray) {
   vec3 to_middle = bezier_middle(s) - ray.o;
   vec3 off = to_middle - ray.d * (dot3(to_middle, ray.d) / dot3(ray.d, ray.d));

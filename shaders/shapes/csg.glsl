@@ -33,7 +33,7 @@ Primitive load_leaf(uint at) {
                       bits_to_floats(load_outline(at + 3u)));
 }
 
-// Whether the ray passes a box at t > 0. The room is as in geometry/outline.glsl.
+// True if the ray passes a box at t > 0. The room is as in geometry/outline.glsl.
 bool passes_box(Ray ray, vec3 box_centre, vec3 half_size) {
   vec3 centre = box_centre - ray.o;
   float room = 16.0f * EPSILON * max_component(abs3(centre) + half_size);
@@ -267,7 +267,7 @@ vec4 leaf_level(Primitive leaf, vec3 p) {
   return level;
 }
 
-// Whether the leaf `own`, as a bit, bounds the CSG object where the ray is within the leaves `within`.
+// True if the leaf `own`, as a bit, bounds the CSG object where the ray is within the leaves `within`.
 bool bounds_csg(Primitive s, uint own, uint within) {
   uvec4 head = load_outline(s.extra);
   uvec2 holds = csg_holds(s.extra + 1u, head.x, uvec2((within | own) ^ head.y, (within & ~own) ^ head.y));

@@ -19,7 +19,7 @@ float within_copy(float x, uint wrap) {
   return within > 0.0f ? minimum(within, 1.0f) : 0.0f;
 }
 
-// Whether that copy is a mirrored one.
+// True if that copy is a mirrored one.
 bool mirrored_copy(float x, uint wrap) {
   float copy = floor(x);
   return wrap == WRAP_MIRROR && copy - 2.0f * floor(0.5f * copy) != 0.0f;

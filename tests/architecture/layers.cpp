@@ -63,7 +63,7 @@ std::string layer_of(const std::string& include) {
   return in_host.substr(0, in_host.find('/'));
 }
 
-// Whether the layer `from` may include "include".
+// True if the layer `from` may include "include".
 bool allowed(const std::string& from, const std::string& include) {
   if (is_shader(include)) {
     const auto shaders = visible_shaders.find(from);

@@ -15,7 +15,7 @@ class Dev {
   Dev(const SceneFolder& folder, const std::string& timeout, const std::vector<std::string>& options = {})
       : process_(command(folder, timeout, options)) {}
 
-  // Whether it says `text` from here on.
+  // True if it says `text` from here on.
   bool says(const std::string& text) {
     if (!process_.wait_for_error_text(text, 600, seen_)) {
       MESSAGE("no '", text, "' in: ", process_.err().substr(seen_));

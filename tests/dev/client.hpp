@@ -26,7 +26,7 @@ class Client {
   Client& operator=(const Client&) = delete;
 
   bool connected() const { return connected_; }
-  // Whether the other end still takes it.
+  // True if the other end still takes it.
   bool send(const std::string& text) const {
     for (size_t done = 0; done < text.size();) {
       const ssize_t count = ::send(socket_, text.data() + done, text.size() - done, MSG_NOSIGNAL);

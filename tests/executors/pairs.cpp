@@ -125,7 +125,7 @@ struct Row {
   Levels level;
 };
 
-// Whether a scene may have both.
+// True if a scene may have both.
 bool possible(const Levels& level) {
   const bool paths = level[integrator] < 2, raycast = level[integrator] == 3;
   const bool environment = level[light] == 5 || level[light] == 6;

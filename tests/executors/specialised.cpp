@@ -20,7 +20,7 @@ using namespace eyeray::engine::records;
 
 namespace {
 
-// Whether the SPIR-V has a function of this name, by the names that glslang leaves in it.
+// True if the SPIR-V has a function of this name, by the names that glslang leaves in it.
 bool has_function(const std::vector<uint32_t>& spirv, const std::string& name) {
   const std::string_view bytes(reinterpret_cast<const char*>(spirv.data()), spirv.size() * sizeof(uint32_t));
   for (size_t at = bytes.find(name + "("); at != bytes.npos; at = bytes.find(name + "(", at + 1))

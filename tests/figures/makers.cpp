@@ -42,7 +42,7 @@ shapes::PlanarRegion some_region(Random& random) {
   return region;
 }
 
-// Whether a quadric's terms of degree two have one sign everywhere (Sylvester's criterion).
+// True if a quadric's terms of degree two have one sign everywhere (Sylvester's criterion).
 bool is_definite(const shapes::QuadricValues& quadric) {
   const Vec3 p = quadric.product * 0.5;
   const Mat3 form{{quadric.square.x, p.x, p.y}, {p.x, quadric.square.y, p.z}, {p.y, p.z, quadric.square.z}};

@@ -100,7 +100,7 @@ void for_shapes(const Make& make, const Body& body) {
   });
 }
 
-// Whether the exact t varies to `t` when the ray is moved by as little as `room`: then it grazes an edge or a
+// True if the exact t varies to `t` when the ray is moved by as little as `room`: then it grazes an edge or a
 // side.
 bool is_grazing(const Sample& sample, const shader::Ray& ray, double t, double room, int probes) {
   const Vec3 o(ray.o), d = glm::normalize(Vec3(ray.d));

@@ -27,7 +27,7 @@ float value(int channel, int x, int y) {
   return float(x + 10 * y + 100 * channel) / 4;
 }
 
-// Whether it is the picture above of these channels, each value within `error`.
+// True if it is the picture above of these channels, each value within `error`.
 bool holds(const Image& image, const std::vector<int>& channels, float error = 0) {
   if (image.width() != 9 || image.height() != 5 || image.channels() != int(channels.size())) return false;
   for (int y = 0; y < 5; ++y)

@@ -48,7 +48,7 @@ std::vector<Seed> seeds() {
       {"draco.glb", draco_grid().glb()}};
 }
 
-// Whether it is read.
+// True if it is read.
 bool survives(const std::string& bytes, const std::string& name) {
   try {
     const ImportedScene scene = import_bytes(bytes, name, {.playing = {.seconds = 0.5}});

@@ -34,7 +34,7 @@ inline bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-// Whether some warning has the words.
+// True if some warning has the words.
 inline bool warns(const importers::ImportedScene& scene, const std::string& words) {
   for (const std::string& warning : scene.warnings)
     if (contains(warning, words)) return true;

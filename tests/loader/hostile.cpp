@@ -23,7 +23,7 @@ std::string repeat(std::string_view text, int count) {
   return all;
 }
 
-// Whether the text is refused, with diagnostics that can be shown.
+// True if the text is refused, with diagnostics that can be shown.
 bool refused(const std::string& text) {
   try {
     parse_scene(text, "scene.toml");

@@ -52,7 +52,7 @@ bool mentions(const Report& report, const std::string& words) {
   return false;
 }
 
-// Whether `action` ends the program by abort(), as CHECK does.
+// True if `action` ends the program by abort(), as CHECK does.
 bool aborts(const std::function<void()>& action) {
   const pid_t child = fork();
   if (child == 0) {

@@ -42,7 +42,7 @@ Rendering render_rest(const Scene& scene, int band_rows, const std::string& file
   return rest;
 }
 
-// Whether it is refused as damaged.
+// True if it is refused as damaged.
 bool refused(const Scene& scene, int band_rows, const std::string& file) {
   try {
     render_rest(scene, band_rows, file);

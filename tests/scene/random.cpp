@@ -71,7 +71,7 @@ Scene extreme_scene(const std::string& text) {
   return shrunk(parse_scene(text, "scene.toml"), 8, 6);
 }
 
-// Whether nothing is unexplained. A picture of 432 pixels that is all one grazing patch has more to explain
+// True if nothing is unexplained. A picture of 432 pixels that is all one grazing patch has more to explain
 // than any scene that is meant.
 bool agree(const ReferenceComparison& comparison) {
   const auto sound = [](const Tally& tally) {

@@ -19,7 +19,7 @@ struct Box {
   Vec3 lower, upper;
 };
 
-// Whether the ray hits the box before t_max, in float64.
+// True if the ray hits the box before t_max, in float64.
 bool meets(const shader::Ray& ray, double t_max, const Box& box) {
   double near = 0;
   double far = t_max;

@@ -38,7 +38,7 @@ class QueryKernel {
     }
   }
 
-  // Whether rays are traced together, as the gpu executor would.
+  // True if rays are traced together, as the gpu executor would.
   bool traces_packets() const {
     return specialisation_.profile.packets && scene_.has_bvh && scene_.quantised_nodes &&
            scene_.instances.empty() && scene_.leaf_uses.empty();

@@ -193,7 +193,7 @@ void visit_node() {
   work += 1u;
 }
 
-// Whether any ray hits the box.
+// True if any ray hits the box.
 bool any_hits(vec3 lower, vec3 upper) {
   bool any = false;
   EACH {
