@@ -15,9 +15,9 @@ if(EYERAY_FUZZ)
   add_compile_options(-fsanitize=fuzzer-no-link)  # coverage for the fuzzers in everything
 endif()
 
-# What most files include is parsed once for each set of options, in the builds of .ci/run: tests/architecture sees to it that a file
-# includes what it says of these headers. eyeray_precompiled(TARGET [OPTIONS -O0 …] [HEADERS …] [LINK …]): a target's own options, what its files
-# include beside, and the libraries that have it.
+# Headers that most files include are parsed once for each set of options, in the builds of .ci/run. tests/architecture checks that a file includes
+# the ones of these headers whose names it uses. eyeray_precompiled(TARGET [OPTIONS -O0 …] [HEADERS …] [LINK …]): a target's own options, what its
+# files include beside, and the libraries that have it.
 function(eyeray_precompiled target)
   if(NOT EYERAY_PRECOMPILED)
     return()

@@ -17,7 +17,7 @@ endforeach()
 add_library(shader_headers INTERFACE)
 target_include_directories(shader_headers INTERFACE ${SHADER_ROOT} ${GENERATED})
 
-# What the twin of a user's shaders is compiled of, when it is asked for (executors/twin_module.cpp).
+# The sources from which the twin of a user's shaders is compiled on request (executors/twin_module.cpp).
 set(TWIN_NAMES host/twin/twin.cpp host/twin/shader_functions.hpp host/twin/scene_view.hpp host/twin/glsl_functions.hpp
   host/core/local_shaders.hpp host/records/records.hpp)
 list(TRANSFORM TWIN_NAMES PREPEND ${CMAKE_SOURCE_DIR}/ OUTPUT_VARIABLE TWIN_PATHS)

@@ -1,4 +1,4 @@
-# What takes a second to compute, and is the same for every scene, is computed while eyeray is built.
+# Tables that take a second to compute, and are the same for every scene, are computed while eyeray is built.
 function(eyeray_tables layer)
   add_executable(make_tables ${CMAKE_SOURCE_DIR}/cmake/tables.cpp)
   target_link_libraries(make_tables PRIVATE optics eyeray_warnings)

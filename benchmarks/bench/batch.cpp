@@ -20,7 +20,7 @@ struct Point {
   Vec3 normal;  // unit, geometric
 };
 
-// Where the ray hits a triangle of an instance, by the triangle's plane.
+// The point where the ray hits a triangle of an instance, by the triangle's plane.
 std::optional<Point> on_mesh(const Scene& scene, const Instance& instance, size_t triangle,
                              const Query& ray) {
   const Mesh& mesh = scene.meshes[size_t(instance.mesh)];
@@ -41,7 +41,7 @@ std::optional<Point> on_shape(const Shape& shape, const Query& query) {
   return Point{surface.position, surface.normal_geometric};
 }
 
-// Where the ray hits the primitive there.
+// The point where the ray hits the primitive at that location.
 std::optional<Point> point_on(const Scene& scene, const PrimitiveIds::Location& at, const Query& ray) {
   if (at.group_instance < 0)
     return at.is_shape ? on_shape(*scene.shapes[at.index], ray)

@@ -38,7 +38,7 @@ struct References {
   std::vector<float> a, b;
 };
 
-// What the pictures of a renderer's runs come to, with so many samples.
+// The figures of a renderer's runs with so many samples.
 struct Pictures {
   std::vector<double> sum, sum_of_squares;  // a sample of a channel each
   std::vector<std::vector<double>> means;   // of each region and channel, then of the picture, over the runs

@@ -12,15 +12,15 @@ namespace fs = std::filesystem;
 namespace eyeray::engine::bench {
 namespace {
 
-// What takes longer is run once: POV-Ray parses a million triangles anew each time.
+// A longer series is run once: POV-Ray parses a million triangles anew each time.
 constexpr double longest_repeated_seconds = 6;
 
 bool worth_repeating(const Series& series) {
   return series.runs.empty() || series.runs.front().seconds.front().second < longest_repeated_seconds;
 }
 
-// The same scene as POV-Ray reads it: whitted.pov beside whitted.toml or in a bench folder next to its own,
-// or what was written out.
+// The scene's file for POV-Ray: whitted.pov beside whitted.toml or in a bench folder next to its own, or an
+// exported file.
 std::optional<fs::path> scene_for_povray(const fs::path& scene, const PictureOptions& options) {
   if (!options.povray || !have_povray()) return std::nullopt;
   const fs::path name = scene.filename().replace_extension(".pov");

@@ -25,7 +25,7 @@ Scene with_mesh(const std::string& stage, const char* name, generate::MeshInMemo
   return scene;
 }
 
-// The same as files.
+// Writes the scene as files.
 template <typename Make>
 void write_with_mesh(const fs::path& file, const std::string& stage, const char* material, const Make& make) {
   const fs::path mesh = fs::path(file).replace_extension(".ply");

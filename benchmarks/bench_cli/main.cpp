@@ -40,7 +40,7 @@ struct BenchCommand {
   bench::ProcessReport process_report() const;
 };
 
-// What is said of pictures holds for paths; what is not said, they have their own values for.
+// Options given for pictures hold for paths too. Paths have their own values for options that are not given.
 bench::PathOptions BenchCommand::path_options() const {
   const bench::PictureOptions& pictures = options.pictures;
   bench::PathOptions result = paths;

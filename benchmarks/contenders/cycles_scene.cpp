@@ -189,7 +189,7 @@ print("eyeray: cpu", time.process_time() - processor, "wall", time.time() - wall
     }
   }
 
-  // What Blender's watts are: found by trial.
+  // The meaning of Blender's watts was found by trial.
   void add_light(const DirectionalLight& light) {
     append(text_, "light(\"SUN\", {}, {}, {}, {})\n", std::numbers::pi, tuple(light.intensity),
            tuple(standing_on(light.to_light, Vec3(0))), light.angle);
@@ -214,7 +214,7 @@ print("eyeray: cpu", time.process_time() - processor, "wall", time.time() - wall
     for (size_t i = 0; i < corners.size(); ++i) append(order, "{}, ", i);
     append(text_, "add(mesh({}, [({})]), m{})\n", numbers(corners), order, shape.material);
   }
-  // Those that are one mesh, made once.
+  // Shapes that share one mesh, made once.
   std::string shared(const std::string& name, const std::string& made) {
     if (text_.find("\n" + name + " = ") == std::string::npos) append(text_, "{} = {}\n", name, made);
     return name;

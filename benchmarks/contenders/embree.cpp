@@ -46,7 +46,7 @@ class FlushDenormals {
   unsigned before_;
 };
 
-// Where a ray's part of an instance or of a geometry is named.
+// The entry of a hit that names the instance or the geometry.
 template <typename Hit>
 FloatHit to_hit(float t, const Hit& geometry, const Hit& instance, const Hit& index) {
   return {t, index, instance == none ? geometry : instance};
@@ -71,7 +71,7 @@ void clear(RTCHit& hit) {
   hit.geomID = hit.primID = hit.instID[0] = none;
 }
 
-// How Embree is asked: version 4 takes arguments after the rays, version 3 a context before them.
+// Arguments of Embree's queries: version 4 takes arguments after the rays, version 3 a context before them.
 class Settings {
  public:
   explicit Settings(bool coherent) {

@@ -149,8 +149,8 @@ std::string quadric(const QuadricForm& form) {
 
 void add_shape(std::string& text, const Scene& scene, const Shape& shape);
 
-// What is within any of the shapes, or within all of them. A union would keep the surfaces within it, which
-// are seen through glass.
+// The points within any of the shapes, or within all of them. A union would keep the surfaces within it,
+// which are seen through glass.
 void add_combination(std::string& text, const Scene& scene, const std::vector<const Shape*>& shapes,
                      bool all) {
   if (shapes.size() > 1) text += all ? "intersection {\n" : "merge {\n";
@@ -167,7 +167,7 @@ void add_csg_object(std::string& text, const Scene& scene, const CsgForm& csg) {
   text += "}\n";
 }
 
-// How many points, and the points; each outline ends where it began.
+// The number of points, and the points. Each outline ends where it began.
 template <typename Point>
 std::string closed(const std::vector<std::vector<Point>>& outlines) {
   size_t count = 0;

@@ -28,7 +28,7 @@ struct Page {
   std::vector<Block> code, rows, scenes;
 };
 
-// What follows "`path`:" and "`path`, at the end…:".
+// The texts after "`path`:" and "`path`, at the end…:".
 Page read_page(const fs::path& file) {
   Page page{.name = file.filename(), .code = {}, .rows = {}, .scenes = {}};
   const std::string text = read_text(file);

@@ -11,7 +11,7 @@
 
 namespace eyeray::engine::test {
 
-// What a layer links, layers and libraries.
+// The layers and libraries that a layer links.
 using Links = std::set<std::string>;
 
 // A program's folder under host/, which is no library.

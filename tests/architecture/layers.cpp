@@ -1,4 +1,4 @@
-// Who may include whom: a folder under host/ is a layer (docs/architecture.md).
+// Checks which layers may include which: a folder under host/ is a layer (docs/architecture.md).
 #include <filesystem>
 #include <map>
 #include <set>
@@ -13,8 +13,8 @@ namespace {
 
 const std::map<std::string, Links> all_layers = read_layers();
 
-// Which shader files a layer may include: the records have the ABI, the registries' rows are the host's too,
-// and the twin has everything.
+// The shader files that a layer may include: the records have the ABI, the registries' rows are the host's
+// too, and the twin has everything.
 const std::map<std::string, std::regex> visible_shaders = {
     {"records", std::regex(R"(shaders/(records\.h|[a-z]+/rows\.h))")},
     {"shapes", std::regex(R"(shaders/shapes/rows\.h)")},

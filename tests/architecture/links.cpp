@@ -1,4 +1,4 @@
-// What the built libraries call, which no #include shows, and what the document says of them.
+// Checks the calls of the built libraries, which no #include shows, against the document.
 #include <set>
 #include <sstream>
 
@@ -29,7 +29,7 @@ Symbols symbols_of(const std::string& layer) {
   return symbols;
 }
 
-// What a row of the table in docs/architecture.md says that a layer links: "image, formula".
+// The links of a layer in a row of the table in docs/architecture.md: "image, formula".
 std::map<std::string, std::string> read_document() {
   std::ifstream stream("docs/architecture.md");
   static const std::regex row(R"(\| `(\w+)` \| .* \| (.*) \|)");

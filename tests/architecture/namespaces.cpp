@@ -1,4 +1,4 @@
-// Which names belong to whom: a folder under host/ is a namespace, and a type has one definition.
+// Checks the owners of names: a folder under host/ is a namespace, and a type has one definition.
 #include <map>
 #include <set>
 
@@ -114,7 +114,7 @@ TEST_CASE("no two files define a type of one name in one namespace") {
 }
 
 TEST_CASE("forward declarations do not reach where includes may not") {
-  // What a layer is handed by those above it, without knowing what it is.
+  // Types that a layer gets from those above it, without knowing their definition.
   const std::set<std::pair<std::string, std::string>> handed_down = {{"scene", "Packer"}};
 
   // Headers, by the types that they define.

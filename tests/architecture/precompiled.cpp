@@ -1,4 +1,5 @@
-// What builds with precompiled headers do not see: whether a file includes the headers whose names it says.
+// Checks that a file includes the headers whose names it uses, which builds with precompiled headers do not
+// detect.
 #include <fmt/ranges.h>
 #include <array>
 #include <atomic>
@@ -66,7 +67,7 @@ Names names_in(const std::string& line) {
   return names;
 }
 
-// What each file includes, its own files by their paths.
+// The includes of each file, the project's own by their paths.
 std::map<std::string, Names> direct_includes(const std::map<std::string, SourceFile>& files) {
   std::map<std::string, Names> direct;
   for (const auto& [path, file] : files) {

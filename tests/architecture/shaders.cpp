@@ -1,4 +1,4 @@
-// What shader files may hold, so that they mean the same as GLSL and as C++, on every driver.
+// Checks the contents of shader files, so that they mean the same as GLSL and as C++, on every driver.
 #include "sources.hpp"
 #include "tests/support/doctest.hpp"
 

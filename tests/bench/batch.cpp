@@ -60,7 +60,7 @@ TEST_CASE("primary rays go block by block through the pixels' centres") {
   const Batch batch = primary_batch(scene, 20, 12);
   REQUIRE(batch.rays.size() == 240);
   CHECK(batch.kind == QueryKind::nearest);
-  // Where a ray crosses the picture, in pixels.
+  // The point where a ray crosses the picture, in pixels.
   const auto pixel = [&](size_t i) {
     const Vec3 d = batch.rays[i].d / -batch.rays[i].d.z / std::tan(glm::radians(20.0));
     return Vec2((d.x + 1) * 10 - 0.5, (12.0 / 20 - d.y) * 10 - 0.5);

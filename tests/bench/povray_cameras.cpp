@@ -49,8 +49,7 @@ batch = { center = [[-2, -0.6, -2.5], [0.5, 4, -1], [-3, -1, 3]], radius = [0.6,
 material = "white"
 )";
 
-// How many pixels of a hundred are further apart than 0.02 in some channel, and how far apart all are in the
-// mean.
+// The percentage of pixels that differ by more than 0.02 in some channel, and the mean difference of all.
 struct Apart {
   double share, mean;
 };

@@ -101,7 +101,7 @@ TEST_CASE("rays are raced beside Embree, plotted by a script, and compared with 
   CHECK(text.out.find("since " + (folder / "old.json") + ":\n") != std::string::npos);
   CHECK(text.out.find(" -> ") != std::string::npos);
 
-  // What is wrong is found before anything is measured.
+  // Errors are found before anything is measured.
   CHECK(run({"--compare", folder.scene()}).err ==
         "eyeray-bench: error: " + folder.scene() + " is not what eyeray-bench --json answers\n");
   const ProcessResult unknown = run_bench({"terrain-51l", "-s", "8x8"});

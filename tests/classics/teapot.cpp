@@ -25,7 +25,7 @@ Vec3 sum(const BezierPatch& patch, const std::array<double, 4>& along_s,
   return total;
 }
 
-// Where the lid and the bottom come to a point, patches have no normal.
+// Patches have no normal where the lid and the bottom come to a point.
 bool is_cusp(const Vec3& p) {
   return std::abs(p.x) <= 1e-4 && std::abs(p.y) <= 1e-4;
 }
@@ -82,7 +82,7 @@ Mesh mesh(int size_factor) {
   Mesh mesh;
   const uint32_t n = uint32_t(size_factor), side = n + 1;
   const std::vector<BezierPatch> patches = teapot_patches();
-  // Where all of a patch's first row is one point, its first triangles are none.
+  // If all of a patch's first row is one point, its first triangles are missing.
   const auto begins_at_cusp = [](const BezierPatch& patch) {
     return is_cusp(patch[0][0]) && is_cusp(patch[0][3]);
   };

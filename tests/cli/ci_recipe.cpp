@@ -1,4 +1,4 @@
-// What .github/actions/verify runs, as GitHub would run it.
+// Runs the commands of .github/actions/verify as GitHub would.
 #include <filesystem>
 
 #include "scene.hpp"

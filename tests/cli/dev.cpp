@@ -206,7 +206,7 @@ TEST_CASE("dev outlives hostile shaders, and keeps the last good picture") {
     write_text(entry,
                replaced(text, "results[i] = render_sample(", "results[i + 100000000u] = render_sample("));
     REQUIRE(dev.says("render.comp.glsl changed"));
-    // Whatever came of it, it said so, and is there for the next edit.
+    // Whatever the result, it is reported, and dev is ready for the next edit.
     REQUIRE(dev.says("\n"));
     write_text(entry, text);
     REQUIRE(dev.says("rendered "));

@@ -16,7 +16,7 @@ struct Holding {
   long files = 0;
 };
 
-// What a process holds of memory and of file descriptors.
+// The memory and the file descriptors of a process.
 Holding held_by(pid_t pid) {
   const std::string folder = "/proc/" + std::to_string(pid);
   std::istringstream status(read_text(folder + "/status"));

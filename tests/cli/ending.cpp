@@ -1,4 +1,4 @@
-// How eyeray ends where its streams, its files, its time or its device end before it.
+// Tests of eyeray's end if its streams, its files, its time or its device end before it.
 #include <fmt/format.h>
 
 #include <csignal>

@@ -25,7 +25,7 @@ TEST_CASE("a generated sphereflake is a scene, the same every time") {
   CHECK(check.err == "");
   CHECK(check.out.find("7381") != std::string::npos);
 
-  // What it made itself it makes again.
+  // It overwrites files that it made itself.
   CHECK(run_eyeray({"generate", "sphereflake", "-o", scene}).code == 0);
   CHECK(read_text(scene) == text);
   // By its first name too.

@@ -34,7 +34,7 @@ TEST_CASE("a golden picture is made on request, compared with, and replaced wher
   CHECK(same.out.find("gate G passed golden = gpu, colours: 3072 equal, 0 matching") != std::string::npos);
   CHECK(verify({"--crop", "5,7,20,30"}).code == 0);
 
-  // What passes is left as it is, unless it is forced.
+  // A golden picture that passes is left as it is, unless forced.
   const std::string first = read_text(golden);
   write_text(folder / "golden/ball.json", "{}");
   CHECK(verify({"--update"}).code == 0);

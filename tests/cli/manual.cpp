@@ -38,7 +38,7 @@ std::set<std::string> options_in_help(const std::string& command) {
   return names;
 }
 
-// What bash offers for the last of these words.
+// The completions that bash offers for the last of these words.
 std::set<std::string> completed_by_bash(const std::string& script, const std::vector<std::string>& words) {
   std::string line = "source " + script + "; COMP_WORDS=(";
   for (const std::string& word : words) line += "'" + word + "' ";

@@ -107,7 +107,7 @@ TEST_CASE("a browser shows the page, and the view that its link names" * doctest
                     {}, 600);
     CAPTURE(result.err);
     CHECK(result.code == 0);
-    // What the script made, without the script.
+    // The page that the script made, without the script.
     return result.out.substr(0, result.out.find("<script"));
   };
   const auto pressed = [](const std::string& name) { return "aria-pressed=\"true\">" + name + " <"; };

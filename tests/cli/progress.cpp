@@ -12,7 +12,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// What is drawn over itself, drawing by drawing, without colours.
+// The successive drawings of a line that is drawn over itself, without colours.
 std::vector<std::string> drawings(const std::string& shown) {
   const std::string text = std::regex_replace(shown, std::regex("\033\\[[0-9]*m"), "");
   std::vector<std::string> result;

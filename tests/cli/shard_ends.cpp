@@ -65,7 +65,7 @@ void kill_and_repeat(int kills) {
       }
       CAPTURE(process.err());
       REQUIRE((process.code() == 0 || process.code() == 128 + SIGKILL));
-      // What is there under its name is whole.
+      // A file under the part's name is whole.
       if (std::filesystem::exists(part)) {
         CHECK(process.code() == 0);
         CHECK_FALSE(std::filesystem::exists(checkpoint));

@@ -35,7 +35,7 @@ class Terminal {
   Terminal(const Terminal&) = delete;
   Terminal& operator=(const Terminal&) = delete;
 
-  // What runs eyeray, or another program, with standard error here.
+  // The command that runs eyeray, or another program, with standard error at this terminal.
   std::vector<std::string> command(const std::string& arguments,
                                    const std::string& program = eyeray_binary()) const {
     return {"sh", "-c", "exec " + program + " " + arguments + " 2>" + name_};

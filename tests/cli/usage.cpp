@@ -1,4 +1,4 @@
-// What the program answers to its command line alone.
+// Tests of the program's answers to its command line alone.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -19,7 +19,7 @@ struct Mistake {
   std::string message;  // all of standard error
 };
 
-// What a function of build_facts.cpp returns.
+// The result of a function of build_facts.cpp.
 std::string fact_in(const std::string& text, const std::string& name) {
   const std::string before = name + "() {\n  return \"";
   const size_t begin = text.find(before) + before.size();

@@ -34,7 +34,7 @@ class Pictures : public SceneFolder {
     CHECK(result.err == "");
     return nlohmann::json::parse(result.out).at("device");
   }
-  // How wide its vectors were.
+  // The width of its vectors in bits.
   int bits(const std::string& size, Environment environment = {}) const {
     const std::string device = this->device(size, std::move(environment));
     return std::stoi(device.substr(device.rfind(' ', device.find(" bits)") - 1)));

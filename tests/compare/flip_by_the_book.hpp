@@ -205,7 +205,7 @@ inline HdrFlip hdr_flip(const Picture& a, const Picture& reference) {
   for (const Color& c : reference.pixels) luminances.push_back(0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]);
   std::ranges::sort(luminances);
   const double median = (luminances[luminances.size() / 2 - 1] + luminances[luminances.size() / 2]) / 2;
-  // Where the tone mapper gives 0.85, by halving: it rises.
+  // Find the argument at which the tone mapper, which rises, gives 0.85, by bisection.
   double low = 0, high = 100;
   for (int i = 0; i < 200; ++i) {
     const double middle = (low + high) / 2;

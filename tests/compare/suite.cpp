@@ -1,4 +1,4 @@
-// What is said of several scenes.
+// Tests of reports on several scenes.
 #include <fmt/format.h>
 
 #include "host/compare/report.hpp"

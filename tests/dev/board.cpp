@@ -1,4 +1,4 @@
-// What the page sees of what the worker sends.
+// Tests of the page's view of the worker's messages.
 #include "host/dev/board.hpp"
 
 #include <cmath>
@@ -81,7 +81,7 @@ TEST_CASE("pictures are compared where both have come equally far") {
   CHECK(difference(0, 0) == 0);
   CHECK(std::isnan(difference(0, 1)));
 
-  // What is no number is no secret.
+  // Pixels that are NaN differ by 0 from NaN, and by infinity from numbers.
   const float nan = std::numeric_limits<float>::quiet_NaN();
   std::vector<float> values = grey(5, 1);
   values[0] = values[3] = nan;

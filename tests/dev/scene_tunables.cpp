@@ -1,4 +1,4 @@
-// What of a scene moves, and by which key.
+// Tests of the values of a scene that controls move, and of their keys.
 #include "host/dev/scene_tunables.hpp"
 
 #include "tests/support/doctest.hpp"

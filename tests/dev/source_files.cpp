@@ -1,4 +1,4 @@
-// What counts as a change of a file.
+// Tests of what counts as a change of a file.
 #include "host/dev/source_files.hpp"
 
 #include "tests/support/process.hpp"
@@ -52,7 +52,7 @@ TEST_CASE("a file that was saved while it was read counts as changed") {
   files.set({folder / "a.glsl"}, before);
   CHECK_FALSE(files.any_unknown());
   CHECK(files.changed().empty());
-  // What it knew is not forgotten when it is named again.
+  // The known state of a file is kept if the file is named again.
   write_text(folder / "a.glsl", "2");
   files.set({folder / "a.glsl"}, in_a_while);
   CHECK_FALSE(files.changed().empty());

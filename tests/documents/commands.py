@@ -20,7 +20,7 @@ ONLY = [each for each in sys.argv[2:] if not each.startswith("--")]
 SMALL = {"-s": "24x18", "--spp": "1", "--triangles": "2000", "--frames": "0:1"}  # take the place of what stands there
 SIZED = {"render", "verify", "probe"}  # commands that get SMALL's size and samples where they name none, …
 UNSIZED = {"--record": {"-s", "--spp"}, "--classic": {"--spp"}}  # … but for those that an option excludes
-# What a reader brings, by the document's name of it: copies of our own.
+# Files that a reader brings, by the document's name for them: copies of our own.
 BROUGHT = {
     "model.glb": "scenes/showcase/chess.glb",
     "bunny.obj": "scenes/meshes/gem.obj",
@@ -182,7 +182,7 @@ def run_all(document, all_steps, used):
 
 def main():
     seen, ran, faults, used = 0, set(), [], set()
-    # What a page of docs/adding-*.md adds is not there yet; tests/additions follows those.
+    # Files that a page of docs/adding-*.md adds do not exist yet; tests/additions follows those pages.
     documents = [each for each in sorted((ROOT / "docs").glob("*.md")) if not each.name.startswith("adding-")]
     with tempfile.TemporaryDirectory() as folder:
         (pathlib.Path(folder) / "scenes").symlink_to(ROOT / "scenes")

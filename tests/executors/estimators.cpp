@@ -48,7 +48,7 @@ Estimate estimated(const Scene& scene, const Changes& changes) {
   return estimate(scene, Backend::gpu, options);
 }
 
-// How many standard errors two are apart.
+// The difference of two estimates in standard errors.
 double apart(const Estimate& a, const Estimate& b) {
   return std::abs(a.mean - b.mean) / std::hypot(a.error, b.error);
 }

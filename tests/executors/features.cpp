@@ -14,7 +14,7 @@ namespace {
 
 using Names = std::set<std::string>;
 
-// What the first group of `pattern` matches in the text.
+// The matches of the first group of `pattern` in the text.
 Names matches(const std::string& text, const std::string& pattern) {
   const std::regex regex(pattern);
   Names names;
@@ -39,7 +39,7 @@ Names listed() {
   return names;
 }
 
-// What the twin defines, and what host/executors writes into the text of kernels.
+// The names that the twin defines, and those that host/executors writes into the text of kernels.
 Names defined() {
   Names names =
       matches(directives(test::read_text("host/twin/shader_functions.hpp"), true), "#define ([A-Z]\\w*)");

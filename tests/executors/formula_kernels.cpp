@@ -1,4 +1,4 @@
-// What kernels and drivers make of formulas at random, beside the interpreter.
+// Random formulas in kernels and drivers, against the interpreter.
 #include <cmath>
 #include <cstring>
 
@@ -21,11 +21,11 @@ namespace {
 constexpr size_t points = 64;
 
 uint32_t bits_of(float x) {
-  // Which of the values that are no number it is, nobody says.
+  // All NaN count as one value.
   return std::isnan(x) ? 0x7fc00000u : __builtin_bit_cast(uint32_t, x);
 }
 
-// What `functions`, expressions of p, give at each point: by function, then by point.
+// The values of `functions`, expressions of p, at each point: by function, then by point.
 std::vector<float> run(gpu::Device& device, const std::string& text,
                        const std::vector<std::string>& functions, const std::vector<glm::vec4>& places) {
   std::string main =

@@ -1,5 +1,5 @@
-// What specialisation writes for scenes, beside what it wrote: a review of a change sees what it does to
-// kernels.
+// Compares the text that specialisation writes for scenes with the stored one, so that a review of a change
+// shows its effect on kernels.
 #include "host/loader/scene_file.hpp"
 #include "host/pack/pack.hpp"
 #include "tests/support/entries.hpp"

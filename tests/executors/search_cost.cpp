@@ -1,4 +1,4 @@
-// What the search for a first hit costs.
+// Tests of the cost of the search for a first hit.
 #include <algorithm>
 #include <string>
 

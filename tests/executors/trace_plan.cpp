@@ -1,4 +1,4 @@
-// Which pictures packets trace, and which want vectors of 512 bits.
+// Tests of the pictures that packets trace, and of those that want vectors of 512 bits.
 #include "host/executors/trace_plan.hpp"
 
 #include "host/materials/make.hpp"

@@ -15,7 +15,7 @@ using namespace eyeray::engine::executors;
 
 namespace {
 
-// What a setting leaves of the options.
+// The options that a setting results in.
 std::string chosen(const std::string& setting) {
   ExecutorOptions options;
   tune(options, setting);

@@ -30,7 +30,7 @@ Piece random_piece(Random& random, double reach) {
   return piece;
 }
 
-// What a literal of GLSL is.
+// The value of a GLSL literal.
 double single(double x) {
   return double(float(x));
 }
@@ -40,7 +40,7 @@ struct Report {
   Vec3 where{};
 };
 
-// How many of `count` pieces have one of some places at which f is not within the affine bound.
+// The number of `count` pieces that have a sampled point at which f is not within the affine bound.
 template <typename F>
 Report bound_often(const expression::StraightLine& function, const F& f, double reach, int count) {
   Random random(7);

@@ -1,4 +1,4 @@
-// What straight-line code is made of GLSL, what is refused, and the text and the gradient made of it.
+// Tests of the straight-line code made from GLSL, of the code refused, and of its text and gradient.
 #include <fmt/format.h>
 
 #include <cmath>

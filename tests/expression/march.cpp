@@ -173,7 +173,7 @@ TEST_CASE(
     const double way = in > 0 ? first_change(bulb.f, Vec3(o) + Vec3(d) * in, Vec3(d), 2 * before - in) : -1;
     if (way < 0) continue;
 
-    // How deep it is there, and how far float32 is off.
+    // The depth there, and the error of float32.
     double deepest = 0, rounding = 0;
     for (int k = 1; k < 32; ++k) {
       const float t = float(in + way * k / 32);

@@ -83,7 +83,7 @@ bool can_be_met(const Shape& shape, const PackedScene& packed, const Vec3& from,
          std::fabs(glm::length(point.normal_geometric) - 1) < 1e-6;
 }
 
-// The same of a ray from somewhere.
+// True if a ray from some point can hit the shape.
 bool can_be_met(const Shape& shape, const PackedScene& packed, Random& random) {
   const Bounds bounds = shape.bounds();
   if (!finite(bounds.min) || !finite(bounds.max)) return false;

@@ -1,4 +1,4 @@
-// What a hit on the border of a surface shows that is 1 wide in u and v.
+// Tests of hits on the border of a surface that is 1 wide in u and v.
 #include "host/records/packer.hpp"
 #include "host/shapes/make.hpp"
 #include "host/twin/shader_functions.hpp"

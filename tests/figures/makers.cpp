@@ -207,7 +207,7 @@ std::unique_ptr<Shape> some_csg(Random& random, double size) {
     }
     if (random.below(2) == 0) removed.push_back(some_closed_shape(random, size));
     auto csg = shapes::make_csg(random.below(2) == 0, std::move(operands), std::move(removed));
-    // What is within all of its parts may be next to nothing.
+    // The intersection of its parts may be next to nothing.
     const Bounds bounds = csg->bounds();
     const Vec3 extent = bounds.max - bounds.min;
     if (std::min({extent.x, extent.y, extent.z}) < 0.3 * size) continue;

@@ -259,7 +259,7 @@ PackedScene packed_room(std::string text, const Vec3& place) {
                           "room.toml", {}, {{"cube.obj", cube}, {"roof.obj", roof}}));
 }
 
-// What a ray hits, and the surface there; where it hits nothing, no slot.
+// The hit of a ray, and the surface there; no slot if it hits nothing.
 struct Seen {
   shader::Hit hit;
   shader::Surface surface;

@@ -85,7 +85,7 @@ struct Sample {
   mutable int gave_up = 0;  // how often a search reached its limit
 };
 
-// What `body(sample, random)` says of as many rays, several a shape, of all sizes.
+// The results of `body(sample, random)` for as many rays, several a shape, of all sizes.
 template <typename Make, typename Body>
 void for_shapes(const Make& make, const Body& body) {
   parallel_for(0, parts, [&](int part) {
@@ -132,7 +132,7 @@ double first_thick(const Sample& sample, const shader::Ray& ray, double room) {
   return HUGE_VAL;
 }
 
-// What is needed to shoot again, in digits that lose nothing. The same seed makes other shapes with another
+// The numbers needed to shoot the ray again, without loss of digits. One seed makes other shapes with another
 // compiler.
 std::string describe(const Sample& sample, const shader::Ray& ray, double t, double exact) {
   const auto digits = [](const auto& v) {
@@ -164,7 +164,7 @@ void check_first_hits(const std::string& name, const Make& make, double distance
     const double t = double(hit.t);
     if (exact == HUGE_VAL ? hit.t == T_MISS : std::fabs(t - exact) <= 1e-6 * exact) return;
     const double room = 32 * 0x1p-24 * (glm::length(from) + glm::length(sample.center) + sample.radius);
-    // What is seen all but edge-on is so thin that few of the probes hit it.
+    // A surface seen almost edge-on is so thin that few of the probes hit it.
     if (is_grazing(sample, ray, t, room, 500) || is_grazing(sample, ray, t, room, 100'000)) {
       ++grazing;
     } else if (const double thick = first_thick(sample, ray, room); std::fabs(t - thick) <= 1e-6 * thick) {

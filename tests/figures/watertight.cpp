@@ -76,7 +76,7 @@ struct Shapes {
   std::vector<std::unique_ptr<Shape>> shapes;
 };
 
-// What rays from `origin()` towards points of `edges`, and towards their ends, pass.
+// The number of rays from `origin()`, towards points of `edges` and towards their ends, that pass.
 struct Count {
   int rays = 0, leaks = 0, several = 0, exact_leaks = 0, exact_several = 0;
 };

@@ -102,7 +102,7 @@ TEST_CASE("a variable begins with 0 wherever it is declared, each time") {
   CHECK(seen("uint a, b[2], c;", "float(a + b[1] + c)", "a++; b[i] = 3u; b[1] = 2u; c = 9u;") == 0);
   CHECK(seen("vec2 a[3];", "a[i].y + a[2].x", "a[int(p.y)].x = 4.0; a[i] = p.xy;") == 0);
   CHECK(seen("{ float a; if (p.x > 0.0) {", "a", "a = 2.0; } }") == 0);
-  // What a loop's head declares lives as long as the loop.
+  // A variable declared in a loop's head lives as long as the loop.
   CHECK(result_of("float s = 0.0; for (int i, k; i < 3; i++) { s += float(k); k = i; } return s;") == 1);
 }
 

@@ -102,7 +102,7 @@ TEST_CASE("text that is too long or too deep is refused before a compiler sees i
             .find("numbers in arrays; at most 8192") != std::string::npos);
   CHECK(refusal_of_f("vec4 a[1024], b[1024];" + times(3000, "a==b;") + "return p.x;")
             .find("comparing arrays of 1024 elements 3000 times is too much") != std::string::npos);
-  // What a person writes is far from that.
+  // Formulas written by people are far from that limit.
   CHECK(refusal_of_f("float s = 0.0;\n" + times(200, "s += sin(p.x * 3.0) * (p.y - 2.0) + s / 3.0;\n") +
                      "return s;") == "");
   std::string table = "const vec4 t[1000] = vec4[1000](";
@@ -233,7 +233,7 @@ TEST_CASE("no construct, however often it is written, takes a compiler deeper th
   }
   CHECK(refusal_of_f("float a=p.x; return (a" + times(10000, ",a") + ");") == too_long_a_chain);
   CHECK(refusal_of_f("return p" + times(10000, "[0]") + ";") == too_long_a_chain);
-  // What stands side by side is as long as the text may be.
+  // Adjacent statements may be as long as the text.
   for (const std::string statement : {"float a;", ";", "{}", "p.x;"})
     (void)refusal_of_f(times(7000, statement));
   (void)refusal_of_f("p.x = max(p.x" + times(20000, ",1.") + ");return p.x;");

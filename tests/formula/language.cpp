@@ -1,4 +1,4 @@
-// What a formula may say, and what is said of one that says anything else.
+// Tests of the language of formulas, and of the errors for any other text.
 #include "host/formula/formula.hpp"
 
 #include "tests/support/doctest.hpp"
@@ -86,7 +86,7 @@ TEST_CASE("loops are counted, but those whose few turns are written out") {
   CHECK_FALSE(counted("for (int i = 1; i <= 64; ++i) for (int k = 0; k < 64; k++) { p.x += 1.0; }"));
   CHECK_FALSE(counted("for (int i = 0; i < 8; i++) p.x += g(1.0);"));
   CHECK(counted("for (int i = 0; i < 650; i++) for (int k = 0; k < 64; k++) p.x += 1.0;"));
-  // Whatever writes to the counter is seen, for it is SPIR-V that is looked at.
+  // Any write to the counter is detected, since the SPIR-V is examined.
   for (const std::string store : {"i = 0;", "i &= 0;", "i |= 1;", "i ^= 1;", "i %= 2;", "i <<= 0;", "i--;",
                                   "(i) = 0;", "h(i);", "if (p.x > 0.0) --i;"})
     CHECK(counted("for (int i = 0; i < 8; i++) { " + store + " }"));

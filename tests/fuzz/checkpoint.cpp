@@ -1,6 +1,6 @@
-// What a fuzzer asks of a checkpoint: it is refused, or gives as many sums and rows as are asked for. The
-// bytes are a file's, or, where they begin with "size: ", an identity, a 0, the bytes of the position, the
-// sums and the rows, to which the lengths and checksums are made: else nothing behind these would be seen.
+// The fuzzer's test of a checkpoint: it is refused, or gives as many sums and rows as requested. The bytes
+// are a file's, or, where they begin with "size: ", an identity, a 0, the bytes of the position, the sums and
+// the rows, to which the lengths and checksums are made: else nothing behind these would be seen.
 #include <unistd.h>
 
 #include <cstdlib>

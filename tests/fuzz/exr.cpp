@@ -1,4 +1,4 @@
-// What a fuzzer asks of an OpenEXR file: it is refused, or a whole picture, of its layers too.
+// The fuzzer's test of an OpenEXR file: it is refused, or read as a whole picture, and so are its layers.
 #include <cstdint>
 #include <cstdlib>
 

@@ -1,4 +1,4 @@
-// What a fuzzer asks of a formula: it is refused, or it runs to an end, twice to the same bits, and has a
+// The fuzzer's test of a formula: it is refused, or it runs to an end, twice to the same bits, and has a
 // kernel. The first byte says how the others make a text: as they are, or as damage to one that a grammar
 // made; the bits of known formulas are asked too.
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// What a fuzzer asks of a picture's bytes: it is refused, or whole, and every point of it has a colour.
+// The fuzzer's test of a picture's bytes: it is refused, or whole, and every point of it has a colour.
 #include <cstdlib>
 #include <memory>
 

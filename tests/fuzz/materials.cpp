@@ -1,4 +1,4 @@
-// What a fuzzer asks of a .mtl file's text: whatever it says, the materials' values are in range.
+// The fuzzer's test of a .mtl file's text: for any text, the materials' values are in range.
 #include <cmath>
 #include <cstdlib>
 

@@ -1,5 +1,5 @@
-// What a fuzzer asks of a mesh file's bytes: INPUT_NAME says by its ending what they are. They are refused,
-// or what is made of them keeps every promise.
+// The fuzzer's test of a mesh file's bytes. The ending of INPUT_NAME gives their format. They are refused, or
+// the scene made from them keeps every promise.
 #include <cstdio>
 #include <cstdlib>
 

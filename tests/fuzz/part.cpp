@@ -1,6 +1,6 @@
-// What a fuzzer asks of a part: it is refused, or read whole, and its header and totals are what they are
-// when they are written again. The bytes are a file's, or, where they begin with {, a header's, a 0, those of
-// the totals, a 0 and pixels, to which the lengths and checksums are made: else nothing behind these would be
+// The fuzzer's test of a part: it is refused, or read whole, and its header and totals stay the same when
+// they are written again. The bytes are a file's, or, where they begin with {, a header's, a 0, those of the
+// totals, a 0 and pixels, to which the lengths and checksums are made: else nothing behind these would be
 // seen.
 #include <sys/mman.h>
 #include <unistd.h>

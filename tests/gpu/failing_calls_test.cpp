@@ -61,7 +61,7 @@ void use_device(const std::string& cache_folder, bool staging) {
   if (rasterizer.read().ids != std::vector<uint32_t>{7, 7, 7, 7}) throw std::runtime_error("a wrong picture");
 }
 
-// Where it fails, nobody knows whether the device is at work.
+// If it fails, the device may still be at work.
 bool may_be_busy(const std::string& function) {
   return function == "vkQueueSubmit" || function == "vkWaitForFences";
 }
@@ -99,7 +99,7 @@ std::string fault_of(const Case& failing) {
   int status = 0;
   waitpid(child, &status, 0);
   if (WIFSIGNALED(status)) return fmt::format("signal {}", WTERMSIG(status));
-  // How often it takes to see a fence depends on the machine.
+  // The number of waits for a fence depends on the machine.
   if (WEXITSTATUS(status) == 73) return name == "vkWaitForFences" ? "" : "it was not called";
   if (WEXITSTATUS(status) == 72)
     return may_be_busy(name) ? "a busy device lost its objects" : "objects are left";
@@ -108,7 +108,7 @@ std::string fault_of(const Case& failing) {
   return fmt::format("status {}", WEXITSTATUS(status));
 }
 
-// How often each function is called where none fails.
+// The number of calls of each function if none fails.
 std::vector<int> count_calls(bool staging) {
   const TemporaryFolder cache;
   std::vector<int> counts(size_t(SHIM(function_count)()));

@@ -34,7 +34,7 @@ size_t count(const std::vector<uint32_t>& spirv, spv::Op wanted, uint32_t third 
   return found;
 }
 
-// How often each float arithmetic result is decorated NoContraction.
+// The number of NoContraction decorations of each float arithmetic result.
 std::map<uint32_t, int> decorations(const std::vector<uint32_t>& spirv) {
   const std::set<uint32_t> arithmetic_opcodes = {spv::OpFNegate,
                                                  spv::OpFAdd,

@@ -25,7 +25,7 @@ size_t arithmetic_in(const std::vector<uint32_t>& spirv) {
                        spv::OpVectorTimesScalar});
 }
 
-// Whatever algebra of real numbers would shorten, and floats may not be.
+// Expressions that algebra of real numbers would shorten, but that must not be for floats.
 const std::string shortenable =
     "float x = uintBitsToFloat(data[i]);\n"
     "float third = 1.0 / 3.0 * 0.1 + 0.7;\n"

@@ -15,7 +15,7 @@ std::vector<gpu::RasterVertex> corner(float to, float depth, uint32_t id) {
   return {{-1, -1, depth, id}, {end, -1, depth, id}, {-1, end, depth, id}};
 }
 
-// What a picture of `width` × `height` shows after each of `triangles` was drawn.
+// The picture of `width` × `height` after all of `triangles` were drawn.
 gpu::RasterPicture draw(gpu::Device& device, const std::vector<std::vector<gpu::RasterVertex>>& triangles,
                         int width = 8, int height = 8) {
   gpu::Rasterizer rasterizer(device, raster_shaders(), width, height);
@@ -39,7 +39,7 @@ TEST_CASE("a triangle covers the pixels whose centres it contains, top left firs
       for (int x = 0; x < 8; ++x) {
         CAPTURE(x);
         CAPTURE(y);
-        // Where x + y = 3, centres lie on the edge itself, which is the triangle's or is not.
+        // Centres with x + y = 3 lie on the edge itself, which may or may not belong to the triangle.
         if (x + y == 3) continue;
         const bool inside = x + y < 3;
         CHECK(picture.ids[size_t(8 * y + x)] == (inside ? 7 : 0));

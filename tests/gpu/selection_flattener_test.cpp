@@ -29,7 +29,7 @@ bool writes_whole_part(const std::vector<uint32_t>& spirv) {
   return found;
 }
 
-// How many selections are left of a kernel's.
+// The number of a kernel's selections that are left.
 int left_of(const std::string& body) {
   const std::vector<uint32_t> flat = gpu::optimise(word_kernel(body), true);
   CHECK(spvtools::SpirvTools(SPV_ENV_VULKAN_1_1).Validate(flat));

@@ -1,4 +1,4 @@
-// What the tests of host/gpu share: kernels from text, and one device for all.
+// Common parts of the tests of host/gpu: kernels from text, and one device for all.
 #pragma once
 
 #include <string>

@@ -53,7 +53,7 @@ void check_colors(const std::string& bytes) {
   CHECK(found.pixels == bitmap_colors);
 }
 
-// What the bytes of a file stand for, cut off anywhere: refused, with one sentence.
+// A file cut off anywhere is refused, with one sentence.
 void check_cut(const std::string& bytes, size_t from = 30) {
   for (size_t size = from; size < bytes.size(); ++size) {
     CAPTURE(size);

@@ -32,7 +32,7 @@ CodedImage decode(const std::string& bytes) {
   return decode(bytes, warnings);
 }
 
-// What is said of bytes that are no picture.
+// The error for bytes that are no picture.
 std::string refusal(const std::string& bytes) {
   try {
     decode(bytes);

@@ -48,7 +48,7 @@ ImportedScene at(const GltfFile& file, double seconds, bool loop = false) {
   return import_sound(file.gltf(), "a.gltf", {.playing = {.seconds = seconds, .loop = loop}});
 }
 
-// Where the square's point is.
+// The position of the square's point.
 Vec3 point_at(const GltfFile& file, double seconds, const Vec3& p = Vec3(0), bool loop = false) {
   const ImportedScene scene = at(file, seconds, loop);
   REQUIRE(scene.instances.size() == 1);
@@ -144,7 +144,7 @@ TEST_CASE("rotations go evenly the shortest way, whatever their signs") {
   const GltfFile over = animated_square({"rotation", "", {0, 1}, {0, 0, k, k, k, 0, 0, k}});
   const double w = 2 / std::sqrt(6), x = 1 / std::sqrt(6);
   CHECK(near(point_at(over, 0.5, {0, 1, 0}), Vec3(-2 * w * x, 1 - 4 * x * x, 2 * w * x)));
-  // What is not of unit length counts as what is.
+  // A rotation that is not of unit length is normalised.
   const GltfFile longer = animated_square({"rotation", "", {0, 1}, joined({{0, 0, 0, 3}, turn(120)})});
   CHECK(near(point_at(longer, 0.25, {1, 0, 0}), turned(30)));
   // In shorts, which are not quite of unit length.
@@ -319,16 +319,16 @@ TEST_CASE("animations that break rules, a row a rule") {
     CHECK(contains(said, row.said));
   }
 
-  // What it means is clear.
+  // Breaches with a clear meaning are only warned of.
   CHECK(warns(at(animated_square({"rotation", "", {0}, {0, 0, 0, 2}}), 0),
               "rotations that are not of unit length, normalised: 1, the first accessors[3]"));
   CHECK(warns(at(animated_square({"translation", "", {-1, 1}, plain.values}), 0),
               "animations that begin before 0: 1, the first accessors[2]"));
-  // What is no node's is left out.
+  // Channels of no node are left out.
   GltfFile pointer = animated_square(plain);
   pointer.json["animations"][0]["channels"][0]["target"] = {{"path", "pointer"}};
   CHECK(warns(at(pointer, 0), "left out: animated values that belong to no node (1)"));
-  // What is not played is not looked at.
+  // Animations that are not played are not checked.
   GltfFile second = animated_square(plain);
   animate(second, {"translation", "CUBICSPLINE", {1, 1}, {0, 0, 0}});
   CHECK(at(second, 0).warnings.empty());

@@ -37,7 +37,7 @@ TEST_CASE("JSON is read in time that grows with its length, and to a bound") {
 
   const std::string too_many = refusal("{\"a\":[0\n" + std::string(size_t{1} << 24, ',') + ",0]}", "a.gltf");
   CHECK(too_many == "a.gltf:2:16777215: error: its JSON has more than 16777216 values");
-  // What stands in strings is no structure.
+  // Brackets in strings are no structure.
   CHECK(refusal("{\"a\":\"" + std::string(100, '[') + "\\\"" + std::string(100, '{') + "\"}", "a.gltf") ==
         "a.gltf: error: it is not glTF 2: its asset.version is \"\"");
 }

@@ -1,5 +1,5 @@
-// What is said of glTF whose values or references break rules, in objects that are shown or not: a row a
-// rule.
+// Errors and warnings for glTF whose values or references break rules, in objects that are shown or not: a
+// row a rule.
 #include "gltf_rich_file.hpp"
 
 using namespace eyeray::engine;

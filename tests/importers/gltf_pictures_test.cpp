@@ -1,4 +1,4 @@
-// What is said of glTF whose pictures or containers break a rule of its specification.
+// Errors and warnings for glTF whose pictures or containers break a rule of its specification.
 #include <cstring>
 
 #include "gltf_rich_file.hpp"

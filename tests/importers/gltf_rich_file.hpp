@@ -41,7 +41,7 @@ inline std::string said_of(const GltfFile& file) {
   return all;
 }
 
-// How a file breaks a rule, and what is said of it: a row of a table.
+// A way of breaking a rule, and the resulting message: a row of a table.
 struct Rule {
   std::string name;
   std::function<void(GltfFile&)> breach;

@@ -163,8 +163,8 @@ TEST_CASE("extensions of materials, with their pictures: which channel of each c
     CHECK(over.coat == doctest::Approx(channel(0)->at(uv).x));
     CHECK(over.coat_roughness == doctest::Approx(channel(1)->at(uv).x));
   }
-  // What has thickness refracts, and is tinted and dims; what has none is a pane, whatever Whitted's pictures
-  // show.
+  // A material with thickness refracts, is tinted and dims light. One without is a pane, whatever Whitted's
+  // pictures show.
   const Json volume = {{"thicknessFactor", 1}, {"attenuationDistance", 2}, {"attenuationColor", {1, 0.5, 1}}};
   const ImportedScene thick = imported({{"KHR_materials_transmission", {{"transmissionFactor", 0.25}}},
                                         {"KHR_materials_volume", volume},

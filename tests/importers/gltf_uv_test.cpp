@@ -1,4 +1,4 @@
-// Which texture coordinates the pictures of a glTF material read.
+// Tests of the texture coordinates that the pictures of a glTF material read.
 #include <limits>
 
 #include "gltf_files.hpp"

@@ -1,4 +1,5 @@
-// What glTF files do to vertices beside placing them: colours, transforms of uv, morph targets, skins.
+// Tests of changes of vertices by glTF files, beside their placement: colours, transforms of uv, morph
+// targets, skins.
 #include <numbers>
 
 #include "gltf_files.hpp"

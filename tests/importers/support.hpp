@@ -11,7 +11,7 @@
 
 namespace eyeray::engine::test {
 
-// What the importers make of the bytes, which must keep all promises.
+// The scene that the importers make from the bytes, which must keep all promises.
 inline importers::ImportedScene import_sound(const std::string& bytes, const std::string& name,
                                              const importers::ImportOptions& options = {}) {
   importers::ImportedScene scene = importers::import_bytes(bytes, name, options);

@@ -68,7 +68,7 @@ file(WRITE ${SCRATCH}/bad.toml "[[sphere]]\ncenter = [0, 0, 0]\nradius = -1\n")
 run(2 ${examples}/render_file ${SCRATCH}/bad.toml ${SCRATCH}/bad.png)
 expect("${err}" "bad.toml:3:10: error: ")
 
-# What docs/library.md shows of C++ is in the examples, but for indents.
+# The C++ code in docs/library.md is that of the examples, except for indents.
 file(GLOB sources examples/*.cpp)
 set(code "")
 foreach(source IN LISTS sources)

@@ -50,7 +50,7 @@ Scene with(std::vector<std::string> defines) {
   return Scene::read(small, {.defines = std::move(defines)});
 }
 
-// What `work` throws; kind() of a bad_input without a diagnostic where it throws nothing.
+// The error that `work` throws; a bad_input without a diagnostic if it throws nothing.
 template <typename Work>
 Error thrown_by(const Work& work) {
   try {

@@ -42,7 +42,7 @@ Vec3 middle(const Scene& scene) {
   return (bounds.min + bounds.max) / 2.0;
 }
 
-// What `transform` of the ball's group makes of [1, 0, 0].
+// The image of [1, 0, 0] under `transform` of the ball's group.
 Vec3 moved(const std::string& keyframes, double frame) {
   return middle(at(R"(
 [[group]]

@@ -20,7 +20,7 @@ image::Image gray(int width, int height, float value, int channels = 3) {
   return picture;
 }
 
-// What is said of a scene with that table, in the folder: without its place, or the first warning.
+// The error of a scene with that table, in the folder, without its position; or the first warning.
 std::string said_of(const test::Folder& folder, const std::string& table, const std::string& rest = "") {
   const std::string scene = folder.write("scene.toml", "[environment]\n" + table + "\n" + rest);
   std::string said;

@@ -1,4 +1,4 @@
-// What other renderers call things.
+// Tests of other renderers' words.
 #include "host/reading/foreign_words.hpp"
 
 #include <vector>
@@ -23,7 +23,7 @@ TEST_CASE("a word of another renderer is answered by ours, where that is possibl
   CHECK(suggested("focal_length", {"eye", "fov"}) == "fov");
   CHECK(suggested("LookAt", {"eye", "target"}) == "target");
   CHECK(suggested("look_at", {"eye", "size"}) == "");
-  // What a word means depends on where it stands.
+  // The meaning of a word depends on its table.
   CHECK(suggested("location", {"eye", "target", "up"}) == "eye");
   CHECK(suggested("location", {"type", "position", "direction"}) == "position");
   CHECK(suggested("location", {"center", "radius", "transform"}) == "center");

@@ -98,7 +98,7 @@ TEST_CASE("keys and values are bounded, over all files of a scene, and the place
   CHECK(starts(said(repeat("k.k=1\n", 2'100'000)), "scene.toml:2097153:4"));
   CHECK(starts(said(repeat("[[a.b]]\n", 2'800'000)), "scene.toml:2796203:4"));
 
-  // What is in strings and comments is none, and floats in rows of a list are no keys.
+  // Text in strings and comments does not count, and floats in rows of a list are no keys.
   TreeBudget budget;
   CHECK_FALSE(find_excess(
       "x = \"" + std::string(100, '{') + "\" # [[[[\ny = '''" + std::string(100, '[') + "\n'''", budget));

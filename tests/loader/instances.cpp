@@ -66,7 +66,7 @@ TEST_CASE("among nested groups, those are instanced that leave the least to keep
   CHECK(many_outside.primitive_count() == 400'000);
   CHECK(std::abs(many_outside.group_instances[7].transform[3].x - 7) < 1e-12);
 
-  // What is small is copied.
+  // Small groups are copied.
   const Scene small = nested(10, 10, 10);
   CHECK(small.groups.empty());
   CHECK(small.shapes.size() == 1000);
@@ -222,7 +222,7 @@ TEST_CASE("parts of CSG objects count as kept objects") {
   CHECK_MESSAGE(says(said, "batches and groups make 100020001 objects; at most 67108864 are possible"), said);
 }
 
-// What stands in a group under a map that only the world knows, too thin, too far or bent too much there.
+// Shapes in a group that are too thin, too far or distorted too much under a map that only the world knows.
 TEST_CASE("shapes under a group's map are legal or not, however the group is kept") {
   const struct {
     const char* group_map;

@@ -115,7 +115,7 @@ loop = true
   CHECK(place(scene.instances[5]) == Vec3(4, 0, 0));
   CHECK(place(load(file, {"animation.frame=84"}).instances[5]) == Vec3(4, 0, 0));  // 3.5 s
   CHECK(place(load(file, {"animation.frame=84"}).instances[4]) == Vec3(8, 0, 0));
-  // Where all that a scene shows is at rest, nothing moves.
+  // If all shown files are at rest, nothing moves.
   const std::string still =
       folder.write("still.toml", std::string(lamp) + "[[mesh]]\nfile = 'walker.gltf'\nanimation = 'none'\n");
   CHECK(load(still).animation.tracks == 0);
@@ -169,7 +169,7 @@ TEST_CASE("a file that is itself the scene moves too, before a camera that stand
   const Scene other = load(filming, {"animation.frame=36", "mesh.0.smooth=40"});
   CHECK(other.warnings.empty());
 
-  // What grows out of nothing is there when it is, and is framed then where there is nothing at rest.
+  // A mesh that grows from nothing is shown once it has an extent, and is framed then if nothing is at rest.
   const std::string grows = walker(folder, "grows.gltf", R"("nodes": [{"mesh": 0}])", "scale", Vec3(8));
   CHECK(load(grows).instances.empty());
   CHECK(load(grows, {"animation.frame=36"}).instances.size() == 1);

@@ -77,7 +77,7 @@ TEST_CASE("messages begin with what they are about, and say it once for all copi
                  "name = \"wheel\"\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"wal\"\n") ==
         std::vector<std::string>{
             "sphere \"cart 1/wheel\": no [[material]] is named \"wal\"; did you mean \"wall\"?"});
-  // What is wrong with one copy alone says with which.
+  // An error of one copy alone names the copy.
   CHECK(refusals(
             fmt::format("[[group]]\nname = \"cart\"\nbatch = {{ transform = [[], [{{ scale = 1e13 }}]] }}\n"
                         "[[group.sphere]]\nname = \"wheel\"\n{}",

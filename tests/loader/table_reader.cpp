@@ -115,7 +115,7 @@ TEST_CASE("wrong values: an error each, and a valid stand-in") {
   CHECK_FALSE(t.reader.valid("must"));
   CHECK_FALSE(t.reader.valid("count"));
 
-  // What is said of a value that was wrong already is not heard.
+  // A second error of a value is ignored.
   t.reader.error("count", "secondary");
   t.reader.error("pairs", "primary");
   CHECK(t.messages().size() == 11);

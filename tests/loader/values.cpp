@@ -1,4 +1,4 @@
-// What a scene file says arrives in the Scene, to the last bit.
+// Values of a scene file arrive in the Scene, to the last bit.
 #include <rapidcheck.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// What an explanation does not excuse: each is shown a frame with a fault near an edge, or with too many.
+// Tests of the limits of explanations: each gets a frame with a fault near an edge, or with too many.
 #include <cmath>
 
 #include "honest_frame.hpp"

@@ -24,7 +24,7 @@ namespace {
 constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// What the whole of verify says about a frame that stands for the GPU's, with an honest twin.
+// The whole report of verify on a frame that stands for the GPU's, with an honest twin.
 Report verify(const Frame& gpu) {
   const Frame twin = honest_frame(), reference = picture_frame();
   Report report;

@@ -11,7 +11,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// What gate R found, by executor.
+// The findings of gate R, by executor.
 nlohmann::json gate_r(const std::string& scene, const std::string& fault) {
   const TemporaryFolder folder;
   std::vector<std::string> arguments = {"verify", scene,     "-s",     "96x72",        "--raster",

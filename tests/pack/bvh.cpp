@@ -28,7 +28,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// What was compared, and the first that differ.
+// The counts of compared rays, and the first ones that differ.
 class Tally {
  public:
   void compare(uint64_t seed, const char* what, std::span<const shader::QueryRay> rays,
@@ -94,7 +94,7 @@ void hard_scenes_on_the_gpu(int count) {
   CHECK(with_splits > 0);
   CHECK(with_instances > count / 6);
   if (count <= 8) return;
-  // What few scenes have.
+  // Features that few scenes have.
   CHECK(tally.dimmed > 40 * count);
   CHECK(quantised < bvhs);  // nodes that cannot be quantised
   CHECK(together > count / 6);
@@ -131,7 +131,8 @@ TEST_CASE("10 000 hard scenes on the twin: the BVH finds what brute force finds,
           doctest::test_suite("long")) {
   Tally whole, split;
   std::atomic<int> bvhs = 0, quantised = 0, with_splits = 0, with_instances = 0, with_groups = 0;
-  // And some of many more, which once were wrong: CSG objects of glass in two leaves, an assertion in Embree.
+  // Some scenes, of many more, that once were wrong: CSG objects of glass in two leaves, an assertion in
+  // Embree.
   constexpr std::array once_wrong{117549, 220962, 249576};
   parallel_for(0, 10000 + int(once_wrong.size()), [&](int i) {
     const int seed = i < 10000 ? i : once_wrong[size_t(i - 10000)];

@@ -51,7 +51,7 @@ Scene stored(const std::string& text, std::string_view groups) {
   return parse_scene(fmt::format("[render]\ngroups = \"{}\"\n{}", groups, text), "scene.toml");
 }
 
-// What a ray hits, and the surface there, whoever says so.
+// The hit of a ray, and the surface there, from any executor.
 struct Answer {
   int64_t primitive = -1;
   double t = 0;
@@ -79,7 +79,8 @@ Answer by_twin(const PackedScene& scene, const Ray& at, const Vec3& eye) {
           Vec2(s.uv),      flags};
 }
 
-// How far apart they are, 1 being all that rounding may make of it; infinite for different primitives.
+// The difference of two answers, where 1 is the largest that rounding may cause; infinite for different
+// primitives.
 double difference(const Answer& a, const Answer& b, double rounding, double size) {
   if (a.primitive != b.primitive || a.flags != b.flags) return HUGE_VAL;
   if (a.primitive < 0) return 0;

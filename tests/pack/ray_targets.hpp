@@ -1,4 +1,4 @@
-// Where hard rays go: corners, edges and insides as a scene's records have them, in float32.
+// Targets of hard rays: corners, edges and insides from a scene's records, in float32.
 #pragma once
 
 #include "host/pack/pack.hpp"

@@ -1,5 +1,5 @@
-// What the geometry allows at a pixel: no more at a shared edge, more where triangles end, and what is surely
-// behind never.
+// Tests of the primitives that the geometry allows at a pixel: no more at a shared edge, more where triangles
+// end, and never one that is surely behind.
 #include "host/raster/possible.hpp"
 
 #include "host/cameras/make.hpp"

@@ -99,7 +99,7 @@ TEST_CASE("a plane is drawn to its horizon, and not above it") {
     for (const Vec3& at : piece.at) {
       lowest = std::min(lowest, at.z);
       highest = std::max(highest, at.z);
-      // Where it ends, its direction is level.
+      // At its end its direction is level.
       if (at.z > 1e-12) continue;
       const Vec3 level = camera_axes(camera).w - Vec3(0, camera_axes(camera).w.y, 0);
       const double horizon = view.project(Vec4(view.turned(level), 0.0)).y;

@@ -41,7 +41,7 @@ struct Compared {
   compare::Frame frame = traced(scene);
 
   explicit Compared(Scene made) : scene(std::move(made)) {}
-  // What gate R says once each hit is damaged.
+  // The result of gate R after damage to each hit.
   compare::RasterResult with(const std::function<void(FirstHit&)>& damage) const {
     compare::Frame damaged = frame;
     for (FirstHit& hit : damaged.first_hits) damage(hit);

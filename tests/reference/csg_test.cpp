@@ -31,7 +31,7 @@ std::unique_ptr<Shape> made_of(std::unique_ptr<Shape> shape, int material) {
   return shape;
 }
 
-// Where the ray's line is within the shape, as "in out in out".
+// The spans of the ray's line within the shape, as "in out in out".
 std::vector<double> ends(const Shape& shape, const Ray& ray) {
   std::vector<double> all;
   for (const auto& [in, out] : shape.spans(ray)) {

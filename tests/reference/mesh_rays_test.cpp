@@ -1,4 +1,5 @@
-// What rounding does to rays at meshes: none hits again what it leaves, none slips between two triangles.
+// Tests of rounding of rays at meshes: no ray hits again the triangle that it leaves, and none slips between
+// two triangles.
 #include "host/core/parallel_for.hpp"
 #include "host/reference/crossings.hpp"
 #include "tests/support/meshes.hpp"

@@ -106,7 +106,7 @@ TEST_CASE("primitives count the shapes, then each instance's triangles") {
 
 TEST_CASE("of equal hits the lowest primitive wins: shapes, instances, triangles") {
   for (const Acceleration acceleration : {Acceleration::bvh, Acceleration::brute_force}) {
-    // The same square many times: the sixth triangle of a mesh, instances, a shape.
+    // One square many times: the sixth triangle of a mesh, instances, a shape.
     Mesh squares = make_mesh({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {-3, -1, 0}, {3, -1, 0}}, {});
     for (int i = 0; i < 5; ++i) squares.triangles.push_back({1, 5, 2});
     for (int i = 0; i < 20; ++i) squares.triangles.push_back({0, 1, 2});

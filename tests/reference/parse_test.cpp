@@ -1,4 +1,4 @@
-// What shapes and materials make of their tables in a scene file, and what they refuse.
+// Tests of shapes and materials made from their tables in a scene file, and of refusals.
 #include "host/loader/scene_file.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -28,7 +28,7 @@ std::string refused(const std::string& shape) {
   return "accepted";
 }
 
-// Where the eye's ray strikes.
+// The first hit of the camera ray.
 FirstHit struck(Scene scene, const Vec3& from, const Vec3& target) {
   const Scene one = one_pixel(from, target);
   scene.image = one.image;

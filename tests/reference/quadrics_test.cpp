@@ -68,7 +68,7 @@ TEST_CASE("paraboloid: y = x² + z², its cap, its tip and its focus") {
   CHECK(struck(*csg, {{1, 10, 0}, downwards}).normal == Vec3(0, 1, 0));
   CHECK(near(struck(*csg, {{0, -3, 0}, -downwards}).normal, Vec3(0, -1, 0), 1e-12));
 
-  // What comes along the axis leaves for the focus, 2² / (4 · 4) above the tip.
+  // Rays along the axis are reflected to the focus, 2² / (4 · 4) above the tip.
   const SurfacePoint point = struck(*bowl, {{1, 10, 0}, downwards});
   CHECK(near(point.position, Vec3(1, 1, 0), 1e-14));
   CHECK(near(glm::reflect(downwards, point.normal), Vec3(-0.8, -0.6, 0), 1e-14));

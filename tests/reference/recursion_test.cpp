@@ -209,7 +209,7 @@ TEST_CASE("refracted rays obey Snell, and Fresnel splits the light") {
         add(scene, glowing({0, 1, 0})));
     CHECK(near(look(scene).color, Vec3(1 - mirrored, mirrored, 0), 1e-12));
 
-    // The same way back, from a point in the water that is on the line.
+    // The reverse way, from a point in the water that is on the line.
     scene.camera.eye = 0.5 * Vec3(std::sin(refracted), -std::cos(refracted), 0);
     scene.shapes.pop_back();
     add(scene, make_sphere(100.0 * Vec3(-std::sin(incident), std::cos(incident), 0), 1e-9),
@@ -315,7 +315,7 @@ TEST_CASE("a shape that gives up is no hit, and flagged where it might have been
     uint32_t flags = 0;
     CHECK(tracer.transmittance({{0, 0, 1.001}, {0, 0, 1}}, 2, flags) == 1);
     CHECK(flags == (sure_until < 2 ? iteration_limit : 0u));
-    // What is dark is dark, whatever else is on the way.
+    // A dark path is dark, whatever else is on its way.
     flags = 0;
     CHECK(tracer.transmittance({{0, 0, 5}, {0, 0, -1}}, 10, flags) == 0);
     CHECK(flags == 0);

@@ -1,4 +1,4 @@
-// How bright samples are: whatever a shader makes of them.
+// Tests of the histogram of samples' brightness, for any values that a shader may return.
 #include "host/render/brightness.hpp"
 
 #include <cmath>

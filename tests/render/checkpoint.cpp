@@ -73,7 +73,7 @@ TEST_CASE("interrupted anywhere and resumed, a picture is the uninterrupted one"
       CHECK((rest.samples_resumed > 0) == (stop > 0));
       CHECK(folder.names().empty());
 
-      // And again and again: one call a run.
+      // Repeats this, with one call in each run.
       render_part(scene, band_rows, file, stop);
       Rendering last;
       int runs = 0;

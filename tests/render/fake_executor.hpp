@@ -20,7 +20,7 @@ class FakeExecutor : public executors::Executor {
               std::span<AuxiliarySample> auxiliaries) override {
     const Rect& tile = grid.area;
     if (before_call_ && !before_call_(calls++)) {
-      // What lies in `out` now is not to be used.
+      // The samples in `out` must not be used.
       for (PixelSample& sample : out) sample = {Vec3(1e9), 1000, 1000, loop_budget};
       return false;
     }
@@ -58,7 +58,7 @@ inline Scene scene_of(int width, int height, int samples) {
   return scene;
 }
 
-// How many bytes of sums make bands of that many rows.
+// The bytes of sums that make bands of that many rows.
 inline size_t band_of_rows(const Scene& scene, int rows) {
   return size_t(rows) * size_t(scene.image.width) * sizeof(film::PixelTotals);
 }

@@ -1,4 +1,4 @@
-// What a film makes of samples, beside sums made here.
+// Tests of a film's sums of samples, against sums made here.
 #include "host/film/film.hpp"
 
 #include <algorithm>

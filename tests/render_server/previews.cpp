@@ -111,7 +111,7 @@ TEST_CASE("the twin shows the picture until the kernel is there, which changes n
   CHECK(rows.front().at("stride") == 8);
   CHECK_FALSE(is_preview(rows.back()));
   CHECK(rows.back().at("sample") == 3);
-  // What was shown is not taken back for something coarser.
+  // Shown rows are not replaced by coarser ones.
   const auto first = std::ranges::find_if_not(rows, is_preview);
   CHECK(std::ranges::none_of(first, rows.end(), is_preview));
   CHECK(first->at("stride") == 1);

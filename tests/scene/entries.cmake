@@ -2,7 +2,7 @@
 # validation layers (ctest -L validation). What a failing gate leaves behind lies in the build folder.
 file(GLOB_RECURSE SCENES CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/scenes/*.toml)
 list(FILTER SCENES EXCLUDE REGEX "/include/")
-# Those of path tracing have many samples a pixel: a few show as much of two executors' agreement.
+# Scenes of path tracing have many samples a pixel: a few show two executors' agreement as well.
 set(PATHS ${SCENES})
 list(FILTER PATHS INCLUDE REGEX "^scenes/path/")
 list(REMOVE_ITEM SCENES ${PATHS})
@@ -68,7 +68,7 @@ foreach(scene IN LISTS SCENES)
   eyeray_verify(scene.${name} scene ${scene})
 endforeach()
 
-# How hits are found, where small pictures would not be.
+# Ways of finding hits that small pictures would not use.
 set(by_bvh --tune acceleration=bvh --tune constants=off)
 set(by_packets ${by_bvh} --tune rays=packets)
 
@@ -109,7 +109,7 @@ list(FILTER small EXCLUDE REGEX "^scenes/edges/|/gallery|/group_shapes|/forest|/
 # Modes that no shape's code knows of need no scene for each shape.
 set(views ${small})
 list(FILTER views EXCLUDE REGEX "^scenes/shapes/")
-# Those whose kernels take seconds to make have fewer modes.
+# Scenes whose kernels take seconds to make have fewer modes.
 set(slow scenes/shapes/algebraic.toml scenes/shapes/bezier.toml scenes/shapes/csg.toml -s 96x72)
 eyeray_verify(mode.slow-kernels.packets mode ${slow} scenes/shapes/implicit.toml scenes/shapes/mandelbulb.toml scenes/shapes/sculpture.toml scenes/forest.toml
   ${by_packets})

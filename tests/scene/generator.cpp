@@ -62,7 +62,7 @@ class Writer {
     if (mishap()) return "\"nothing\"";
     return fmt::format("\"{}\"", key.choices[size_t(random_.below(int(key.choices.size())))]);
   }
-  // What a CSG object may be made of, if it is not open.
+  // A shape of which a CSG object may be made, if it is not open.
   const shapes::ShapeType& closed_shape() {
 #define NAME(name, number) number,
     constexpr uint32_t kinds[] = {CLOSED_SHAPES(NAME)};

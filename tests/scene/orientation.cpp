@@ -67,8 +67,8 @@ TEST_CASE("orientation: red is right, green is up, blue is near, by every execut
       CHECK(glm::length(hit.position - object.center) < 0.6);
     }
 
-    // And without any formula: the picture's right half has the ball of red, its left the arrow, its top the
-    // green.
+    // A test without any formula: the picture's right half has the ball of red, its left the arrow, its top
+    // the green.
     const auto seen = [&](int primitive, Rect area) {
       int count = 0;
       for (int y = area.y; y < area.y + area.height; ++y)

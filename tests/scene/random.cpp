@@ -33,7 +33,7 @@ Scene shrunk(Scene scene, int width, int height) {
   return scene;
 }
 
-// How many scenes fail, and the texts of the first, each with why.
+// The number of scenes that fail, and the texts of the first, each with its reason.
 class Failures {
  public:
   void add(const std::string& why, const std::string& text) {

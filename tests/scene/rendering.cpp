@@ -31,7 +31,7 @@ class StoppingExecutor final : public Executor {
     // Slow enough that the driver does not ask for more at a time.
     std::this_thread::sleep_for(std::chrono::milliseconds(110));
     if (calls_left_-- == 0) {
-      // What lies in `out` now is not to be used.
+      // The samples in `out` must not be used.
       for (PixelSample& sample : out) sample = {Vec3(1e9), 1000, 1000, loop_budget};
       return false;
     }

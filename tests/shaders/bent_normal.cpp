@@ -57,14 +57,14 @@ struct Normals {
   Vec3 coat;
 };
 
-// What the reference makes of them, by that material.
+// The normals by the reference, with that material.
 Normals expected(const Material& material, const Place& place) {
   SurfacePoint point = place.point;
   reference::bend_normals(material, point, place.d);
   return {point.normal, point.coat_normal};
 }
 
-// What the shader makes of them.
+// The normals by the shader.
 Normals shaded(const Material& material, const Place& place) {
   Packer packer(Vec3(0));
   shader::Material record{};

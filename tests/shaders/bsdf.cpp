@@ -23,7 +23,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// Where the surface lies as its normal says.
+// The value for light on the side that the normal gives.
 BsdfValue above(const ViewedBsdf& viewed, const Vec3& i) {
   return viewed.at(i, i.z > 0);
 }

@@ -1,4 +1,4 @@
-// What formulas call, of math/formula.glsl, against float64.
+// The functions of math/formula.glsl that formulas call, against float64.
 #include <fmt/format.h>
 
 #include <cmath>

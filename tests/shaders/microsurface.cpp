@@ -53,7 +53,7 @@ class Microsurface {
     const double slope = width_ * width_ * (1 / (d.z * d.z) - 1);
     return (std::copysign(std::sqrt(1 + slope), d.z) - 1) / 2;
   }
-  // Where a ray from that height next hits the microsurface; infinite above it.
+  // The height at which a ray from that height next hits the microsurface; infinite above it.
   double next_height(const Vec3& d, double height, Random& random) const {
     const double u = random.uniform();
     const double below = std::min((height + 1) / 2, 1.0);

@@ -84,7 +84,8 @@ CutLamp cut(const TriangleForm& it, const Vec3& from) {
   return lamp;
 }
 
-// How many standard deviations χ² of places is too large, where cells should have them by solid angle.
+// The excess of χ² over its expectation, in standard deviations, for points that should be uniform by solid
+// angle.
 double excess(const CutLamp& lamp, const std::function<Vec2(const shader::vec2&)>& uv_of) {
   constexpr int count = 1 << 16;
   Random random(7);

@@ -184,7 +184,7 @@ TEST_CASE("200 000 points of random images: the shader agrees with the formulas 
     const double reach = random.log_uniform(0.5, 1000);
     for (int i = 0; i < 500; ++i) {
       const glm::vec2 uv(random.uniform(-reach, reach), random.uniform(-reach, reach));
-      // How far, in texels, three roundings of a float32 take the place, at most.
+      // The largest displacement of the point, in texels, by three roundings of a float32.
       const Vec2 place = Vec2(uv) / size * Vec2(width, height);
       const Vec2 error = (glm::abs(place) + Vec2(width, height)) * 3.0 * 0x1p-24;
       const Vec2 to_border = glm::abs(place - glm::round(place));

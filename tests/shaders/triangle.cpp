@@ -67,7 +67,8 @@ shader::Primitive make_triangle(const glm::vec3& a, const glm::vec3& b, const gl
 
 using Intersect = float (*)(shader::Primitive, shader::Ray, shader::vec2&);
 
-// How many of `count` rays from inside the mesh escape it, aimed at random, at its edges or at its vertices.
+// The number of `count` rays from inside the mesh that escape it, aimed at random, at its edges or at its
+// vertices.
 enum class Aim { random, edges, vertices };
 int leaks(const ClosedMesh& mesh, const Vec3& centre, const Vec3& reach, Aim aim, Intersect intersect,
           int count) {

@@ -49,7 +49,7 @@ class ArrayOf {
     for (const Words& words : {options_, more}) command.insert(command.end(), words.begin(), words.end());
     return run_eyeray(command, environment);
   }
-  // What it says of the picture.
+  // Its report on the picture.
   Json said(const Words& more = {}, const Environment& environment = {}) const {
     const ProcessResult result = run(more, environment);
     CAPTURE(result.err);
@@ -96,7 +96,7 @@ TEST_CASE("an array makes the picture of one machine, and says how far it is") {
   CHECK(cluster()
             .ask({"scontrol", "-o", "show", "job", first.at("submitted").at(0).get<std::string>()})
             .out.find("Comment=mine") != std::string::npos);
-  // What is there is not rendered again; another picture's parts are not taken.
+  // Existing parts are not rendered again; another picture's parts are not used.
   CHECK(array.said().at("submitted").empty());
   write_text(array.folder().scene(), read_text(array.folder().scene()) + "\n# changed\n");
   CHECK(array.run().code == 2);

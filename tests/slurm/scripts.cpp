@@ -85,7 +85,7 @@ TEST_CASE("a share that is ended, killed and begun again goes on, and leaves not
   jobs.array.render_words.insert(jobs.array.render_words.end(), {"--checkpoint-every", "0.02"});
   jobs.write_scripts();
   const std::string checkpoint = jobs.file("1.work");
-  // What fails has eyeray's own exit code.
+  // A failed job has eyeray's own exit code.
   CHECK(jobs.run(3) == 2);
   CHECK(jobs.merge() == 4);
   // The signals with which Slurm ends a preempted job, and warns one that is near its time limit.

@@ -1,4 +1,4 @@
-// What is submitted, whatever Slurm or the folder says.
+// Tests of the submitted jobs, for all states of Slurm and of the folder.
 #include <fmt/format.h>
 
 #include "fake_slurm.hpp"

@@ -1,4 +1,4 @@
-// How much a test at random draws.
+// The amount that a random test draws.
 #pragma once
 
 #include <cstdlib>

@@ -16,7 +16,7 @@ inline constexpr double beyond = 3e-5;
 // Pixels along each of the four edges.
 inline constexpr int edge_pixels = 8;
 
-// What a ray along −z hits of a primitive that has the material of its number.
+// The hit of a ray along −z with a primitive that has the material of its number.
 inline FirstHit hit_of(double t, const Vec3& position, const Vec3& normal, const Vec2& uv, int32_t number) {
   return {.t = t,
           .position = position,

@@ -1,4 +1,4 @@
-// What a test asks of a scene's camera.
+// Queries of a scene's camera for tests.
 #pragma once
 
 #include "host/scene/scene.hpp"
@@ -11,7 +11,7 @@ Form camera_as(const Scene& scene) {
   return std::get<Form>(scene.camera.projection->form());
 }
 
-// Where a point of the world lies in a perspective picture, from its middle to the right and up, in half
+// The position of a world point in a perspective picture, from its middle to the right and up, in half
 // widths.
 inline Vec2 place_seen(const Scene& scene, const Vec3& point) {
   const CameraAxes camera = camera_axes(scene.camera);

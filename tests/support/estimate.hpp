@@ -1,4 +1,4 @@
-// What an executor's path tracer says a picture's mean radiance is, and how sure it is of that.
+// An executor's estimate of a picture's mean radiance, and its standard error.
 #pragma once
 
 #include <algorithm>

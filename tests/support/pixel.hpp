@@ -1,4 +1,4 @@
-// Where a point of the world lies in the picture of a scene.
+// The position of a world point in the picture of a scene.
 #pragma once
 
 #include "tests/support/camera.hpp"

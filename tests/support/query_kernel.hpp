@@ -101,14 +101,15 @@ inline shader::uvec4 bits(const shader::QueryHit& hit) {
   return std::bit_cast<shader::uvec4>(hit);
 }
 
-// How many of the answers are not the same to the last bit.
+// The number of answers that differ in any bit.
 inline int differences(std::span<const shader::QueryHit> a, std::span<const shader::QueryHit> b) {
   int different = 0;
   for (size_t i = 0; i < a.size(); ++i) different += bits(a[i]) != bits(b[i]);
   return different;
 }
 
-// The same of the GPU's answers and the twin's, over both kinds of queries, by packets and by lanes.
+// The number of differences between the GPU's answers and the twin's, over both kinds of queries, by packets
+// and by lanes.
 inline int differences_on_gpu(gpu::Device& device, const records::PackedScene& packed,
                               std::span<const shader::QueryRay> rays) {
   int different = 0;

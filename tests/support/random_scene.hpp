@@ -40,7 +40,7 @@ inline Scene random_scene(Random& random, int count) {
   return scene;
 }
 
-// The same as records.
+// The scene as records.
 inline records::PackedScene random_packed_scene(Random& random, int count,
                                                 const pack::PackOptions& options = {}) {
   return pack::pack(random_scene(random, count), options);

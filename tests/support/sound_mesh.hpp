@@ -1,4 +1,4 @@
-// What scene/mesh.hpp promises of a mesh, asked of what importers make.
+// Checks that importers' meshes keep the promises of scene/mesh.hpp.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// How likely each place of an environment is chosen: by whole numbers, which every executor shares.
+// Tests of the probability of each texel of an environment: by whole numbers, which every executor shares.
 #include <numeric>
 
 #include "host/scene/whole_shares.hpp"

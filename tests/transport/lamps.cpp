@@ -94,7 +94,7 @@ TEST_CASE("a cylinder, and a tube that stands upright, above the floor") {
         Vec3(map[3]));
     check(scene, shown(expected), 2e-4);
   }
-  // What is above it is seen through the tube, but for its own light: that of a disk as wide, at its foot.
+  // The surroundings above are seen through the tube. Its own light is that of a disk as wide, at its foot.
   Scene tube = floor(1024);
   add(tube, make_cylinder({0, 1, 0}, {0, 3, 0}, 0.5, true), lamp(tube));
   check(tube, shown(M_PI * (0.25 / 1.25 - 0.25 / 9.25)));
@@ -202,7 +202,7 @@ TEST_CASE("a textured area light: each part is as bright as its texel") {
   add(scene, make_parallelogram(a, u, v), picture(scene, {0.5, 1}));
   check(scene, shown(4 * left + 0.5 * right), 1e-4);
 
-  // The same as a mesh, its uv turned by a right angle, and with colours.
+  // The area light as a mesh, its uv rotated by a right angle, and with colours.
   Scene mesh = floor(1024);
   mesh.meshes.push_back({.name = "",
                          .positions = {a, a + u, a + u + v, a + v},
@@ -214,7 +214,7 @@ TEST_CASE("a textured area light: each part is as bright as its texel") {
       {.mesh = 0, .transform = Mat4(1.0), .material = picture(mesh, {1, 0.5}), .position = {}});
   check(mesh, shown(2 * left + 0.25 * right), 1e-4);
 
-  // And on second uv: the first are all in the dark half.
+  // The picture on second uv: the first are all in the dark half.
   Scene second = floor(1024);
   const auto halves = std::make_shared<ImageTexture>();
   halves->width = 2;

@@ -1,4 +1,4 @@
-// How likely each light is chosen: by whole numbers, which every executor shares.
+// Tests of the probability of each light: by whole numbers, which every executor shares.
 #include <numeric>
 
 #include "host/core/error.hpp"

@@ -39,7 +39,7 @@ inline int lamp(Scene& scene, double radiance = 1) {
   return add(scene, make_phong({.diffuse = gray(0), .emission = gray(radiance)}));
 }
 
-// What a floor shows of an irradiance.
+// The radiance of a floor under an irradiance.
 inline double shown(double irradiance) {
   return albedo * irradiance / M_PI;
 }

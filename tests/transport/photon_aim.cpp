@@ -1,4 +1,4 @@
-// What photons are aimed at, and that aiming changes nothing but noise.
+// Tests of the targets of photons, and that aiming changes only the noise.
 #include "host/reference/photon_source.hpp"
 #include "host/reference/renderer.hpp"
 #include "host/reference/rng.hpp"
@@ -148,7 +148,7 @@ TEST_CASE("targets are spheres around glass, mirrors, smooth metal and panes, in
   REQUIRE(targets_of(scene).size() == 2);
   CHECK(targets_of(scene)[1].radius == doctest::Approx(0.3).epsilon(2e-3));
 
-  // What is as wide as the scene, or has no end, is found without aim.
+  // A target as wide as the scene, or unbounded, is hit without aiming.
   add(scene, make_sphere({0, 0, 0}, 20), glass);
   add(scene, make_plane({0, 3, 0}, {0, 1, 0}), glass);
   CHECK(targets_of(scene).size() == 2);

@@ -13,7 +13,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// What lights a wall beside the floor.
+// The light on a wall beside the floor.
 enum class WallLight { sphere, ring, parallelogram, box, triangle, spot, environment, sun };
 
 Scene beside_wall(WallLight light) {
@@ -55,7 +55,7 @@ void check_wall(WallLight light, Backend backend, int photons, int samples, doub
   check_as_paths([light] { return beside_wall(light); }, backend, photons, 0.08, samples, greatest);
 }
 
-// What all photons bring to surfaces that have `depth` before them; of less than 0, to all.
+// The flux of all photons at surfaces after `depth` others; at all surfaces if `depth` is below 0.
 double brought(const reference::PhotonMap& map, int depth) {
   double sum = 0;
   for (const reference::Photon& photon : map.photons())
@@ -82,7 +82,7 @@ TEST_CASE("a sun through a slab of glass: E = π I cos θ (1 − R)²") {
     scene.camera.eye = {0.2, 0.3, 0.1};
     add(scene, make_box({-2, 0.4, -2}, {2, 0.6, 2}), add(scene, make_dielectric({.ior = 1.5})));
     add_sun(scene, {std::sin(theta), std::cos(theta), 0}, Vec3(0.5));
-    // What runs to and fro in the slab comes later.
+    // Photons that are reflected back and forth in the slab come later.
     scene.render.max_depth = 3;
     const double r = optics::dielectric_reflectance(std::cos(theta), 1, 1.5);
     check_photons(scene, albedo * 0.5 * std::cos(theta) * (1 - r) * (1 - r), 0.01, 1e-3);

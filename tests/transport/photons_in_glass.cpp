@@ -13,7 +13,7 @@ namespace {
 
 constexpr Rect picture{0, 0, 8, 8};
 
-// What stands between two disks.
+// The object between two disks.
 enum class Between { glass, nested, hollow, principled, interface, frosted, rough, opal, frosted_pane };
 
 constexpr double upper = 0, lower = -1.4;  // heights of the disks: one within, one without

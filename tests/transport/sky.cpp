@@ -23,7 +23,7 @@ Vec3 at(const Sky& sky, double polar, double azimuth) {
   return sky.map->texel(std::min(x, sky.map->width() - 1), y);
 }
 
-// What a level surface gets of the sky alone, π times a light's intensity.
+// The irradiance of a level surface from the sky alone, π times a light's intensity.
 Vec3 irradiance(const Sky& sky) {
   Vec3 sum(0);
   const int width = sky.map->width(), height = sky.map->height();

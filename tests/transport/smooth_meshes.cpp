@@ -18,7 +18,7 @@ namespace {
 
 constexpr int width = 48;
 
-// What an orthographic camera sees of [−1, 1]² from that height, row by row from the top.
+// The picture of [−1, 1]² by an orthographic camera at that height, row by row from the top.
 std::vector<double> picture(Scene& scene, Backend backend, double height = 5) {
   scene.image = {.width = width, .height = width};
   scene.camera.eye = {0, 0, height};

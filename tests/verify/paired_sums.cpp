@@ -40,7 +40,7 @@ compare::Frame traced(const Scene& scene, Backend backend) {
   return frame;
 }
 
-// How many of so many seeds fail.
+// The number of so many seeds that fail.
 int failing(int seeds, const std::string& white) {
   int count = 0;
   for (int seed = 1; seed <= seeds; ++seed)
@@ -50,7 +50,7 @@ int failing(int seeds, const std::string& white) {
   return count;
 }
 
-// What a ball of glass bundles, where a disk of photons is as wide as a tile.
+// The caustic of a ball of glass, where a disk of photons is as wide as a tile.
 struct Caustic {
   compare::Frame value, exact;
   double radius;

@@ -26,7 +26,7 @@ async function done(view) {
     return state === 'done' && shown === wanted && shown.startsWith(name + ' ');
   }, view);
 }
-// What `action` brings about: the view's next picture.
+// Runs `action` and returns the view's next picture.
 async function next(view, action) {
   const generation = await body('generation');
   await action();
@@ -129,7 +129,7 @@ await done('gpu');
 await next('gpu', () => writeFileSync(scene_file, scene));
 await next('gpu', () => writeFileSync(pixel, good));
 
-// What the scene is warned of stands beside the picture with its place; so does how many pixels may be wrong.
+// The scene's warnings stand beside the picture with their positions; so does the number of pixels that may be wrong.
 assert.ok(await page.locator('#warnings-panel').isHidden());
 const sheets = `[[implicit]]\ncode = "float f(vec3 p) { return sin(6000.0 * p.z) + 0.5; }"\nmin = [-3, 0, -1]\nmax = [3, 2, 1]\nlipschitz = 1\nmaterial = "matte"\n`;
 await next('gpu', () => writeFileSync(scene_file, scene + sheets.replace('sin(6000.0 * p.z)', 'length(p) * 2.0')));

@@ -121,7 +121,7 @@ struct Destroy<Tag, void(VKAPI_PTR*)(VkDevice, Handle, const VkAllocationCallbac
   }
 };
 
-// Where EYERAY_NO_GRAPHICS is set, no queue draws.
+// If EYERAY_NO_GRAPHICS is set, no queue draws.
 struct QueueFamilies {
   static inline PFN_vkGetPhysicalDeviceQueueFamilyProperties real = nullptr;
   static void VKAPI_PTR call(VkPhysicalDevice device, uint32_t* count, VkQueueFamilyProperties* families) {

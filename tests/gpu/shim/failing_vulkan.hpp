@@ -11,7 +11,7 @@ constexpr int never_returns = 1000;
 extern "C" {
 // From now on the `number`-th call of `function`, from 1, answers `result`; 0: none does. Counts begin at 0.
 void fail_call(const char* function, int number, int result);
-// How many functions there are that answer a result; the name of each, and how often it was called.
+// The number of functions that return a result; the name of each, and the number of its calls.
 int function_count();
 const char* function_name(int function);
 int calls(int function);
