@@ -22,7 +22,7 @@ struct Class {
 constexpr std::pair<Cause, uint32_t> cause_colors[] = {
     {Cause::silhouette, 0x0072b2},  {Cause::texture_edge, 0x56b4e9}, {Cause::refraction_branch, 0xcc79a7},
     {Cause::shadow_edge, 0xf0e442}, {Cause::rounding, 0x009e73},     {Cause::crease, 0xe69f00},
-    {Cause::grazing, 0xd55e00},     {Cause::undecidable, 0xffffff},  {Cause::parted, 0x999933},
+    {Cause::grazing, 0xd55e00},     {Cause::undecidable, 0xffffff},  {Cause::diverged, 0x999933},
 };
 static_assert(std::size(cause_colors) == cause_count);
 

@@ -136,7 +136,7 @@ const char* name(Cause cause) {
       return "rounding";
     case Cause::undecidable:
       return "undecidable";
-    case Cause::parted:
+    case Cause::diverged:
       return "parted";
   }
   return "unknown";

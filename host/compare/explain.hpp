@@ -59,7 +59,7 @@ enum class Cause {
   grazing,      // of a first hit alone: the same surface, hit at so small an angle that t races
   undecidable,  // the jump is as near to the camera ray, or to a hit, as float32 rounds those: no float32
                 // renderer can decide
-  parted,       // of a sample alone: a random path diverges, as one of the reference's nearby does
+  diverged,     // of a sample alone: a random path diverges, as one of the reference's nearby does
 };
 inline constexpr int cause_count = 9;
 const char* name(Cause cause);

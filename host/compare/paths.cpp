@@ -154,9 +154,9 @@ class PathJudge {
   void look_at(const std::vector<Apart*>& samples, int angles, bool between) {
     parallel_for(0, int(samples.size()), [&](int n) {
       Apart& sample = *samples[size_t(n)];
-      const bool parted = value_.samples[sample.sample].trail != reference_.samples[sample.sample].trail;
-      if (parted)
-        judge_parted(sample, angles, between);
+      const bool diverged = value_.samples[sample.sample].trail != reference_.samples[sample.sample].trail;
+      if (diverged)
+        judge_diverged(sample, angles, between);
       else
         judge_steep(sample, angles, between);
     });
@@ -175,7 +175,7 @@ class PathJudge {
   }
 
   // Another path: some path of the reference's, nearby, must be the same up to where they part, and there.
-  void judge_parted(Apart& sample, int angles, bool between) const {
+  void judge_diverged(Apart& sample, int angles, bool between) const {
     sample.outcome = Outcome::unexplained;
     const Pixel pixel = pixel_of(sample.sample);
     const int index = int(sample.sample % each_);
@@ -194,7 +194,7 @@ class PathJudge {
         paths_.rounding(pixel), reference_.samples[sample.sample].hits, angles, between);
     if (!reaches(Vec2(0.0)) && std::ranges::none_of(places.all, reaches)) return;
     sample.outcome = Outcome::explained;
-    sample.cause = Cause::parted;
+    sample.cause = Cause::diverged;
   }
 
   const Frame& value_;

@@ -57,7 +57,7 @@ std::string describe(const RasterResult& result) {
 
 }  // namespace
 
-int64_t PhotonTally::may_part() const {
+int64_t PhotonTally::may_diverge() const {
   constexpr double share = 4e-2;
   constexpr int usual_depth = 8;
   return std::max<int64_t>(4, int64_t(share * double(sent) * std::max(depth, usual_depth) / usual_depth));

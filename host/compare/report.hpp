@@ -63,7 +63,7 @@ struct GoldenResult {
 // all executors then leave out. Of each the reference has to know by its own rounding.
 struct PhotonTally {
   int64_t sent = 0;
-  int64_t parted = 0;
+  int64_t diverged = 0;
   int64_t aside = 0;
   int64_t unexplained = 0;  // of both
   std::string worst;        // the first of these, and what it does
@@ -71,11 +71,11 @@ struct PhotonTally {
 
   // All of them are explained, and no picture shows them: so that pictures show most of what there is, 4 %,
   // and more where photons may go far. Half of them are aimed at glass and mirrors, where they part.
-  int64_t may_part() const;
+  int64_t may_diverge() const;
   // Curved surfaces and grazing angles multiply rounding, and displace photons by that much: a tenth of them
   // may be displaced.
   int64_t may_lie_aside() const { return std::max<int64_t>(4, sent / 10); }
-  bool passes() const { return unexplained == 0 && parted <= may_part() && aside <= may_lie_aside(); }
+  bool passes() const { return unexplained == 0 && diverged <= may_diverge() && aside <= may_lie_aside(); }
 };
 
 struct Report {

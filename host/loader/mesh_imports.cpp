@@ -60,7 +60,8 @@ void MeshImports::import(Entry& entry, const fs::path& file, const Wanted& wante
       for (const fs::path& each : entry.scene.files) add_file(each);
     entry.scene.warnings = warnings_of(entry.scene, file);
     // The file may have been read before, for another animation or other normals.
-    std::erase_if(entry.scene.warnings, [&](const std::string& each) { return !told_.insert(each).second; });
+    std::erase_if(entry.scene.warnings,
+                  [&](const std::string& each) { return !reported_.insert(each).second; });
   } catch (const InputError& wrong) {
     entry.refused = one_sentence(wrong);
     entry.code = wrong.code();
@@ -87,7 +88,7 @@ MeshImports::Loaded MeshImports::load_alone(const fs::path& file) {
   const Wanted wanted{folders_->find("file", file.filename().string(), file).whole, std::nullopt, {seconds_}};
   importers::ImportedScene scene = read(file, wanted);
   for (const fs::path& each : scene.files) add_file(each);
-  for (std::string& warning : warnings_of(scene, file)) told_.insert(std::move(warning));
+  for (std::string& warning : warnings_of(scene, file)) reported_.insert(std::move(warning));
   Entry& entry = entries_[wanted];
   entry.scene = std::move(scene);
   return {&entry.scene, true};

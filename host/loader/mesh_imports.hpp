@@ -79,7 +79,7 @@ class MeshImports {
   image::PixelBudget& budget_;
   std::vector<std::filesystem::path> files_;
   std::map<Wanted, Entry> entries_;
-  std::set<std::string> told_;  // warnings
+  std::set<std::string> reported_;  // warnings
   double seconds_ = 0;
 };
 

@@ -134,12 +134,12 @@ double Objects::share_of_shape(size_t index, const Ray& ray, double entry, doubl
   const auto share_of = [&](int material) { return materials_[size_t(material)]->shadow_transmittance(); };
   if (const double each = share_of(shape.material); shape.counts_crossings() && each > 0) {
     int crossed = 0;
-    const double told =
+    const double known_until =
         for_each_crossing(shape, ray, [&](double t, const Intersection&, const SurfacePoint&) {
           crossed += t < t_end;
           return t < t_end;
         });
-    gave_up = gave_up || told < t_end;
+    gave_up = gave_up || known_until < t_end;
     return std::pow(each, crossed / 2.0);
   }
   const auto hit = intersect_shape(index, ray, before);

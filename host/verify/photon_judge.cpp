@@ -24,7 +24,8 @@ struct Apart {
   uint32_t number;
   PhotonWay twin, reference;
 
-  bool parted() const { return twin.trail != reference.trail; }  // it took another path; else it is displaced
+  // True if it took another path; else it is displaced.
+  bool diverged() const { return twin.trail != reference.trail; }
   double aside() const { return glm::length(twin.places - reference.places); }
 };
 
@@ -35,7 +36,7 @@ bool explained(const Apart& photon, const reference::PhotonTraces& traces, uint3
   const auto explains = [&](const rounding::Displacement& rounded) {
     const reference::PhotonTrace trace = traces.trace(index, photon.number, rounded);
     return reference::trail_of(trace.events) == photon.twin.trail &&
-           (photon.parted() || glm::length(trace.places - photon.reference.places) >= photon.aside() / 2);
+           (photon.diverged() || glm::length(trace.places - photon.reference.places) >= photon.aside() / 2);
   };
   for (const double scale : rounding::photon_scales)
     for (uint32_t seed = first_seed; seed <= last_seed; ++seed)
@@ -71,9 +72,9 @@ JudgedPhotons judge_photons(const Scene& scene,
     std::vector<Apart> apart;
     for (uint32_t number = 0; number < a.size(); ++number) {
       const Apart photon{number, a[number], b[number]};
-      if (!photon.parted() && photon.aside() <= aside) continue;
+      if (!photon.diverged() && photon.aside() <= aside) continue;
       apart.push_back(photon);
-      ++(photon.parted() ? tally.parted : tally.aside);
+      ++(photon.diverged() ? tally.diverged : tally.aside);
     }
     std::vector<uint32_t>& left_out = judged.left_out.by_sample.emplace_back();
     for (const Apart& photon : apart) left_out.push_back(photon.number);

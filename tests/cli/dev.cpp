@@ -127,10 +127,10 @@ TEST_CASE("dev --once renders, or says what is wrong as editors and workflows re
   CHECK(github.find("::error file=" + pixel + ",line=") != std::string::npos);
   CHECK(github.find("::'more_nonsense'") != std::string::npos);
   const std::string json = once({"--diagnostics", "json"}).err;
-  const auto told = nlohmann::json::parse(json.substr(json.find('{')));
-  CHECK(told.at("diagnostics").size() >= 2);
-  CHECK(told.at("diagnostics").at(0).at("file") == pixel);
-  CHECK(told.at("diagnostics").at(0).at("column").get<int>() > 1);
+  const auto reported = nlohmann::json::parse(json.substr(json.find('{')));
+  CHECK(reported.at("diagnostics").size() >= 2);
+  CHECK(reported.at("diagnostics").at(0).at("file") == pixel);
+  CHECK(reported.at("diagnostics").at(0).at("column").get<int>() > 1);
 }
 
 TEST_CASE("the page of dev does what the manual says, in a browser" * doctest::test_suite("long")) {

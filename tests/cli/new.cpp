@@ -22,9 +22,9 @@ TEST_CASE("a new project passes the commands of its README") {
   const ProcessResult made = run_eyeray({"new", project, "--json"});
   CAPTURE(made.err);
   REQUIRE(made.code == 0);
-  const nlohmann::json told = nlohmann::json::parse(made.out);
-  CHECK(told["files"] == project_files);
-  CHECK(told["scene"] == project + "/scene.toml");
+  const nlohmann::json summary = nlohmann::json::parse(made.out);
+  CHECK(summary["files"] == project_files);
+  CHECK(summary["scene"] == project + "/scene.toml");
   for (const std::string& file : project_files) CHECK(std::filesystem::exists(project + "/" + file));
 
   const std::string scene = project + "/scene.toml";

@@ -182,11 +182,11 @@ TEST_CASE("a debugger stops in a user's shader, which may print") {
   CHECK(contains(debugged.out, "{x = 0, y = 0, z = 4}"));
   CHECK(contains(debugged.out, "bvh/traverse.glsl"));
 
-  const ProcessResult told =
+  const ProcessResult probed =
       users.run({"probe", users.scene(), "32,24", "--backends", "twin,gpu", "--compile-twin"});
-  CHECK(told.code == 0);
-  CHECK(contains(told.out, "t = "));
-  CHECK(contains(told.out, "middle"));
+  CHECK(probed.code == 0);
+  CHECK(contains(probed.out, "t = "));
+  CHECK(contains(probed.out, "middle"));
 }
 
 TEST_CASE("dev renders the twin of a user's shaders on every save") {

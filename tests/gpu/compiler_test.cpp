@@ -70,7 +70,7 @@ TEST_CASE("a syntax error has the column of the sign it is at, where the line ha
 TEST_CASE("an error in a registry's row is reported in the row's file") {
   const std::string registry =
       head + "#include \"shapes/ball.glsl\"\n#define SHAPES(X) X(ball)\n#define HIT(name) name##_hit(1.0);\n";
-  const auto told = [&](const std::string& ball) {
+  const auto reported = [&](const std::string& ball) {
     const auto found = diagnose(
         {{"main.comp.glsl", registry + "void main() { SHAPES(HIT) }\n"}, {"shapes/ball.glsl", ball}});
     REQUIRE(!found.empty());
@@ -78,8 +78,8 @@ TEST_CASE("an error in a registry's row is reported in the row's file") {
   };
   const std::string rest =
       ": 'ball_hit': no matching overloaded function found, which main.comp.glsl:6 needs";
-  CHECK(told("float ball_strike(float x) { return x; }\n") == "shapes/ball.glsl:1:0" + rest);
-  CHECK(told("// ball_hit\nfloat ball_hit(bool x) { return 1.0; }\n") == "shapes/ball.glsl:2:7" + rest);
+  CHECK(reported("float ball_strike(float x) { return x; }\n") == "shapes/ball.glsl:1:0" + rest);
+  CHECK(reported("// ball_hit\nfloat ball_hit(bool x) { return 1.0; }\n") == "shapes/ball.glsl:2:7" + rest);
 }
 
 TEST_CASE("errors of the preamble and of linking have no line of ours") {

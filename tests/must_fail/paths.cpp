@@ -83,7 +83,7 @@ TEST_CASE("paths that part where the reference's do nearby are counted as such")
   const ReferenceComparison comparison = compared_paths(path_frame(5e-5), 5e-5);
   CHECK(comparison.passes());
   CHECK(comparison.paths.pixels == picture_width * picture_height * each);
-  CHECK(comparison.paths.explained[size_t(Cause::parted)] == edge_rows * each);
+  CHECK(comparison.paths.explained[size_t(Cause::diverged)] == edge_rows * each);
   CHECK(comparison.paths.explained_pixels() == edge_rows * each);
   CHECK(comparison.paths.worst.seam == Seam::trail);
   CHECK(comparison.paths.worst.parting == "event 1: 2, but the reference's 1");

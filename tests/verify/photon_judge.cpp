@@ -49,14 +49,14 @@ TEST_CASE("a photon that no rounding explains fails, though many may part") {
   // Found where rounding parts none.
   uint32_t number = 7;
   while (std::ranges::binary_search(sound.left_out.of(0), number)) ++number;
-  const verify::JudgedPhotons parted = judge(box(), [&](auto& ways) { ways[number].trail ^= 1; });
-  CHECK(parted.tally.parted == sound.tally.parted + 1);
-  CHECK(parted.tally.may_part() > parted.tally.parted);
-  CHECK(parted.tally.unexplained == 1);
-  CHECK(
-      parted.tally.worst.starts_with("photon " + std::to_string(number) + " of sample 0; the reference's "));
-  CHECK_FALSE(parted.tally.passes());
-  CHECK(std::ranges::binary_search(parted.left_out.of(0), number));
+  const verify::JudgedPhotons diverged = judge(box(), [&](auto& ways) { ways[number].trail ^= 1; });
+  CHECK(diverged.tally.diverged == sound.tally.diverged + 1);
+  CHECK(diverged.tally.may_diverge() > diverged.tally.diverged);
+  CHECK(diverged.tally.unexplained == 1);
+  CHECK(diverged.tally.worst.starts_with("photon " + std::to_string(number) +
+                                         " of sample 0; the reference's "));
+  CHECK_FALSE(diverged.tally.passes());
+  CHECK(std::ranges::binary_search(diverged.left_out.of(0), number));
 
   const verify::JudgedPhotons aside = judge(box(), [&](auto& ways) { ways[number].places.x += 0.01; });
   CHECK(aside.tally.aside == sound.tally.aside + 1);
@@ -68,7 +68,7 @@ TEST_CASE("a photon that no rounding explains fails, though many may part") {
 TEST_CASE("where surfaces coincide float32 takes either, and the reference knows of it") {
   // Light from below comes to the floor and to what stands on it at the same place.
   const verify::JudgedPhotons judged = judge(scene_of("scenes/cameras/formula.toml"), [](auto&) {});
-  CHECK(judged.tally.parted > 4);
+  CHECK(judged.tally.diverged > 4);
   CHECK(judged.tally.unexplained == 0);
   CHECK(judged.tally.worst == "");
   CHECK(judged.tally.passes());
@@ -78,7 +78,7 @@ TEST_CASE("a photon at a corner, which few roundings lead where float32 takes it
   Scene scene =
       loader::load_scene("scenes/sppm/box.toml", std::vector<loader::Override>{{"render.seed=101"}});
   const verify::JudgedPhotons judged = judge(scene, [](auto&) {});
-  CHECK(judged.tally.parted > 0);
+  CHECK(judged.tally.diverged > 0);
   CHECK(judged.tally.unexplained == 0);
 }
 
@@ -86,12 +86,12 @@ TEST_CASE("more photons than may part fail, explained or not") {
   compare::PhotonTally tally;
   tally.sent = 100'000;
   tally.depth = 8;
-  tally.parted = tally.may_part();
+  tally.diverged = tally.may_diverge();
   tally.aside = tally.may_lie_aside();
   CHECK(tally.passes());
-  ++tally.parted;
+  ++tally.diverged;
   CHECK_FALSE(tally.passes());
-  --tally.parted;
+  --tally.diverged;
   ++tally.aside;
   CHECK_FALSE(tally.passes());
 }
