@@ -23,7 +23,7 @@ struct PhotonResult {
   uint trail;  // as that of a sample
   uint flags;
   uint rays;
-  uint stored;  // how many Photons it left
+  uint stored;  // number of Photons that it stored
 };
 
 #define MOST_PHOTON_TARGETS 16

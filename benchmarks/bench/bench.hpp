@@ -42,7 +42,7 @@ struct Listener {
   std::function<void(const SceneReport&)> rays;
   std::function<void(const PictureReport&)> picture;
   std::function<void(const PathReport&)> paths;
-  std::function<void(const std::string&)> remark;  // what could not be measured, and why
+  std::function<void(const std::string&)> remark;  // a measurement that failed, and why
 };
 
 // Loads every scene once before it measures any. Error (bad_input) for a backend or a scene that is none,

@@ -23,7 +23,7 @@ struct PictureOptions {
   int samples = 1;
   int runs = 5;
   bool povray = true;                  // where it is installed, and the scene is there as .pov too
-  std::filesystem::path povray_scene;  // where none is beside the scene; may be empty
+  std::filesystem::path povray_scene;  // used if none is beside the scene; may be empty
   bool start = true;                   // also cold and warm starts
   uint64_t primitives = 0;             // of the scene, to say what memory each takes; 0: not said
 };
@@ -50,7 +50,7 @@ struct PictureReport {
   int runs = 0;
   uint64_t primitives = 0;
   std::vector<SeriesReport> series;
-  std::optional<PovrayRatio> povray;  // where both ran
+  std::optional<PovrayRatio> povray;  // set if both ran
 };
 
 // Measures the scene file, called `name` in the report. Error when a run fails.

@@ -21,7 +21,7 @@ struct ProcessReport {
     ProcessCost cost;
   };
   std::string scene;
-  std::string kind;  // what is counted
+  std::string kind;  // the counted quantity
   int count = 0;
   std::vector<Way> ways;
   ProcessCost ratio;  // of what the many ought to save, or must not cost

@@ -17,7 +17,7 @@ Moments moments(std::span<const double> runs);
 struct WelchTest {
   double t = 0;
   double freedom = 0;  // degrees of it
-  double p = 1;  // how likely |t| is this great, or greater; 1 where neither varies and both are the same
+  double p = 1;        // probability of |t| or more; 1 if neither varies and both are equal
 };
 WelchTest welch(const Moments& a, const Moments& b);
 

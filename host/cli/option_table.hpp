@@ -14,7 +14,7 @@ namespace eyeray::engine::cli {
 struct OptionRow {
   std::vector<std::string> names;    // "-o", "--output"; of an argument its own, "SCENE"
   std::string value;                 // "FILE", "SECONDS=60"; "" where it takes none
-  std::vector<std::string> choices;  // what the value may be; empty: anything
+  std::vector<std::string> choices;  // the allowed values; empty: any
   std::string text;
   std::string group;
   bool is_argument = false;

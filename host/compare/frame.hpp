@@ -29,8 +29,7 @@ struct Frame {
   uint64_t flagged_pixels = 0;       // pixels with any SampleFlag
   uint32_t flags = 0;                // all SampleFlags seen
 
-  std::vector<TracedSample> samples =
-      {};  // where paths are random: as many of each pixel, one after the other
+  std::vector<TracedSample> samples = {};  // if paths are random: as many of each pixel, one after the other
 
   const FirstHit& first_hit(int x, int y) const {
     return first_hits[size_t(y) * size_t(area.width) + size_t(x)];

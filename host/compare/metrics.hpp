@@ -28,7 +28,7 @@ struct Metrics {
   // Mean, on the sRGB-encoded luma clipped to [0, 1] (Wang et al. 2004: 11 × 11 Gaussian, σ 1.5).
   double ssim = 1;
   Flip flip;
-  std::optional<HdrFlip> hdr_flip;  // where it was asked for
+  std::optional<HdrFlip> hdr_flip;  // if requested
 };
 inline constexpr std::array<int, 5> display_steps = {1, 2, 4, 8, 16};
 inline constexpr int first_decade = -7;

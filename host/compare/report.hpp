@@ -52,7 +52,7 @@ struct GoldenResult {
   image::Image picture;      // as it was before an update, or the part of it that was compared
   Tally colors;              // the golden picture's, as if the executor's were the reference
   std::optional<Metrics> metrics;
-  std::vector<std::string> changed;  // what the picture was made of and is no more: "scene hash", "executor"
+  std::vector<std::string> changed;  // changed inputs of the golden picture: "scene hash", "executor"
   bool updated = false;              // whether the executor's picture has taken its place since
   std::string refused;               // why it has not, though asked for
 
@@ -94,7 +94,7 @@ struct Report {
   std::vector<ExactResult> exact;
   std::vector<ReferenceResult> against_reference;
   std::vector<RasterResult> raster;    // gate R, of every participant; empty where it was not asked for
-  std::optional<PhotonTally> photons;  // where the scene's integrator sends any out
+  std::optional<PhotonTally> photons;  // set if the scene's integrator emits any
   std::optional<GoldenResult> golden;
   // The names of the indices in first hits, such as `sphere "left eye", scene.toml:12`, for the indices that
   // a report names.

@@ -30,7 +30,7 @@ struct WorstPixel {
   double excess = 0;  // the largest error, in tolerances (or in ULP)
   Seam seam = Seam::none;
   int sample = -1;           // of the pixel, whose colours and counts these are; −1: the mean of all
-  std::string parting = {};  // where its paths part, in words
+  std::string parting = {};  // the point where its paths diverge, in words
 };
 
 // For reports: "first hit's t".

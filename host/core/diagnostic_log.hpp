@@ -55,7 +55,7 @@ class DiagnosticLog {
   struct Source {
     std::string file;
     std::string text;
-    std::vector<size_t> lines;  // where each line starts; built when first asked for
+    std::vector<size_t> lines;  // the start of each line; built on first use
   };
 
   void add(Severity severity, SourcePosition position, std::string message);

@@ -17,7 +17,7 @@ struct PixelSample {
   // The sample's rays by kind; 0 from an executor that does not count kinds (ExecutorOptions::ray_kinds).
   uint32_t reflected = 0;
   uint32_t refracted = 0;
-  uint32_t total_reflections = 0;  // where a refracted ray would have been followed, had there been one
+  uint32_t total_reflections = 0;  // hits whose refracted ray would have been followed, had there been one
   uint32_t trail = 1;              // a fingerprint of what a random path decided (docs/gates.md); else 1
   bool cut_off = false;            // whether `max_depth` ended its path; of those that walk at random
 };

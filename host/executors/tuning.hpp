@@ -13,7 +13,7 @@ struct ExecutorOptions;
 struct Tuning {
   std::string_view key;
   std::vector<std::string_view> values;
-  std::string_view text;  // what it does, for people
+  std::string_view text;  // its effect, for people
   void (*choose)(ExecutorOptions& options, std::string_view value);
 };
 std::span<const Tuning> tunings();

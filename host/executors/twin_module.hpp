@@ -31,7 +31,7 @@ class TwinModule {
   const std::vector<std::filesystem::path>& files() const { return files_; }
 
  private:
-  std::optional<ScratchFolder> scratch_;  // what the cache cannot take
+  std::optional<ScratchFolder> scratch_;  // files that the cache cannot take
   LoopGuard loops_;
   std::vector<std::filesystem::path> files_;
   std::string compiler_;

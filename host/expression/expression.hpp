@@ -56,7 +56,7 @@ struct Step {
   Op op;
   std::array<Term, 3> from{no_term, no_term, no_term};
   double value = 0;  // of a constant or truth; which input; the factor of a scale, the exponent of a power
-  double error = 0;  // how far a constant may be from what was meant, a decimal fraction say
+  double error = 0;  // error of a constant, of a decimal fraction for instance
 };
 
 class Expression {

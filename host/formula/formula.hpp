@@ -63,13 +63,13 @@ class Formula {
   bool loops() const;
 
   // f as straight-line code, of which bounds and derivatives are made. InputError, at the place in the text,
-  // for what cannot be written so: loops whose number of turns depends on p without a bound, indices and
+  // for code without such a form: loops whose number of iterations depends on p without a bound, indices and
   // whole numbers computed from p.
   const expression::StraightLine& straight_line() const;
 
-  // A surface's, in float32, to the bit what kernels compute, and in float64. Error (timed_out) where the
-  // loops make more turns than FORMULA_TURNS of math/formula.glsl. Thread-safe. `turns`, if given, grows by
-  // those that were made.
+  // A surface's, in float32, to the bit what kernels compute, and in float64. Error (timed_out) if the loops
+  // take more iterations than FORMULA_TURNS of math/formula.glsl. Thread-safe. `turns`, if given, grows by
+  // the number of iterations.
   float value(const std::array<float, 3>& p) const;
   double value(const std::array<double, 3>& p, uint64_t* turns = nullptr) const;
   // The text's own, if it has one.

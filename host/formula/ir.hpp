@@ -138,7 +138,7 @@ struct Branch {
 struct Loop {
   Block body, next;
   uint32_t turns = 0;   // most iterations, if that is known and needs no counting; else 0
-  uint32_t weight = 0;  // what a turn counts where turns are counted
+  uint32_t weight = 0;  // weight of an iteration, if iterations are counted
 };
 enum class Jump : uint8_t { leave, next, give_back };  // of the innermost loop; of the function
 

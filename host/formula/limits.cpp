@@ -13,7 +13,7 @@ constexpr double most_instructions = 1 << 14;
 constexpr double most_branches = 256;
 constexpr double most_memory = 1 << 13;
 constexpr double most_work = 1 << 18;
-// A loop whose turns are known and together no longer than this needs no counting.
+// A loop of a known number of iterations, together no longer than this, needs no counting.
 constexpr double most_uncounted_work = 1 << 16;
 // Instructions that count as one turn more.
 constexpr double work_of_a_turn = 256;
@@ -121,7 +121,7 @@ size_t Measure::writes(const ir::Block& block, ir::Operand to) {
 }
 
 // for (int i = FROM; i < TO; i += STEP), or <=: where i is a register that starts as a constant just before
-// the loop, is compared first thing in each turn, and is written to by nothing but the step.
+// the loop, is compared first in each iteration, and is written to by nothing but the step.
 std::optional<uint32_t> Measure::known_turns(const ir::Loop& loop, const ir::Block& around, size_t at) const {
   if (loop.body.size() < 2 || loop.next.empty() || at == 0) return std::nullopt;
 

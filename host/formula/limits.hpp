@@ -17,8 +17,8 @@ struct Size {
   double work = 0;
 };
 
-// Settles for each loop whether its turns are counted, and what one counts. What is too much, in words; ""
-// where nothing is.
+// Decides for each loop whether its iterations are counted, and their weight. Returns the exceeded limit, in
+// words; "" if there is none.
 std::string limit(ir::Program& program);
 // The size of both functions together, after limit().
 Size size_of(const ir::Program& program);

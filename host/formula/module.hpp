@@ -27,7 +27,7 @@ struct Type {
 struct Instruction {
   spv::Op op;
   uint32_t type = 0, result = 0;  // 0 where there are none
-  std::vector<uint32_t> words{};  // what follows them
+  std::vector<uint32_t> words{};  // the words after them
   SourcePosition where;
 };
 

@@ -14,7 +14,7 @@ inline constexpr int max_terrain_grid = 16384;
 struct TerrainOptions {
   int grid = 160;  // cells a side
   uint32_t seed = 0;
-  double roughness = 0.48;  // how much weaker each octave is than the one before
+  double roughness = 0.48;  // the strength of each octave relative to the one before
 };
 
 // The height above a point of the plane. A finer grid shows finer octaves of the same landscape.

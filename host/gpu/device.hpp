@@ -36,7 +36,7 @@ struct FloatModes {
 };
 
 struct DeviceInfo {
-  int index = 0;  // what --device takes
+  int index = 0;  // the value for --device
   std::string name;
   std::string driver;          // "llvmpipe"
   std::string driver_version;  // "Mesa 22.3.6 (LLVM 15.0.6)"

@@ -18,7 +18,7 @@ enum class PlyFormat { ascii, little_endian, big_endian };
 struct PlyProperty {
   std::string name;
   PlyType type;
-  std::optional<PlyType> list = {};  // where it is a list: the type of its length
+  std::optional<PlyType> list = {};  // for a list: the type of its length
 };
 
 struct PlyElement {

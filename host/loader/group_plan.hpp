@@ -45,7 +45,7 @@ class GroupPlan {
     bool is_scene = false;
     struct Member {
       Node* group;
-      double count;  // how often it stands in one of these
+      double count;  // its copies in one of these
     };
     std::vector<Member> members;
     double own = 0;       // its own shapes and meshes, …

@@ -35,9 +35,9 @@ struct Findings {
   int samples = 1;
   Vec3 eye{0.0};  // that points in the overlay are relative to
   std::vector<Participant> participants;
-  std::vector<std::string> notes;  // what is to be known beside, a sentence each
+  std::vector<std::string> notes;  // further notes, a sentence each
   Overlay overlay{0};
-  std::vector<std::string> hits;  // what each ray of the overlay hits, by `sphere "left eye", scene.toml:12`
+  std::vector<std::string> hits;  // the hit of each ray of the overlay: `sphere "left eye", scene.toml:12`
 
   // The first difference in the order of a ray's life: a ray that not all executors have, or a line of a ray;
   // or none.

@@ -18,8 +18,8 @@ namespace eyeray::engine::raster {
 struct ScreenTriangle {
   std::array<Vec3, 3> at{};
   uint32_t id = 0;   // the primitive's
-  double bound = 0;  // how far, in the world, the true surface may be from it; 0 of what is flat
-  double reach = 0;  // how far from the eye the whole shape or mesh reaches; 0 of planes
+  double bound = 0;  // largest distance of the true surface, in the world; 0 if it is flat
+  double reach = 0;  // largest distance of the whole shape or mesh from the eye; 0 for planes
 };
 
 // Two units in the last place, as a share of the largest coordinate: what gate C grants a hit that is close

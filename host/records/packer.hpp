@@ -45,7 +45,7 @@ struct PackedScene {
   std::vector<shader::Instance> instances;
   size_t most_linear = 0;        // primitives, and turns of their loops, that a BVH would find no sooner
   bool has_bvh = false;          // whether `nodes` are to be used; else all is tested one by one
-  bool quantised_nodes = false;  // how `nodes` are coded
+  bool quantised_nodes = false;  // the coding of `nodes`
   uint32_t stack_size = 1;       // what a traversal may have waiting
   RawVector<shader::uvec4> vertices;
   bool bent_normals = false;   // whether any material bends those of its surface

@@ -79,7 +79,7 @@ class ViewedBsdf {
   double shares_[lobes] = {};
   double sum_ = 0;
   Vec3 albedo_{0};
-  Vec3 passed_;  // what layers leave of light that goes straight on
+  Vec3 passed_;  // share of straight light that layers leave
 };
 
 }  // namespace eyeray::engine::reference

@@ -9,7 +9,7 @@ namespace eyeray::engine::reference {
 
 struct LightPick {
   size_t light;  // as LightChoice counts them
-  double share;  // how likely it is
+  double share;  // its probability
 };
 
 // A point at which lights are sampled. `normal`: unit; empty if the surface also transmits light from behind

@@ -10,7 +10,7 @@
 namespace eyeray::engine::reference {
 
 struct PhotonTrace {
-  std::vector<uint32_t> events;  // what it decides on its way (trail.hpp)
+  std::vector<uint32_t> events;  // its decisions (trail.hpp)
   Vec3 places{0};                // as PhotonWay has them
 };
 

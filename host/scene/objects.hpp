@@ -11,7 +11,7 @@ struct Object {
   std::string_view kind;  // "sphere", "mesh"
   NameRef name;
   NameRef group;          // of the group instance; goes before the name
-  std::string_view mesh;  // what its file calls the mesh; "" of shapes
+  std::string_view mesh;  // the mesh's name in its file; "" for shapes
   const SourcePosition* position;
   int material;
   uint64_t first;  // primitive index

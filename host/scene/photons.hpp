@@ -20,7 +20,7 @@ struct PhotonSettings {
 
 // The decisions of a photon, and the points where it is stored.
 struct PhotonWay {
-  uint32_t trail = 0;  // what it decided on its way, as PixelSample::trail
+  uint32_t trail = 0;  // fingerprint of its decisions, like PixelSample::trail
   Vec3 places{0};      // the sum of those where it stays
 };
 

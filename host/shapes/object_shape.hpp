@@ -33,7 +33,7 @@ class ObjectShape : public Shape {
     Vec3 position;  // on the shape
     Vec3 gradient;  // points outward, of any length but 0
     Vec2 uv;
-    Vec3 along_u, along_v;  // how the position moves with u and with v
+    Vec3 along_u, along_v;  // derivatives of the position by u and v
   };
 
   // `kind` is the shape's number in the registry. `parameters` are the numbers that the shaders find after

@@ -21,7 +21,7 @@ struct PlanarRegion {
   Outline outer;
   std::vector<Outline> holes = {};
 
-  size_t size() const;  // how many vertices it has, all outlines together
+  size_t size() const;  // number of vertices of all outlines
   // Unit, to where the outer outline runs counter-clockwise; (0, 0, 0) where it has no area.
   Vec3 normal() const;
   // About twice its area over the square of its size; below `thinnest_region` it counts as none.

@@ -34,7 +34,7 @@ struct ArrayState {
   std::vector<int> missing;           // shares, counted from 1, that have not all of their files whole
   std::vector<std::string> faults;    // of parts that are there and of no use, a sentence each
   std::vector<std::string> queue;     // what Slurm has of it: "17_[3-64] PENDING 0:00 (Priority)"
-  std::vector<std::string> failures;  // what Slurm's accounts have: "17_2 OUT_OF_MEMORY 0:125 node7"
+  std::vector<std::string> failures;  // from Slurm's accounts: "17_2 OUT_OF_MEMORY 0:125 node7"
   std::filesystem::path output;       // what the first job printed that ended too early; empty: none did
   bool done = false;                  // everything is there
 };

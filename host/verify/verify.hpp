@@ -41,7 +41,7 @@ struct Subject {
   std::filesystem::path
       evidence;              // the folder where pictures are left when a gate fails (evidence.hpp), if any …
   bool keep_always = false;  // … or when none does, too
-  std::optional<Golden> golden{};  // what gate G compares with
+  std::optional<Golden> golden{};  // the golden picture of gate G
 };
 
 // Renders the scene by each backend and at last by the reference. Gate A compares each backend with the

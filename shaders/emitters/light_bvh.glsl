@@ -11,7 +11,7 @@ SHADER_BEGIN
 
 struct LightPick {
   uint light;  // NONE where none shines here
-  float share;  // how likely it is
+  float share;  // its probability
 };
 
 #if HAS_LIGHT_BVH

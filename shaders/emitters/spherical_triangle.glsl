@@ -14,7 +14,7 @@ SHADER_BEGIN
 #define MOST_SOLID_ANGLE 6.22f
 
 struct SphericalTriangle {
-  float apex;  // how far off its corners are
+  float apex;  // distance of its corners
   float first;
   float second;
   float to_first;  // the cosines of its edges

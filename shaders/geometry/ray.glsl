@@ -69,7 +69,7 @@ struct Surface {
   float offset;  // a ray that starts this far off p along the geometric normal does not hit the surface again
   vec3 inward;   // from p to the inside of the surface's edges, where rays start (geometry/edges.glsl); 0 far from edges
   // The values that bent normals need (materials/bent_normal.glsl).
-  vec3 u_gradient;  // how u and v grow around p; what is not along the surface does not count
+  vec3 u_gradient;  // gradients of u and v at p; components off the surface do not count
   vec3 v_gradient;
   vec4 tangent;  // a mesh's own: along u, and whether v is to the left of that, 1, or to the right, −1; w = 0 where the gradients say it
 #if HAS_SECOND_UV

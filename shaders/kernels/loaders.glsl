@@ -67,7 +67,7 @@ vec4 load_albedo(uint i) { return albedos[i]; }
 #endif
 Bvh load_bvh(uint i) { return bvhs[i]; }
 Instance load_instance(uint i) { return instances[i]; }
-// Vertices that a loop looks up: a choice among constants would be made anew at each turn.
+// Vertices that a loop looks up: a choice among constants would be made anew in each iteration.
 #if TEXEL_BUFFERS
 uvec4 load_outline(uint i) { return imageLoad(vertices, int(i)); }
 uvec4 load_environment(uint i) { return imageLoad(environment, int(i)); }

@@ -9,7 +9,7 @@ SHADER_BEGIN
 struct LightEmission {
   vec3 o;
   vec3 d;     // unit
-  vec3 flux;  // what the light sends, divided by the density of place and direction
+  vec3 flux;  // the emitted light, divided by the density of position and direction
   uint aim;   // what its trail says of that (photon_aim.glsl)
 };
 

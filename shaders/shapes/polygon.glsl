@@ -51,7 +51,7 @@ float polygon_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   uint end = t > 0.0f ? at + 4u * polygon_turns(s) : at;
   vec3 a = path_vertex(ray, at);
   bool inside = false;
-  // Tested at the bottom, which saves a turn with all lanes idle: a choice around loads keeps what came out for the rays that are done
+  // Tested at the bottom, which saves an iteration with all lanes idle: a choice around loads keeps what came out for the rays that are done
   // (docs/lavapipe.md).
   do {
     if (at < end) {

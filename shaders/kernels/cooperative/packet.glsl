@@ -31,13 +31,13 @@ Shaft shaft;
 float width;    // how far from the shaft's first ray the others are at most
 int limit;      // how far along the shaft anything may still be hit, as the bits of a float
 uint work;      // done for this shaft, in nodes, leaves and primitives
-uint patience;  // how much of it is too much
+uint patience;  // the limit on it
 uint at;        // what comes next
 
 // A leaf, with a primitive a lane.
 uint first_slot;
 Primitive mine;
-int key;  // how far along the shaft hits its box, and in the last bits the lane; FAR_AWAY if it does not, and once it is tested
+int key;  // the distance along the shaft of its box, and in the last bits the lane; FAR_AWAY if it does not, and once it is tested
 // The pairs of this lane's rays and the leaf's primitives that may hit: bit k of each RAYS_A_LANE bits is ray k, and the bits of lane
 // 0's primitive are lowest.
 uint passing;

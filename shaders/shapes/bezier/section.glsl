@@ -77,7 +77,7 @@ struct BezierSection {
   float z;
   float slope;  // of z, and of u and v, over w
   vec2 uv_slope;
-  float off;  // how far from here it was taken, squared
+  float off;  // squared distance at which it was taken
 };
 
 // At w, near (u, v), of the piece `range`. `tilt`: of the ray along w and along the normal; where w begins. Beyond its borders, where the patch may fold,
