@@ -20,8 +20,8 @@ struct Batch {
 // The rays through the centres of the pixels of a width × height picture, in blocks of 8 × 8 pixels.
 Batch primary_batch(const Scene& scene, int width, int height);
 
-// A point where a ray hits a scene: on the side that the ray came from, and off the surface by about 2⁻¹⁶ of
-// the coordinates, so that a float32 ray that leaves it does not hit it again.
+// A point where a ray hits a scene, on the side that the ray came from. It is off the surface by about 2⁻¹⁶
+// of the coordinates, so that a float32 ray that leaves it does not hit it again.
 struct SurfacePosition {
   uint32_t ray;
   Vec3 position;

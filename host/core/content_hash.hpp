@@ -27,8 +27,8 @@ class ContentHash {
   uint64_t low_ = 0x62b821756295c58d;
 };
 
-// Hash of the contents of files, whatever their paths. Paths that are no files are skipped. Error (file_io)
-// when one cannot be read.
+// Hash of the contents of files. It does not depend on their paths. Paths that are no files are skipped.
+// Error (file_io) when one cannot be read.
 std::string hash_of_files(std::span<const std::filesystem::path> files);
 
 }  // namespace eyeray::engine

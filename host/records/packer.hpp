@@ -30,8 +30,8 @@ struct PackedFormula {
 
 // A scene as the shaders see it; every position is relative to the camera's eye.
 struct PackedScene {
-  // Primitives by slot: first the world's own that are in no BVH, by kind in registry order, then the others
-  // in the order of leaves; then those of each mesh or group with its own BVH.
+  // Primitives by slot. First come the world's own: those in no BVH, by kind in registry order, then those in
+  // the order of leaves. Those of each mesh or group with its own BVH follow.
   RawVector<shader::Primitive> primitives;
   std::vector<uint32_t> linear_ends;  // by kind, the end of those in no BVH
   // The index of the first primitive of `kind` that is in no BVH.

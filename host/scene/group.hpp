@@ -23,7 +23,7 @@ struct Group {
 struct GroupInstance {
   int group = 0;        // index in Scene::groups
   Mat4 transform{1.0};  // group to world: affine, and can be undone
-  // The numbers of Scene::shapes and of Scene::instances before it: its place if it were no instance.
+  // The numbers of Scene::shapes and of Scene::instances before it: its position if it were no instance.
   size_t shapes_before = 0;
   size_t instances_before = 0;
   SourcePosition position;

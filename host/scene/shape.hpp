@@ -183,8 +183,8 @@ class Shape {
   virtual ShapeForm form() const { return {}; }
   // The formula of a shape that is made of one; else null.
   virtual const FormulaUse* formula_use() const { return nullptr; }
-  // True if shadow rays are weakened by each of its crossings, √(the material's share), as by a mesh's
-  // triangles, and not once in all: of an open shape that may be part of a closed surface.
+  // True if each of its crossings weakens a shadow ray by √(the material's share), as a mesh's triangles do.
+  // That holds for open shapes that may be part of a closed surface. Others weaken it once in all.
   virtual bool counts_crossings() const { return false; }
   // How many times thicker it is than the thinnest of its kind that can be computed, if a map could make it
   // too thin.

@@ -1,5 +1,5 @@
 // The distance that a path travels through its medium. If the medium scatters light, the distance is drawn for one channel, chosen in
-// proportion to the light left in it; its density is that of all three (Wilkie et al., "Hero Wavelength Spectral Sampling", EGSR 2014).
+// proportion to the light left in it. Its density is that of all three (Wilkie et al., "Hero Wavelength Spectral Sampling", EGSR 2014).
 #ifndef FLIGHT_GLSL
 #define FLIGHT_GLSL
 #include "integrators/continuation.glsl"

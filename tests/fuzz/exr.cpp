@@ -1,4 +1,4 @@
-// The fuzzer's test of an OpenEXR file: it is refused, or read as a whole picture, and so are its layers.
+// The fuzzer's test of an OpenEXR file: reading refuses it, or gives a whole picture and whole layers.
 #include <cstdint>
 #include <cstdlib>
 

@@ -1,4 +1,4 @@
-// Finds the hit of a ray with one formula's surface f = 0 in the cube (shapes/implicit.glsl), by sphere tracing: f is nowhere steeper than a declared
+// Finds the hit of a ray with one formula's surface f = 0 in the cube (shapes/implicit.glsl), by sphere tracing. f is nowhere steeper than a declared
 // constant, so no root is nearer than |f| over it. Included once a formula, with FORMULA_NAME(part), what its functions are called, FORMULA_VALUE(it,
 // p) and, where FORMULA_HAS_GRADIENT(it), FORMULA_GRADIENT(it, p).
 #ifndef FORMULA_NAME
@@ -16,7 +16,7 @@ vec4 FORMULA_NAME(march)(Implicit it, ObjectRay r, float start, float end, bool 
   float shortest = IMPLICIT_LEAST_STEP * unit;
 
   // Step until the sign changes. Nothing is hit within |f| over the constant of a place; where the free ways of two places touch, nothing is between them.
-  // So a step may be longer than the free way, as long as that at its far end is expected to touch, by how fast the last two shrank; if it does not, back to
+  // So a step may be longer than the free way, as long as that at its far end is expected to touch, by how fast the last two shrank. If it does not, back to
   // the free way (Bálint and Valasek 2018). The least step gets past where f is almost 0, and grows while it stays so; what is thinner is not seen.
   float s = start;
   float f = 0.0f;
