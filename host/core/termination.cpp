@@ -88,7 +88,7 @@ bool can_write(int file) {
   ::_exit(exit_status(error.code()));
 }
 
-// Whether the process is to end, and why.
+// The reason for ending the process; empty if it need not end.
 std::optional<Error> reason_to_end() {
   if (without_memory) return out_of_memory();
   if (signalled()) return Error(ExitCode::interrupted, "interrupted");

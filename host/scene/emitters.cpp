@@ -96,7 +96,7 @@ class Collector {
     add(std::move(emitter));
   }
 
-  // Whether the shape's normals point as its form's.
+  // 1 if the shape's normals point as its form's, else −1.
   static double side_of(const Shape& shape, const EmitterForm& form) {
     if (!is_flat(form)) return 1;
     const Vec3 n = normal_of(form);

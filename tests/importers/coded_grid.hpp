@@ -54,7 +54,7 @@ inline GltfFile grid_file(int index_component = 5123) {
   return file;
 }
 
-// Whether the scene is the grid, each vertex within the tolerance.
+// Checks that the scene is the grid, each vertex within the tolerance.
 inline void check_grid(const importers::ImportedScene& scene, double tolerance, int side = grid_side) {
   REQUIRE(scene.meshes.size() == 1);
   const Mesh& mesh = scene.meshes[0];
