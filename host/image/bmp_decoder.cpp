@@ -54,7 +54,7 @@ struct Header {
       return fmt::format("its header has {} bytes, which no BMP of Windows has", size);
     if (planes != 1) return fmt::format("it has {} planes instead of 1", planes);
     if (compression == 1 || compression == 2)
-      return "its compression (run lengths) is not supported: write it without compression";
+      return "it is compressed by run lengths: write it without compression";
     if (compression == 4 || compression == 5)
       return "it contains a JPEG or a PNG for a printer: use that file";
     const bool fields = compression == bit_fields || compression == alpha_bit_fields;

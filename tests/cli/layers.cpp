@@ -70,7 +70,7 @@ TEST_CASE("compare says what is wrong with an .exr, and which layers there are")
   };
   const std::string a = folder / "a.exr";
   CHECK(refusal({"--layer", "dept", a, a}) ==
-        "eyeray: error: cannot read " + a + " as EXR: it has no layer 'dept', but there are depth, uv\n");
+        "eyeray: error: cannot read " + a + " as EXR: it has no layer 'dept'; its layers are depth, uv\n");
   CHECK(refusal({"--layer", "depth", "a.pfm", "b.png"}) ==
         "eyeray: error: --layer depth: neither a.pfm nor b.png is one\n");
   CHECK(refusal({"tests/fuzz/corpus/exr/zip.exr", a})

@@ -147,7 +147,7 @@ TEST_CASE("layers are chosen by name, and parts are layers") {
 
 TEST_CASE("files that are no pictures are refused, each with its own words") {
   CHECK(refusal_of(corpus + "layers.exr", "nrmal") ==
-        "it has no layer 'nrmal', but there are depth, id, normal, uv");
+        "it has no layer 'nrmal'; its layers are depth, id, normal, uv");
   CHECK(refusal_of(corpus + "grey.exr", "id") == "it has no layer 'id'");
   CHECK(refusal_of(corpus + "only_layers.exr") == "it has several layers; name one of depth, id");
   CHECK(refusal_of(corpus + "lacks_green.exr") == "it lacks the channel G");

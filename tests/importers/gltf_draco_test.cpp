@@ -191,9 +191,9 @@ TEST_CASE("draco: what disagrees with the data is refused, with its place") {
        "accessors[3] has a count of 723, but the Draco data of meshes[0].primitives[0] contain 242 "
        "triangles"},
       {"/meshes/0/primitives/0/extensions/KHR_draco_mesh_compression/attributes/NORMAL", 7,
-       "takes NORMAL from attribute 7, which its data lack"},
+       "reads NORMAL from attribute 7, which its data lack"},
       {"/meshes/0/primitives/0/extensions/KHR_draco_mesh_compression/attributes/NORMAL", 4294967297,
-       "takes NORMAL from attribute 4294967297, which its data lack"},
+       "reads NORMAL from attribute 4294967297, which its data lack"},
       {"/meshes/0/primitives/0/extensions/KHR_draco_mesh_compression/bufferView", 9,
        "bufferView must be an index below"},
       {"/meshes/0/primitives/0/extensions/KHR_draco_mesh_compression", Json::object(), "has no bufferView"},

@@ -183,7 +183,7 @@ TEST_CASE("wrong glTF is refused, and the place named") {
   CHECK(said("/meshes/0/primitives/0/indices", 0) ==
         "a.gltf: error: accessors[0] contains indices, which must be unsigned integers");
   CHECK(said("/meshes/0/primitives/0/attributes/NORMAL", 1) ==
-        "a.gltf: error: accessors[1] holds NORMAL, which cannot be componentType 5123");
+        "a.gltf: error: accessors[1] contains NORMAL, which cannot be componentType 5123");
   CHECK(said("/accessors/0/type", "VEC2") == "a.gltf: error: accessors[0] must be of type VEC3");
   CHECK(said("/accessors/0/count", 3) ==
         "a.gltf: error: meshes[0].primitives[0] refers to vertex 3, but there are 3, counted from 0");

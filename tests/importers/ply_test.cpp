@@ -172,7 +172,7 @@ TEST_CASE("wrong PLY is refused, with its place in a text") {
         "a.ply: error: a face refers to vertex 9, but there are 4, counted from 0");
   CHECK(said(ascii(good, "4 0 1 2 -1")) ==
         "a.ply: error: a face refers to vertex -1, but there are 4, counted from 0");
-  CHECK(said(ascii(good, "4 0 1 2 1.5")) == "a.ply:15:12: error: 1.5 is not the index of a vertex");
+  CHECK(said(ascii(good, "4 0 1 2 1.5")) == "a.ply:15:12: error: 1.5 is not an index of a vertex");
   CHECK(said(ascii(good, "4 0 1 x 3")) == "a.ply:15:7: error: this is not a number");
   CHECK(said(ascii(good, "4 0 1 2")) == "a.ply:15:2: error: a list of 4 is longer than the rest of the file");
   CHECK(said(ascii(good, "9 0 1 2 3")) ==
