@@ -46,7 +46,8 @@ TEST_CASE("a driver that computes wrong is refused") {
   CHECK(contains(text, "computes wrong results: an integer hash"));
   CHECK(contains(refusal("inputs[count - 1u - i]", "inputs[count - 1u]").first,
                  "computes wrong results: an indexed load"));
-  CHECK(contains(refusal("state * 1664525u", "state * 1664527u").first, "computes wrong results: a loop's result"));
+  CHECK(contains(refusal("state * 1664525u", "state * 1664527u").first,
+                 "computes wrong results: a loop's result"));
 }
 
 TEST_CASE("loose arithmetic is a fact, not a refusal") {
