@@ -26,7 +26,7 @@ MOST_SHOWN = 5  # of a file's findings, where none is in a line that differs fro
 CODE = ("host", "shaders", "include", "benchmarks", "python", "examples", "tests")
 OFF = ("<!-- prose off -->", "<!-- prose on -->")  # around the bad examples of CONTRIBUTING.md, and nowhere else
 
-HEADLESS = re.compile(r"\bwhat(?:ever)?\b(?! to\b|(?<=ever) the\b)|(?<!\bsuch )\b(?:that|those) of which\b", re.IGNORECASE)
+HEADLESS = re.compile(r"\bwhat(?:ever)?\b(?! to\b|(?<=ever) (?:the|their|its)\b)|(?<!\bsuch )\b(?:that|those) of which\b", re.IGNORECASE)
 HEADLESS_COMMENT = re.compile(r"(?:What|Where|Whether|How|That|Which)\b(?! to\b)")
 BE = r"(?:is|are|was|were|has|have|had|do|does|did|can|may|must|will|would)"
 FRONTED = re.compile(rf"Of\b|(?:So|Nor|Neither|Then) {BE}\b(?! (?:a|an|no|one|two|\d+)\b)"
@@ -70,7 +70,7 @@ def sentences(blocks):
     """Of (line, text): (line, sentence), the line being that on which it begins."""
     for line, text in blocks:
         start = 0
-        for end in [*(each.end() for each in re.finditer(r"[.!?][)\"*]*\s+(?=[\"“*`(\[]*[A-Z0-9`])", text)), len(text)]:
+        for end in [*(each.end() for each in re.finditer(r"[.!?][)\"*]*\s+(?=[\"“*`(\[]*(?:[A-Z0-9`]|eyeray|lavapipe|gl(?:TF|slang|ibc)))", text)), len(text)]:
             sentence = plain(text[start:end])
             lead = len(text[start:end]) - len(text[start:end].lstrip())
             if re.search(r"[A-Za-z]", sentence):
