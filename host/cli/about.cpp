@@ -20,7 +20,13 @@ ExitCode print_completion(const CLI::App& app, const std::string& shell) {
   return ExitCode::ok;
 }
 
+ExitCode print_reference(const CLI::App& app) {
+  fmt::print("{}", option_reference(option_table(app)));
+  return ExitCode::ok;
+}
+
 ExitCode write_manual(const CLI::App& app, const std::filesystem::path& folder) {
+  if (folder.empty()) throw Error(ExitCode::bad_input, "no folder given (see eyeray manual --help)");
   make_folder(folder);
   const CommandRow table = option_table(app);
   for (const CommandRow* each : all_commands(table))
@@ -46,12 +52,18 @@ void add_completion(CLI::App& app, Run& run) {
 }
 
 void add_manual(CLI::App& app, Run& run) {
-  CLI::App* const command = app.add_subcommand("manual", "Write a man page for each command.");
+  CLI::App* const command =
+      app.add_subcommand("manual", "Write a man page for each command, or print one page of all.");
   const auto folder = std::make_shared<std::string>();
-  command->add_option("FOLDER", *folder, "The folder to write eyeray.1, eyeray-render.1 and so on to.")
-      ->required();
+  const auto markdown = std::make_shared<bool>(false);
+  CLI::Option* const target =
+      command->add_option("FOLDER", *folder, "The folder to write eyeray.1, eyeray-render.1 and so on to.");
+  command->add_flag("--markdown", *markdown, "Print one page of all commands and options, as Markdown.")
+      ->excludes(target);
   command->footer("Example:\n  eyeray manual man1 && man man1/eyeray-render.1");
-  command->callback([&app, folder, &run] { run = [&app, folder] { return write_manual(app, *folder); }; });
+  command->callback([&app, folder, markdown, &run] {
+    run = [&app, folder, markdown] { return *markdown ? print_reference(app) : write_manual(app, *folder); };
+  });
 }
 
 }  // namespace eyeray::engine::cli

@@ -1,5 +1,5 @@
-// The commands and options as registered with the command line, which --help prints. Man pages and
-// completions are made from them.
+// The commands and options as registered with the command line, which --help prints. Man pages,
+// completions and docs/options.md are made from them.
 #pragma once
 
 #include <string>
@@ -38,6 +38,8 @@ std::string last_word(const CommandRow& command);
 // "eyeray-generate-terrain.1", in roff's man macros.
 std::string man_page_name(const CommandRow& command);
 std::string man_page(const CommandRow& command);
+// docs/options.md: all commands and options, as Markdown.
+std::string option_reference(const CommandRow& table);
 
 // Scripts that complete commands, options and the values that options list.
 std::string bash_completion(const CommandRow& table);

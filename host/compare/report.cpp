@@ -11,7 +11,7 @@ namespace eyeray::engine::compare {
 namespace {
 
 // "gate B: gpu against the reference, colours: 14 of 6912 pixels differ unexplained; the worst is 3,4, which
-// parts at t".
+// diverges at t".
 void add_failures(std::vector<std::string>& failures, const std::string& sides, const TallyType& type,
                   const Tally& tally) {
   const auto add = [&](int64_t count, const std::string& what) {
@@ -88,7 +88,7 @@ std::vector<std::string> Report::failures() const {
     failures.push_back(fmt::format(
         "gate D: twin against the reference, photons: of {}, {} diverge ({} may), {} are displaced ({} may), "
         "and {} of these are unexplained{}",
-        photons->sent, photons->parted, photons->may_part(), photons->aside, photons->may_lie_aside(),
+        photons->sent, photons->diverged, photons->may_diverge(), photons->aside, photons->may_lie_aside(),
         photons->unexplained, photons->worst.empty() ? "" : "; the first is " + photons->worst));
   for (const ExactResult& result : exact) {
     const ExactComparison& c = result.comparison;

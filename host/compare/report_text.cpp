@@ -203,7 +203,7 @@ std::string to_text(const Report& report) {
     line(text,
          "  gate D {} twin = reference, photons: of {}, {} diverge ({} may) and {} are displaced ({} may), "
          "{} unexplained; they are left out",
-         photons->passes() ? "passed" : "FAILED", photons->sent, photons->parted, photons->may_part(),
+         photons->passes() ? "passed" : "FAILED", photons->sent, photons->diverged, photons->may_diverge(),
          photons->aside, photons->may_lie_aside(), photons->unexplained);
   for (const ReferenceResult& result : report.against_reference) {
     if (!result.comparison.incomparable.empty()) continue;

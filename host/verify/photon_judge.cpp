@@ -45,7 +45,7 @@ bool explained(const Apart& photon, const reference::PhotonTraces& traces, uint3
 }
 
 std::string describe(const Apart& photon, const reference::PhotonTraces& traces, uint32_t index) {
-  if (!photon.parted())
+  if (!photon.diverged())
     return fmt::format("photon {} of sample {}, which is displaced by {:.3g}", photon.number, index,
                        photon.aside());
   std::string way;

@@ -81,6 +81,21 @@ TEST_CASE("each command has a man page, in which every option of its --help stan
       CHECK(page.find(".BR eyeray\\-" + command) != std::string::npos);
 }
 
+TEST_CASE("docs/options.md is what `eyeray manual --markdown` prints, with every option of each --help") {
+  const ProcessResult printed = run_eyeray({"manual", "--markdown"});
+  REQUIRE(printed.code == 0);
+  CHECK_MESSAGE(read_text("docs/options.md") == printed.out,
+                "run: eyeray manual --markdown > docs/options.md");
+  for (const std::string& command : commands) {
+    CAPTURE(command);
+    const size_t begin = printed.out.find("## `eyeray " + command + "`\n");
+    REQUIRE(begin != std::string::npos);
+    const std::string part = printed.out.substr(begin, printed.out.find("\n## ", begin) - begin);
+    for (const std::string& option : options_in_help(command))
+      CHECK(part.find("`" + option + "`") != std::string::npos);
+  }
+}
+
 TEST_CASE("bash completes commands, options and the values that they list") {
   const TemporaryFolder folder;
   const std::string script = folder / "eyeray.bash";

@@ -208,7 +208,7 @@ TEST_CASE("swapped ids fail at the seam 'primitive'") {
   for_each_pixel(gpu, [](float*, FirstHit& hit) {
     if (hit.primitive >= 0 && hit.primitive < 2) hit.primitive = 1 - hit.primitive;
   });
-  CHECK(mentions(verify(gpu), "parts at primitive"));
+  CHECK(mentions(verify(gpu), "diverges at primitive"));
   CHECK_FALSE(compared(gpu).first_hits.passes());
 
   // One pixel is enough, and a neighbour's id that is 3 pixels away explains nothing.
@@ -234,7 +234,7 @@ TEST_CASE("the wrong root fails at the seam 't'") {
   CHECK_FALSE(comparison.first_hits.passes());
   CHECK(comparison.first_hits.worst.seam == Seam::t);
   CHECK(mentions(verify(gpu), "gate C: gpu against the reference, first hits: "));
-  CHECK(mentions(verify(gpu), "parts at t"));
+  CHECK(mentions(verify(gpu), "diverges at t"));
 }
 
 TEST_CASE("flipped normals fail at the seam 'normal'") {
