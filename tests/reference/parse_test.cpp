@@ -97,7 +97,7 @@ TEST_CASE("shapes refuse what they cannot be") {
   CHECK(refused(triangle + "uv = [[0, 0], [1, 1]]") == "3: a triangle needs exactly 3, not 2");
   CHECK(refused(triangle + "normals = [[0, 0, 1], [0, 0, 0], [0, 0, 1]]") == "3: a normal has no length");
   CHECK(refused(triangle + "normals = [[0, 0, 1], [0, 0, 1], [1, 0, -0.01]]")
-            .starts_with("3: a normal points away"));
+            .starts_with("3: a normal points to the inside"));
   CHECK(
       refused(
           "[[triangle]]\nvertices = [[0, 0, 0], [1e12, 0, 0], [0, 1, 1e12]]\ntransform = [{ scale = 2 }]") ==
