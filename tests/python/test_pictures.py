@@ -136,7 +136,7 @@ def test_files_and_dicts_are_rendered_at_once(tmp_path):
     (TypeError, "^camera: a key must be a str, not int$", {"camera": {3: 4}}, {}),
     (TypeError, "^a scene must be an eyeray.Scene, the name of a file, or a dict, not list$", [], {}),
     (eyeray.FileError, "missing.toml", "missing.toml", {}),
-    (TypeError, "^size and spp go with a file or a dict; a Scene has its own$", eyeray.Scene.read(SMALL), {"spp": 4}),
+    (TypeError, "^size and spp need a file or a dict: a Scene has its own$", eyeray.Scene.read(SMALL), {"spp": 4}),
 ])
 def test_wrong_scenes_and_sizes(kind, words, scene, options):
     for call in (eyeray.render, eyeray.verify):
