@@ -33,7 +33,7 @@ std::string plain_words(const std::string& text) {
       {std::regex(R"(^(.+) excludes (.+)$)"), "$1 and $2 exclude each other"},
       {std::regex(R"(^Could not convert: (.+?) = ([^]*)$)"), "$1 does not take the value '$2'"},
       // The texts of option_values.hpp, which follow the option's name.
-      {std::regex(R"(^([\w-]+): ((?:is|wants) [^]*)$)"), "$1 $2"}};
+      {std::regex(R"(^([\w-]+): (must be [^]*)$)"), "$1 $2"}};
   for (const auto& [pattern, words] : rules)
     if (std::regex_match(text, pattern)) return std::regex_replace(text, pattern, words);
   return text;

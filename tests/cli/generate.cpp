@@ -75,7 +75,7 @@ TEST_CASE("a scene that cannot be generated is refused in one line, and leaves n
        "--tessellate make a mesh"},
       {{"sphereflake", "-o", fresh, "--size-factor", "8", "--tessellate", "2"},
        2,
-       "the mesh would have 1549681952 triangles; at most 536870912"},
+       "the mesh would have 1549681952 triangles; at most 536870912 are allowed"},
       {{"terrain", "-o", fresh, "--triangles", "600000000"},
        2,
        "--triangles must be a whole number from 1 to 536870912, not '600000000' (see eyeray generate terrain "

@@ -72,7 +72,7 @@ TEST_CASE("compare says what is wrong with an .exr, and which layers there are")
   CHECK(refusal({"--layer", "dept", a, a}) ==
         "eyeray: error: cannot read " + a + " as EXR: it has no layer 'dept'; its layers are depth, uv\n");
   CHECK(refusal({"--layer", "depth", "a.pfm", "b.png"}) ==
-        "eyeray: error: --layer depth: neither a.pfm nor b.png is one\n");
+        "eyeray: error: --layer depth needs an .exr: neither a.pfm nor b.png is one\n");
   CHECK(refusal({"tests/fuzz/corpus/exr/zip.exr", a})
             .find("the sizes differ: 9×5 in 3 channels against 64×48") != std::string::npos);
   CHECK(refusal({"none.exr", a}).find("cannot read none.exr: ") != std::string::npos);

@@ -155,6 +155,6 @@ TEST_CASE("pixels that cannot be probed are refused in one line") {
   CHECK(error({"1,1", "--sample", "1"}) ==
         "eyeray: error: --sample 1: a pixel has 1 sample, the first is 0\n");
   CHECK(error({"1,1", "--backends", "gpu,cpu"}) ==
-        "eyeray: error: no backend 'cpu': choose gpu, twin or reference\n");
+        "eyeray: error: no backend is named 'cpu': choose gpu, twin or reference\n");
   CHECK(error({}).find("PIXEL is required") != std::string::npos);
 }

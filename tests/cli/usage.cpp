@@ -81,7 +81,7 @@ TEST_CASE("a wrong command line is one line that says what was meant, and code 2
        "--crop 0,0,0,5 has no pixels: width and height must be at least 1"},
       {{"render", scene, "--crop", "1,1,2147483647,2147483647"},
        "the crop 1,1,2147483647,2147483647 extends beyond the picture, which is 64x48"},
-      {{"render", scene, "--backend", "cpu"}, "no backend 'cpu': choose gpu, twin or reference"},
+      {{"render", scene, "--backend", "cpu"}, "no backend is named 'cpu': choose gpu, twin or reference"},
       {{"render", scene, "--timeout", "nan"},
        "--timeout must be a number from 0.001 to 1000000, not 'nan' (see eyeray render --help)"},
       {{"render", scene, "--aov", "dept"},
