@@ -198,7 +198,7 @@ TEST_CASE("without a Vulkan driver or loader nothing is rendered, and what to in
     CHECK(render.code == 3);
     CHECK(render.err.find(what) != std::string::npos);
     CHECK(render.err.find("apt install") != std::string::npos);
-    CHECK(render.err.find("by --backend twin") != std::string::npos);
+    CHECK(render.err.find("with --backend twin") != std::string::npos);
     CHECK(run_eyeray({"devices"}, environment).code == 3);
     // The CPU backends need neither.
     CHECK(run_eyeray({"render", folder.scene(), "--backend", "twin", "-o", folder / "twin.png"}, environment)

@@ -16,7 +16,7 @@ TEST_CASE("--stats counts rays by kind, in words and in JSON") {
       run_eyeray({"render", folder.scene(), "-o", folder / "a.png", "--stats", "--json"});
   REQUIRE(result.code == 0);
   CHECK(result.err.find("\n"
-                        "  camera rays               3072, ") != std::string::npos);
+                        "  camera rays            3072, ") != std::string::npos);
   const auto report = nlohmann::json::parse(result.out);
   const auto& kinds = report.at("ray_kinds");
   CHECK(kinds.at("eye") == 64 * 48);
