@@ -175,7 +175,7 @@ TEST_CASE("another scene, size, sampling or backend does not resume, and gets th
   CHECK(again.code == 2);
   CHECK(again.err == "eyeray: error: the checkpoint " + checkpoint +
                          " exists already: continue from it with --resume " + checkpoint +
-                         " , or remove it\n");
+                         ", or remove it\n");
   CHECK(read_text(checkpoint) == kept);
   CHECK(run_eyeray(with(command, {"--resume", checkpoint})).code == 0);
 }

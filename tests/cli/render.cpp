@@ -210,9 +210,9 @@ TEST_CASE("check prints the box around the shapes, and how many have no end") {
         std::pair(std::string("bounds       (0.5, 1.5, 2.5) to (1.5, 2.5, 3.5)"),
                   json{{"min", {0.5, 1.5, 2.5}}, {"max", {1.5, 2.5, 3.5}}, {"unbounded_shapes", 0}}));
   CHECK(bounds(sphere + plane).first ==
-        "bounds       (0.5, 1.5, 2.5) to (1.5, 2.5, 3.5), and 1 shape without end");
+        "bounds       (0.5, 1.5, 2.5) to (1.5, 2.5, 3.5), and 1 unbounded shape");
   CHECK(bounds(plane + plane) ==
-        std::pair(std::string("bounds       none: 2 shapes without end"),
+        std::pair(std::string("bounds       none: 2 unbounded shapes"),
                   json{{"min", nullptr}, {"max", nullptr}, {"unbounded_shapes", 2}}));
   CHECK(bounds("") == std::pair(std::string("bounds       none"),
                                 json{{"min", nullptr}, {"max", nullptr}, {"unbounded_shapes", 0}}));
