@@ -1,6 +1,6 @@
-// Definitions that let one source be GLSL and C++. The only place with such tricks; everything else is written in the common subset:
-// float literals end in f, unsigned ones in u; no swizzles (vec3(v) takes the first three of a vec4);
-// no struct constructors; no implicit conversions.
+// Definitions that let one source be GLSL and C++. Only this file has such tricks; everything else is written in the common subset:
+// float literals end in f, unsigned ones in u; no swizzles (vec3(v) takes the first three of a vec4).
+// No struct constructors; no implicit conversions.
 #ifndef LANGUAGE_H
 #define LANGUAGE_H
 
@@ -52,8 +52,8 @@ inline float uintBitsToFloat(uint x) { return __builtin_bit_cast(float, x); }
 #endif
 
 // PROBE shows a value to `eyeray probe`, as a line `name = value` of the ray that is traced: a float, int, uint, bool or vector of
-// floats. It may stand wherever a statement may. PROBE_RAY: what follows belongs to a new ray (records.h, RAY_…), of a shadow ray with
-// its light's number, after so many reflections and refractions; PROBE_BACK: to the last one there again, with NONE to the pixel.
+// floats. It may stand wherever a statement may. PROBE_RAY: the values below belong to a new ray (records.h, RAY_…), of a shadow ray with
+// its light's number, after so many reflections and refractions. PROBE_BACK: to the last one there again, with NONE to the pixel.
 // Where nobody looks nothing is left of them; kernels/probe.glsl and the twin define them otherwise.
 #ifndef PROBE
 #define PROBE(name, value)

@@ -14,7 +14,7 @@ struct Photon {
   uint number;     // of those of its sample
   vec3 normal;     // unit, of the surface's shape, on the side that it came to
   uint depth;      // how often it was scattered before
-  vec3 flux;       // what it brings times the number of all
+  vec3 flux;       // of the photon, times the number of all
   uint unused;
 };
 
@@ -38,7 +38,7 @@ struct PhotonPass {
   float scale;           // 2 / (π radius²) / the number of photons
   uint key_mask;         // which bits of a cell's hash are its key
   uint capacity;         // how many photons there is room for
-  uint target_count;     // of what photons are aimed at
+  uint target_count;     // of objects that photons are aimed at
   uint unused;
   vec4 targets[MOST_PHOTON_TARGETS];  // center, radius
 };

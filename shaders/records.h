@@ -45,7 +45,7 @@ SHADER_BEGIN
 #define NONE 0xffffffffu
 #define T_MISS 3.0e38f  // "no hit": beyond every t, below infinity, so that an infinite t is a miss
 #define T_NONE -3.0e38f  // the same, where no t counts that is not above 0; before every t
-#define T_ITERATION_LIMIT -3.2e38f  // "no hit found in the steps allowed"; uv.x says up to which t there is none for sure
+#define T_ITERATION_LIMIT -3.2e38f  // "no hit found in the steps allowed"; up to t = uv.x there is none for sure
 
 // ---- Primitive: 64 bytes --------------------------------------------------------------------------------------------
 // Where a primitive stands in the buffer, its slot, follows from the BVH and may change; its id does not.
@@ -54,7 +54,7 @@ struct Primitive {
   uint material_and_kind;  // material_of, kind_of
   uint optical_depth;
   uint extra;  // an index into vertices, or NONE; a shape that needs none may keep a word here
-  vec4 a;      // what these hold is said in the shape's .glsl
+  vec4 a;      // contents: see the shape's .glsl
   vec4 b;
   vec4 c;
 };
@@ -81,10 +81,10 @@ INLINE Primitive primitive_of(uvec4 head, vec4 a, vec4 b, vec4 c) {
 #define TRIANGLE_MOLLER_TRUMBORE 1u
 
 // ---- Corners of a triangle with normals, texture coordinates or colours: 16 to 96 bytes in vertices ------------------
-//   0 vertex 0   4 vertex 1   8 vertex 2    indices of vertices: normal.xyz, u; with CORNERS_COLORS then color.rgb, alpha
-//                                           normals are unit, or of the lengths that a map that stretches has left them
+//   0 vertex 0   4 vertex 1   8 vertex 2    indices of vertices: normal.xyz, u; with CORNERS_COLORS then color.rgb, alpha.
+//                                           Normals are unit, or of the lengths that a map that stretches has left them.
 //  12 CORNERS_ bits
-//  16 v 0  20 v 1  24 v 2  28 -             only with CORNERS_UV
+//  16 v 0  20 v 1  24 v 2  28 -             only with CORNERS_UV.
 // With CORNERS_GRADIENTS then the gradients of u and of v, a vec4 each, and with CORNERS_SECOND_UV those of the second ones.
 // Behind all that, a vertex has its second u and v, -, -, with CORNERS_SECOND_UV; and with CORNERS_TANGENTS Surface::tangent, which with
 // CORNERS_SECOND_TANGENTS is along the second u.
@@ -97,10 +97,10 @@ INLINE Primitive primitive_of(uvec4 head, vec4 a, vec4 b, vec4 c) {
 #define CORNERS_SECOND_TANGENTS 64u
 
 // ---- BVH: 64 bytes; a node of it ------------------------------------------------------------------------------------
-// A node is two children. Quantised, a child is 16 bytes, its planes integers: lower | upper << 16 for x, y and z, then what it refers
-// to; else it is 32: lower.xyz as floats, what it refers to, upper.xyz, -.
+// A node is two children. Quantised, a child is 16 bytes, its planes integers: lower | upper << 16 for x, y and z, then its reference;
+// else it is 32: lower.xyz as floats, its reference, upper.xyz, -.
 // A node of kernels/cooperative/bvh4.comp.glsl is four quantised children, one of kernels/cooperative/packet.glsl as many as a subgroup has lanes; those that are not there
-// refer to NONE.
+// are NONE.
 // A child refers to a node, to 1 … 8 primitives, LEAF | slot << 3 | count − 1, or to an instance, INSTANCE_LEAF | index.
 struct Bvh {
   vec3 origin;  // a plane at q stands at origin + q · step
@@ -126,7 +126,7 @@ struct Instance {
   uint first_id;           // of its first shape, of a mesh its first triangle
   uint material;           // of a mesh's triangles; NONE of a group, whose primitives have their own
   uint depth_or_triangle;  // mesh_optical_depth, first_triangle_of
-  vec4 to_local[3];        // rows: the linear map into its space, of what is relative to that space's origin; w unused
+  vec4 to_local[3];        // rows: the linear map into its space, of vectors relative to that space's origin; w unused
   vec4 to_world[3];        // rows: the affine map back, its w's that origin
 };
 INLINE bool of_group(Instance instance) { return instance.material == NONE; }
@@ -150,7 +150,7 @@ struct Material {
   uint alpha;
   float alpha_cutoff;  // below which alpha is cut out; above 0 where there is an alpha at all
   float shininess;
-  vec4 a;  // what these hold is said in the material's .glsl
+  vec4 a;  // contents: see the material's .glsl
   uint color;  // more textures, of BSDFs; of roughness the green channel counts, of metallic the blue one; raycast shades color + emission
   uint roughness;
   uint metallic;
@@ -173,24 +173,24 @@ struct Material {
 };
 #define MATERIAL_BLINN 1u
 #define MATERIAL_PANE 2u   // it has no inside: paths may pass it straight
-#define MOST_PANES 8u      // that a shadow ray to a light with an extent goes through; paths find what lies behind more
+#define MOST_PANES 8u      // that a shadow ray to a light with an extent goes through; paths find the light behind more
 #define MOST_CROSSINGS 65536u  // of panes and interfaces, by any shadow ray: more set FLAG_ITERATION_LIMIT
 #define MATERIAL_CLEAR 4u  // of principled: Whitted's pictures show glass, and `base` is its colour
 #define MATERIAL_EMITS_IN_FRONT 8u  // its own light goes only where normals point
 #define MATERIAL_FRONT_ONLY 32u  // rays that come from behind a triangle do not hit it
-#define MATERIAL_BLENDS 64u  // rays hit it with a probability of its alpha, whatever alpha_cutoff is
+#define MATERIAL_BLENDS 64u  // rays hit it with a probability of its alpha, and alpha_cutoff is ignored
 #define MATERIAL_BUMP_IN_SPACE 16u  // bump_width is a length in the world, else in uv
-// Optical depth: what each primitive that a shadow ray hits takes from it, in −log2(transmittance) · OPTICAL_DEPTH_SCALE.
+// Optical depth: the loss at each primitive that a shadow ray hits, in −log2(transmittance) · OPTICAL_DEPTH_SCALE.
 #define OPTICAL_DEPTH_OPAQUE 0x10000000u
 #define OPTICAL_DEPTH_SCALE 1048576.0f
 
-// ---- Albedos: 16 bytes each; empty where no lobe asks -----------------------------------------------------------------
-// Those of host/tables, of as many rows by roughness as places in each by √cosine: bsdf/ggx_albedo.glsl, then sheen.glsl, then
+// ---- Albedos: 16 bytes each; empty where no lobe needs them ------------------------------------------------------------
+// Those of host/tables, of as many rows by roughness as columns by √cosine. First bsdf/ggx_albedo.glsl, then sheen.glsl, then
 // rough_glass.glsl, this one with GLASS_SLICES of them by the two indices.
 #define GGX_ALBEDOS 64u
 #define SHEEN_ALBEDOS 32u
 #define GLASS_ALBEDOS 32u
-#define GLASS_SLICES 24u  // each says what is at its begin and at its end; …
+#define GLASS_SLICES 24u  // each has the values at its begin and at its end; …
 #define GLASS_SLICES_BELOW 14u  // … so many where light comes from the greater index
 #define FIRST_SHEEN_ALBEDO 4096u
 #define FIRST_GLASS_ALBEDO 5120u
@@ -209,7 +209,7 @@ struct Medium {
 struct Texture {
   vec3 color;
   uint kind;
-  vec4 a;  // what these hold is said in the texture's .glsl
+  vec4 a;  // contents: see the texture's .glsl
   vec4 b;
   uvec4 c;
 };
@@ -226,7 +226,7 @@ INLINE bool reads_second_uv(Texture texture) { return (texture.c.w & IMAGE_SECON
 #define WRAP_CLAMP 2u
 
 // ---- Texels: 4 bytes each -------------------------------------------------------------------------------------------
-// What the 256 codes stand for, as the bits of floats: by the sRGB curve, then linearly. Then the images' texels, each
+// The values of the 256 codes, as the bits of floats: by the sRGB curve, then linearly. Then the images' texels, each
 // image by rows from its top left: red in the lowest byte, green, blue, alpha. Empty without images.
 #define TEXELS_SRGB 0u
 #define TEXELS_LINEAR 256u
@@ -236,26 +236,26 @@ INLINE bool reads_second_uv(Texture texture) { return (texture.c.w & IMAGE_SECON
 struct Light {
   vec3 intensity;
   uint kind;
-  vec4 a;  // what these hold is said in the light's .glsl
+  vec4 a;  // contents: see the light's .glsl
   vec4 b;
 };
 
 // ---- Emitter: a light that a path may choose, 96 bytes --------------------------------------------------------------
-// The first LIGHT_COUNT stand for the lights, and of these only `end` counts. The others are surfaces.
+// The first LIGHT_COUNT stand for the lights; only `end` of these counts. The others are surfaces.
 struct Emitter {
-  vec3 radiance;  // where `texture` does not say it
+  vec3 radiance;  // unless `texture` contains it
   uint kind;
-  vec4 a;  // what these hold is said in the emitter's .glsl
+  vec4 a;  // contents: see the emitter's .glsl
   vec4 b;
   vec4 c;
   uint primitive;  // whose surface it is
   uint end;        // of the numbers by which it is chosen (emitters/emitter.glsl)
   float area;
-  float offset;  // what stands this far off it is off it, however it is rounded
+  float offset;  // a point this far off it is off it, however it is rounded
   uint trail;    // to it through the light BVH: bit k is set where it is the second child at level k; NONE where it is not in that
   uint texture;  // of its radiance, or NONE
   uint corners;  // of a triangle with a texture, four of vertices: color.rgb and u of each corner, the three v; or NONE
-  float side;    // 1 where it lights only what its normal points to, −1 what its normal points away from; 0 on both sides
+  float side;    // 1 where it lights only the side that its normal points to, −1 the other side; 0 both sides
 };
 
 // ---- A node of the light BVH: 48 bytes; nodes are pairs of children, the root's first -------------------------------
@@ -274,10 +274,10 @@ struct LightNode {
 
 // ---- Environment: 16 bytes a texel; empty without one ---------------------------------------------------------------
 // height + 1 rows of width + 1 texels: red, green and blue as the bits of floats. The last row and the last column are the picture's last
-// row and first column again. The fourth word says where the numbers end by which the cell is chosen whose lower left corner this is,
-// among those of its row; in the last column, those by which the row is.
+// row and first column again. The fourth word is the end of the numbers by which the cell is chosen whose lower left corner this is,
+// among those of its row. In the last column it is the end of those by which the row is chosen.
 
-// ---- Frame: what is the same for all pixels, 208 bytes --------------------------------------------------------------
+// ---- Frame: the values that all pixels share, 208 bytes ---------------------------------------------------------------
 struct Frame {
   uint width;
   uint height;
@@ -322,7 +322,7 @@ struct Frame {
 #define FILTER_GAUSSIAN 1u
 #define FILTER_BLACKMAN_HARRIS 2u
 
-// ---- Push constants: what changes from dispatch to dispatch, 32 bytes -----------------------------------------------
+// ---- Push constants: the values that change from dispatch to dispatch, 32 bytes ---------------------------------------
 struct Dispatch {
   uint tile_x;
   uint tile_y;

@@ -6,7 +6,7 @@
 
 SHADER_BEGIN
 
-// `side`: rows, and places in each.
+// `side`: rows, and columns in each.
 vec4 albedo_between(uint first, uint side, float cosine, float roughness) {
   float x = sqrt(minimum(maximum(cosine, 0.0f), 1.0f)) * float(side - 1u);
   float y = minimum(maximum(roughness, 0.0f), 1.0f) * float(side - 1u);

@@ -10,7 +10,7 @@ vec4 sheen_table(float cosine, float roughness) { return albedo_between(FIRST_SH
 
 // The share of light that microfacets between two media reflect and refract before another microfacet blocks it.
 float glass_table(float cosine, float roughness, float ior_from, float ior_to) {
-  // host/tables/albedos.hpp says how slices lie.
+  // host/tables/albedos.hpp states how slices lie.
   float contrast = (ior_to - ior_from) / ((ior_to + ior_from) * 0.6f);
   float root = sqrt(abs(contrast));
   float below = float(GLASS_SLICES_BELOW);
@@ -20,7 +20,7 @@ float glass_table(float cosine, float roughness, float ior_from, float ior_to) {
   return albedo.x * (1.0f - (z - slice)) + albedo.y * (z - slice);
 }
 
-// Whether a lobe's f(o, i) is not f(i, o).
+// True if f(o, i) of some lobe is not f(i, o).
 #define HAS_ADJOINT (HAS_COAT || HAS_SHEEN || HAS_ROUGH_GLASS)
 
 struct Bsdf {
@@ -29,7 +29,7 @@ struct Bsdf {
   vec3 mirror;             // throughput of the mirrored direction, and …
   vec3 transmitted;        // … of the refracted one, both under coat and sheen
 #if HAS_PANES
-  vec3 passed;             // throughput of what goes straight on, through a pane
+  vec3 passed;             // throughput of the light that goes straight on, through a pane
 #endif
   float roughness;         // of layer and metal, of rough glass and of a rough pane
 #if HAS_GLOSSY
@@ -49,7 +49,7 @@ struct Bsdf {
 #endif
 #if HAS_ROUGH_GLASS
   vec3 glass;              // throughput of rough glass, before Fresnel
-  vec3 glass_color;        // of what it refracts
+  vec3 glass_color;        // of the refracted light
   float glass_albedo;      // glass_table towards the viewer
   float ior_from;
   float ior_to;

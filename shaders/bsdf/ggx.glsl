@@ -7,7 +7,7 @@
 
 SHADER_BEGIN
 
-#define LEAST_ROUGHNESS 0.0316227766f  // whose square, the slope, is 0.001: what is smoother counts as that
+#define LEAST_ROUGHNESS 0.0316227766f  // whose square, the slope, is 0.001: smoother surfaces count as that
 
 // The width of the distribution of slopes.
 float ggx_width(float roughness) {

@@ -7,7 +7,7 @@
 
 SHADER_BEGIN
 
-// .x the loss of a perfect mirror by other microfacets, since float32 cannot distinguish a smooth one's albedo from 1; .y its albedo
+// .x: the loss of a perfect mirror by other microfacets, since float32 cannot distinguish a smooth one's albedo from 1. `.y`: its albedo
 // weighted by Schlick's (1 − cosine)⁵ at the microfacets; .z and .w: means of both over the half sphere, by cosine.
 vec4 ggx_albedo(float cosine, float roughness) { return albedo_between(0u, GGX_ALBEDOS, cosine, roughness); }
 

@@ -1,4 +1,4 @@
-// A rough mirror, a layer or metal or both: what one microfacet reflects.
+// A rough mirror, a layer or metal or both: the light that one microfacet reflects.
 #ifndef GLOSSY_GLSL
 #define GLOSSY_GLSL
 #include "bsdf/bsdf_record.glsl"

@@ -1,5 +1,5 @@
-// A BVH: what a ray hits of it, and the stack of what waits.
-// Boxes never decide a hit: they only leave out what cannot be one. For that they are hit wherever rounding could let a shape in
+// A BVH: a ray's hits in it, and the stack of the waiting nodes.
+// Boxes never decide a hit: they only leave out nodes without one. For that they are hit wherever rounding could let a shape in
 // them be hit, and no hit is nearer than the ray's entry into the boxes around it (shapes/triangle.glsl).
 #ifndef TREE_GLSL
 #define TREE_GLSL
@@ -10,10 +10,10 @@ SHADER_BEGIN
 
 #ifndef SCENE_PRIMITIVES
 #define TRAVERSAL_DONE 0xffffffffu   // below everything on the stack
-#define LEAVE_INSTANCE 0xfffffffeu  // waits below what an instance's BVH puts on the stack
+#define LEAVE_INSTANCE 0xfffffffeu  // waits below the entries that an instance's BVH puts on the stack
 
 // A ray as a BVH's boxes see it: it passes the plane at q at t = q · scale − near (− far, on the way out). Both are off by more
-// than the error of any shape's t, which grows with how far the ray's start and the BVH's boxes reach; and where there are
+// than the error of any shape's t. That grows with how far the ray's start and the BVH's boxes reach; and where there are
 // instances, with how the maps into and out of them make errors grow.
 struct BoxRay {
   vec3 scale;
@@ -43,7 +43,7 @@ BoxRay box_ray(Ray ray, Bvh bvh) {
   return boxes;
 }
 
-// The planes by which a ray enters and leaves a child's box, and what the child refers to.
+// The planes by which a ray enters and leaves a child's box, and the child's reference.
 struct Child {
   vec3 near;
   vec3 far;
@@ -54,7 +54,7 @@ float low_half(uint word) { return float(int(word & 0xffffu)); }
 
 uint turned(uint word, uint by) { return (word << by) | (word >> (32u - by)); }
 
-// A plane coded as q in bits 7 … 22, as 1 + q / 65536: what those bits are in a float. On a CPU that is quicker than to convert q.
+// A plane coded as q in bits 7 … 22, as 1 + q / 65536, the value of those bits in a float. On a CPU that is quicker than to convert q.
 float coded_plane(uint word) { return uintBitsToFloat((word & 0x7fff80u) | 0x3f800000u); }
 
 Child coded_child(uvec4 c, BoxRay ray) {
@@ -84,8 +84,8 @@ Child load_child(uint node, uint which, BoxRay ray) {
   return child;
 }
 
-// Distances as the bits of floats. Signed integers order them as floats do where they are not negative, and what is negative, behind
-// the ray, stays below all that is not: that is all the comparisons here need, and it costs a CPU less.
+// Distances as the bits of floats. Signed integers order them as floats do where they are not negative. A negative distance, behind
+// the ray, stays below all others. That is all the comparisons here need, and it costs a CPU less.
 int lesser(int a, int b) { return b < a ? b : a; }
 int greater(int a, int b) { return b > a ? b : a; }
 

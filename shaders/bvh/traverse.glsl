@@ -1,5 +1,5 @@
-// Rays against the whole scene. Everything else asks `trace` and `occlusion` and knows no traversal.
-// The entry gives the loaders and, of what is in no BVH, KIND_FIRST(name) and KIND_END(name), or SCENE_PRIMITIVES: every primitive as a
+// Rays against the whole scene. Everything else calls `trace` and `occlusion` and knows no traversal.
+// The entry gives the loaders and, for shapes in no BVH, KIND_FIRST(name) and KIND_END(name), or SCENE_PRIMITIVES: every primitive as a
 // constant.
 #ifndef TRAVERSE_GLSL
 #define TRAVERSE_GLSL
@@ -24,7 +24,7 @@ struct TraversalState {
 #endif
 };
 
-// Kernels that are not asked for what a search costs hold nothing of this.
+// Kernels that need not report the cost of a search hold nothing of this.
 #if SEARCH_COST
 #define COUNT_NODE(state) state.nodes += 1u
 #define COUNT_TEST(state) state.tests += 1u
@@ -40,8 +40,8 @@ void note_iteration_limit(INOUT(TraversalState) state, float t, vec2 uv) {
 #endif
 }
 
-// FLAG_ITERATION_LIMIT if what was found may be wrong: if a shape gave up before the nearest hit, or before the light that still arrives. Of
-// what lies behind it does not matter which shapes were asked, and so this does not depend on the order either.
+// FLAG_ITERATION_LIMIT if the result may be wrong: if a shape gave up before the nearest hit, or before the light that still arrives. It
+// does not matter which shapes behind that were tested, and so this does not depend on the order either.
 uint iteration_limit(TraversalState state) {
 #if MAY_REACH_ITERATION_LIMIT
   return !(state.sure_until >= state.hit.t) && state.occluded < OPTICAL_DEPTH_OPAQUE ? FLAG_ITERATION_LIMIT : 0u;
@@ -139,8 +139,8 @@ bool is_deferred(uint slot) {
   return deferred;
 }
 
-// Traverses the TLAS, and of every instance on the way. A driver that runs both sides of every branch runs what is in a loop as often as the ray that
-// needs it most; so a ray that comes to a deferred shapes waits there until the other rays have come to one as well, or are done.
+// Traverses the TLAS, and of every instance on the way. A driver that runs both sides of every branch runs a loop's body as often as the ray that
+// needs it most. So a ray that comes to a deferred shape waits there until the other rays have come to one as well, or are done.
 void traverse(INOUT(TraversalState) state, LocalRay world, bool any) {
   LocalRay local = world;
   BoxRay boxes = box_ray(local.ray, load_bvh(0u));
@@ -167,7 +167,7 @@ void traverse(INOUT(TraversalState) state, LocalRay world, bool any) {
         move_stack(stack, both, !hits_a && !hits_b, swap ? a.refers_to : b.refers_to);
       } while (at < LEAF);
 
-      // Test the primitives of this leaf, and of those that wait on top of the stack. From a deferred one on, what is left of a leaf is one.
+      // Test the primitives of this leaf, and of those that wait on top of the stack. From a deferred one on, the rest of a leaf is one.
       if (at < INSTANCE_LEAF) {
         bool waits = false;
         do {
@@ -215,7 +215,7 @@ void traverse(INOUT(TraversalState) state, LocalRay world, bool any) {
 }
 #endif
 
-// Before a search: only what is nearer than t_max counts.
+// Before a search: only hits nearer than t_max count.
 TraversalState traversal_state(float t_max) {
   TraversalState state;
   state.hit.t = t_max;
@@ -234,7 +234,7 @@ TraversalState traversal_state(float t_max) {
   return state;
 }
 
-// Tests one by one whatever is in no BVH: unbounded shapes, or with brute force all of the world's own.
+// Tests one by one all shapes in no BVH: unbounded shapes, or with brute force all of the world's own.
 void intersect_linear_list(INOUT(TraversalState) state, Ray ray, bool any) {
   vec2 uv = vec2(0.0f, 0.0f);
 #ifdef SCENE_PRIMITIVES
@@ -282,7 +282,7 @@ TraversalState search(Ray ray, float t_max, bool any) {
   return state;
 }
 
-// The nearest hit with t > 0. Adds to `flags` what may be wrong with it.
+// The nearest hit with t > 0. Adds to `flags` the ways in which it may be wrong.
 Hit trace(Ray ray, INOUT(uint) flags) {
   TraversalState state = search(ray, T_MISS, false);
   flags = flags | iteration_limit(state);
@@ -297,7 +297,7 @@ uint occlusion(Ray ray, float t_max, INOUT(uint) flags) {
   return state.occluded;
 }
 
-// The share of light that passes, from what `occlusion` counted.
+// The share of light that passes, from the count that `occlusion` returns.
 float visibility(uint occluded) {
   return occluded >= OPTICAL_DEPTH_OPAQUE ? 0.0f : exp_negative(float(occluded) * (-0.693147181f / OPTICAL_DEPTH_SCALE));
 }

@@ -7,7 +7,7 @@
 
 SHADER_BEGIN
 
-// place: in pixels from the top left.
+// `place`: a position in pixels from the top left.
 vec3 across_picture(Frame frame, vec2 place) {
   float x = (place.x - 0.5f * float(frame.width)) * frame.pixel_width;
   float y = (0.5f * float(frame.height) - place.y) * frame.pixel_height;

@@ -1,4 +1,4 @@
-// All rays come from the eye; how far off the middle a place is, is its angle. |forward| is the angle of the circle's rim.
+// All rays come from the eye; the angle of a point is its distance from the middle. |forward| is the angle of the circle's rim.
 #ifndef FISHEYE_GLSL
 #define FISHEYE_GLSL
 #include "geometry/ray.glsl"
@@ -7,7 +7,7 @@
 
 SHADER_BEGIN
 
-// across: from the middle of the picture to a place in it, as long as the angle between its ray and the middle's.
+// across: from the middle of the picture to a position in it, as long as the angle between its ray and the middle's.
 Ray fisheye_ray(Frame frame, vec3 across, vec2 lens) {
   float angle = sqrt(dot3(across, across));
   vec2 turn = sine_cosine(angle);

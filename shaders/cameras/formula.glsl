@@ -12,7 +12,7 @@ vec4 formula_asked(Frame frame, vec3 across, vec2 lens) {
 }
 vec3 formula_out(Frame frame, vec3 v) { return normalize3(frame.right) * v.x + normalize3(frame.up) * v.y + frame.forward * v.z; }
 
-// Nobody knows what a function says: a direction that is none sees nothing, and no origin beyond all that scenes are made of.
+// A formula may return anything: invalid directions, and origins beyond the extent of all scenes, see nothing.
 bool formula_sees(Frame frame, vec3 across, vec2 lens) {
   vec4 asked = formula_asked(frame, across, lens);
   vec3 d = FORMULA_DIRECTION(frame.camera_formula, asked);

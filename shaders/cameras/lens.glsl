@@ -6,7 +6,7 @@
 
 SHADER_BEGIN
 
-// Evenly on the polygon whose corners are on the circle of radius 1, the first of them `rotation` from the right: u chooses a place on
+// Evenly on the polygon whose corners are on the circle of radius 1, the first of them `rotation` from the right. `u` chooses a point on
 // its border, once around, and how far out it is.
 vec2 on_polygon(vec2 u, uint corners, float rotation) {
   float along = u.x * float(corners);

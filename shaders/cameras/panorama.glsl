@@ -7,7 +7,7 @@
 
 SHADER_BEGIN
 
-// across: from the middle of the picture to a place in it: longitude by right, latitude by up.
+// across: from the middle of the picture to a position in it: longitude by right, latitude by up.
 Ray panorama_ray(Frame frame, vec3 across, vec2 lens) {
   vec3 u = normalize3(frame.right);
   vec3 v = normalize3(frame.up);

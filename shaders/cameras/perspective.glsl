@@ -8,7 +8,7 @@
 
 SHADER_BEGIN
 
-// across: from the middle of the picture to a place in it, on the plane that `forward` ends on.
+// across: from the middle of the picture to a position in it, on the plane that `forward` ends on.
 Ray perspective_ray(Frame frame, vec3 across, vec2 lens) {
   vec3 start = vec3(0.0f, 0.0f, 0.0f);
   vec3 way = across + frame.forward;

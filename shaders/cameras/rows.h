@@ -1,5 +1,5 @@
-// Every kind of camera; see shapes/rows.h. A row says where in the picture the camera sees anything: all over the picture, in a
-// circle, whose radius, as `across` has it, is the length of `forward`, or where NAME_sees says.
+// Every kind of camera; see shapes/rows.h. A row states where in the picture the camera sees anything: all over the picture, in a
+// circle, whose radius, as `across` has it, is the length of `forward`, or where NAME_sees returns true.
 #ifndef CAMERAS
 #define CAMERAS(X)               \
   X(perspective, 0u, picture)    \

@@ -1,4 +1,4 @@
-// The surfaces that light a scene, for integrators that choose one light and a place on it: asks the kind of emitter.
+// The surfaces that light a scene, for integrators that choose one light and a point on it: calls the kind of emitter.
 #ifndef EMITTER_GLSL
 #define EMITTER_GLSL
 #include "emitters/emitter_sample.glsl"

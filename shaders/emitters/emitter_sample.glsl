@@ -1,4 +1,4 @@
-// A place on an emitter, as a point sees it.
+// A point on an emitter, as another point sees it.
 #ifndef EMITTER_SAMPLE_GLSL
 #define EMITTER_SAMPLE_GLSL
 #include "math/sampling.glsl"
@@ -14,11 +14,11 @@ vec3 flat_normal(Emitter e) { return normalize3(cross3(emitter_edge_u(e), emitte
 
 struct EmitterSample {
   vec3 p;
-  vec3 normal;  // unit, of either side; of what is closed outward
+  vec3 normal;  // unit, of either side; outward on closed shapes
   vec2 uv;      // as textures have it; of a triangle the weights of the second and the third corner
 };
 
-// The density, by solid angle at `from`, of a place chosen evenly on `area`.
+// The density, by solid angle at `from`, of a point chosen evenly on `area`.
 float density_of_area(float area, vec3 from, EmitterSample place) {
   vec3 way = place.p - from;
   float squared = dot3(way, way);

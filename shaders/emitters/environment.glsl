@@ -1,5 +1,5 @@
-// Light from all around, as a picture has it, and places in that chosen by how bright they are. Between the centres of four texels lies
-// a cell, in which the density of what is chosen is the same by solid angle (records.h, Environment).
+// Light from all around, as a picture has it, and points in that chosen by how bright they are. Between the centres of four texels lies
+// a cell, in which the density of the chosen points is the same by solid angle (records.h, Environment).
 #ifndef ENVIRONMENT_GLSL
 #define ENVIRONMENT_GLSL
 #include "math/trigonometry.glsl"
@@ -8,7 +8,7 @@
 SHADER_BEGIN
 
 #if HAS_ENVIRONMENT
-// A place in the cell between the columns `column` and the next, and the rows above and below.
+// A point in the cell between the columns `column` and the next, and the rows above and below.
 struct EnvironmentPlace {
   uint column;
   uint row;
@@ -87,7 +87,7 @@ uint environment_chosen_by(float u, uint first, uint stride, uint count) {
   return low;
 }
 
-// Rows are counted from the nearer pole: what is left to that has all its digits.
+// Rows are counted from the nearer pole: the distance to that has all its digits.
 bool nearer_below(Frame frame, uint row) { return 2u * row > frame.environment_height; }
 
 // The distances of a row's borders from the nearer pole, in rows, the nearer border first.

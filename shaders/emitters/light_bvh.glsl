@@ -1,5 +1,5 @@
-// One of many lights, chosen by its power, its distance, and which way it shines: down a BVH of the lights (scene/light_bvh.hpp), at each
-// node the likelier the more important the node is to the point. Conty Estevez and Kulla, "Importance Sampling of Many Lights with
+// One of many lights, chosen by its power, its distance, and which way it shines, down a BVH of the lights (scene/light_bvh.hpp). At each
+// node the more important child is the likelier. Conty Estevez and Kulla, "Importance Sampling of Many Lights with
 // Adaptive Tree Splitting" (HPG 2018).
 #ifndef LIGHT_BVH_GLSL
 #define LIGHT_BVH_GLSL
@@ -21,7 +21,7 @@ struct LightPick {
 // The cosine and the sine of an angle in [0, π] …
 vec2 cosine_and_sine(float cosine) { return vec2(cosine, sqrt(maximum(1.0f - cosine * cosine, 0.0f))); }
 
-// … and of what is left of it without another, 0 where that is larger.
+// … and of that angle less another, 0 where the other is larger.
 vec2 angle_without(vec2 angle, vec2 other) {
   if (angle.x >= other.x) return vec2(1.0f, 0.0f);
   return vec2(angle.x * other.x + angle.y * other.y, angle.y * other.x - angle.x * other.y);

@@ -1,4 +1,4 @@
-// Lights without a place that are seen under an angle, as the sun is: disks of light behind all else.
+// Lights without a position that are seen under an angle, as the sun is: disks of light behind all else.
 #ifndef LIGHT_DISK_GLSL
 #define LIGHT_DISK_GLSL
 #include "emitters/emitter_sample.glsl"

@@ -1,9 +1,9 @@
 // A corner and the edges from there (emitters/emitter_sample.glsl), at a right angle.
 //
-// Places that are even by solid angle, row by row: Ureña, Fajardo and King, "An Area-Preserving Parametrization for Spherical Rectangles"
-// (EGSR 2013). Here without its angles and arc cosines, of which float32 keeps three digits of what is seen edge-on. In the rectangle's own
-// space, the point in the middle, a strip is what lies between y0 and y1 and beyond x, on to infinity. Its solid angle T is that of a
-// triangle with one corner at the end of the x axis, and solved for x, with γ the angles of y0 and y1 to the y axis and λ = γ0 − γ1,
+// Points that are even by solid angle, row by row: Ureña, Fajardo and King, "An Area-Preserving Parametrization for Spherical Rectangles"
+// (EGSR 2013). Here without its angles and arc cosines, of which float32 keeps three digits if it is seen edge-on. In the rectangle's own
+// space, the point in the middle, a strip lies between y0 and y1 and beyond x, on to infinity. Its solid angle T is that of a
+// triangle with one corner at the end of the x axis. Solved for x, with γ the angles of y0 and y1 to the y axis and λ = γ0 − γ1:
 //   x / z = sin(λ − T) / (2 √(sin(T/2) sin(λ − T/2) sin(γ1 + T/2) sin(γ0 − T/2))).
 // Strips beyond both ends are measured, and the lesser one followed: nothing cancels.
 #ifndef EMITTER_RECTANGLE_GLSL

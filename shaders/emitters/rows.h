@@ -1,4 +1,4 @@
-// Every kind of surface that a point can choose a place on to be lit from; see shapes/rows.h. A row says whether such a surface may
+// Every kind of surface that a point can choose a point on to be lit from; see shapes/rows.h. A row states whether such a surface may
 // light itself, as the inside of a sphere does.
 #ifndef EMITTERS
 #define EMITTERS(X)       \

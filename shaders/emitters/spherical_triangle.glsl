@@ -1,7 +1,7 @@
-// Triangles as a point sees them, on the sphere of directions around it, and places on them that are even by solid angle: Arvo,
+// Triangles as a point sees them, on the sphere of directions around it, and points on them that are even by solid angle: Arvo,
 // "Stratified Sampling of Spherical Triangles" (SIGGRAPH 1995). Here without its angles, whose sum less π has no digits left of a small
-// triangle; the half angle's tangent is rational in what corners measure, by van Oosterom and Strackee, "The Solid Angle of a Plane
-// Triangle" (IEEE Trans. Biomedical Engineering, 1983), and solved for the place.
+// triangle. The half angle's tangent is rational in measures of the corners: van Oosterom and Strackee, "The Solid Angle of a Plane
+// Triangle" (IEEE Trans. Biomedical Engineering, 1983). It is solved for the point.
 #ifndef SPHERICAL_TRIANGLE_GLSL
 #define SPHERICAL_TRIANGLE_GLSL
 #include "emitters/emitter_sample.glsl"
@@ -45,7 +45,7 @@ bool is_by_solid_angle(SphericalTriangle seen) {
   return 2.0f * seen.half_angle >= LEAST_SPHERICAL_TRIANGLE && 2.0f * seen.half_angle <= MOST_SOLID_ANGLE;
 }
 
-// The place's weights of the first and the second corner, none of which is negative.
+// The point's weights of the first and the second corner, none of which is negative.
 vec2 spherical_triangle_place(SphericalTriangle seen, vec2 u) {
   // Along the edge opposite the apex, to where the triangle that is left has its share of the angle: the edge's half angle there has the
   // tangent y / x · its sine.

@@ -17,13 +17,13 @@ vec2 quadratic_roots(float a, float b, float c, float root) {
   return b < 0.0f ? vec2(other, one) : vec2(one, other);
 }
 
-// The first s with t + s > 0 at which the ray hits the boundary of a·s² + 2b·s + c ≤ 0 between s = enter and s = leave, and what is hit there:
+// The first s with t + s > 0 at which the ray hits the boundary of a·s² + 2b·s + c ≤ 0 between s = enter and s = leave. The hit part is
 // the quadric, or the piece's own boundary where the ray enters or leaves it. `open`: only the quadric. T_MISS if there is none. Where the
 // quadric and the piece's boundary intersect, both come from the same four numbers, so that no ray passes between them.
 // `equation`: a, b, c. `nearest_equation`: the same from s = `nearest_at`, the ray's point nearest to the centre. The discriminant is that
-// of either; there the products whose difference it is are smallest, so that a ray that grazes is hit where it should be. A root is taken from
-// whichever of the two places it is closer to: where a ray runs along a cone and past its apex, one seen from afar has no digits left; and
-// the sign of one near s = 0 is what keeps a ray that leaves from coming back.
+// of either; there the products whose difference it is are smallest, so that a ray that grazes is hit where it should be. A root is from
+// the closer of the two points. Where a ray runs along a cone and past its apex, a root seen from afar has no digits left. The
+// sign of one near s = 0 keeps a ray that leaves from coming back.
 float clipped_quadric(Ray ray, float t, vec3 equation, float nearest_at, vec3 nearest_equation, float enter, float leave, bool open, OUT(float) part) {
   float a = equation.x;
   float b = equation.y;

@@ -1,4 +1,4 @@
-// The cube from −1 to 1 in object space (geometry/object_space.glsl): a box, or what cuts another shape.
+// The cube from −1 to 1 in object space (geometry/object_space.glsl): a box, or the cutter of another shape.
 #ifndef CUBE_GLSL
 #define CUBE_GLSL
 #include "geometry/object_space.glsl"
@@ -91,7 +91,7 @@ vec3 inward_of_cut(Primitive s, vec3 p, vec3 gradient, float room) {
   return inward;
 }
 
-// Seen from outside u runs to the right and v up; what is up on top is −z, below +z.
+// Seen from outside u runs to the right and v up; on top up is −z, below +z.
 UvField cube_uv(vec3 p, vec2 face) {
   float u = face.x == 0.0f ? -p.z * face.y : face.x == 1.0f ? p.x : p.x * face.y;
   float v = face.x == 1.0f ? -p.z * face.y : p.y;

@@ -1,4 +1,4 @@
-// Spawned rays start inside of a surface's edges. There the neighbour is closer than rounding can say: a start that is put off one face
+// Spawned rays start inside of a surface's edges. There the neighbour is closer than rounding can resolve: a start that is put off one face
 // (spawn_ray) may lie behind the other, and nothing would stop its ray (docs/numerics.md).
 #ifndef EDGES_GLSL
 #define EDGES_GLSL
@@ -7,7 +7,7 @@
 SHADER_BEGIN
 
 // The distance inside of edges at which rays start on a surface whose `offset` is at most 8 EPSILON * reach: 16 of these. spawn_ray displaces a start
-// sideways by at most 8; the rest is for faces that enclose a small angle.
+// sideways by at most 8. The rest is for faces that enclose a small angle.
 float edge_room(Ray ray, float reach) {
 #if HAS_INSTANCES
   reach = reach + ray.reach;
@@ -27,7 +27,7 @@ vec2 inner_step(Surface surface, vec2 uv, float room) {
               inside_ends(uv.y, 0.0f, 1.0f, room * sqrt(dot3(surface.v_gradient, surface.v_gradient)))) - uv;
 }
 
-// `inward`, a displacement along a surface, and what is missing until value + gradient · displacement ≤ −room · |gradient|: then the start is on
+// `inward`, a displacement along a surface, and the rest until value + gradient · displacement ≤ −room · |gradient|: then the start is on
 // the inner side of another surface, and clear of it. It goes along the edge that it has been moved away from before, if any. `n`: the unit normal of the
 // surface itself.
 vec3 inward_of_face(vec3 inward, vec3 n, float value, vec3 gradient, float room) {

@@ -12,7 +12,7 @@ struct LocalRay {
   uint instance;        // NONE in the world
   uint first_id;        // to be added to the id of a primitive, …
   uint first_triangle;  // … or this, to that of a triangle of a group's meshes
-  uint optical_depth;         // what each primitive weakens a shadow ray by; NONE where they say it themselves
+  uint optical_depth;         // by which each primitive weakens a shadow ray; NONE where they state it themselves
 };
 
 LocalRay world_ray(Ray ray) {
@@ -40,7 +40,7 @@ vec3 map_offset(vec4 rows[3]) { return vec3(rows[0].w, rows[1].w, rows[2].w); }
 vec3 map_size(vec4 rows[3], vec3 size) {
   return vec3(dot3(abs3(vec3(rows[0])), size), dot3(abs3(vec3(rows[1])), size), dot3(abs3(vec3(rows[2])), size));
 }
-// By rows as columns: what maps normals, when `rows` is the inverse map.
+// By rows as columns: maps normals, when `rows` is the inverse map.
 vec3 transposed(vec4 rows[3], vec3 n) { return vec3(rows[0]) * n.x + vec3(rows[1]) * n.y + vec3(rows[2]) * n.z; }
 
 // The direction keeps its length in the instance's space, so that t stays the same. The difference comes first: near the instance it is exact

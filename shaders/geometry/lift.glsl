@@ -12,8 +12,8 @@ SHADER_BEGIN
 #if HAS_SMOOTH
 #define MOST_LIFT 0.25f  // of the longest edge
 
-// The point lies at these heights above the planes through the corners perpendicular to their normals. x: how far it is below them, y: how
-// far above, both averaged by its weights, along the interpolated normal and in the primitive's own space. −1 of what is no smooth triangle.
+// The point lies at these heights above the planes through the corners perpendicular to their normals. `x`: how far it is below them, y:
+// how far above, both averaged by its weights, along the interpolated normal and in the primitive's own space. −1: no smooth triangle.
 vec2 lift_of(Primitive s, vec2 uv) {
   vec2 none = vec2(-1.0f, -1.0f);
   if (kind_of(s) != KIND_triangle || s.extra == NONE) return none;

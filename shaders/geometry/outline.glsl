@@ -1,4 +1,4 @@
-// Outlines of straight edges, and what a ray passes within.
+// Outlines of straight edges, and whether a ray passes within one.
 #ifndef OUTLINE_GLSL
 #define OUTLINE_GLSL
 #include "geometry/edges.glsl"
@@ -13,8 +13,8 @@ vec3 seen_along(Ray ray, vec3 vertex) {
 }
 
 // True if the edge between p and q crosses the half line y = 0, x > 0 that starts at the ray. A ray passes within an outline whose edges do so an
-// odd number of times. The answer is the same for q and p: their products are each other's exact negatives. So of all shapes that have
-// the edge, each takes it alike, whatever rounding makes of it, and a ray that passes within a patch of them passes within an odd
+// odd number of times. The answer is the same for q and p: their products are each other's exact negatives. So all shapes that have
+// the edge take it alike, however it is rounded. A ray that passes within a patch of them passes within an odd
 // number of them: never between.
 bool crosses(vec3 p, vec3 q) {
   float side = p.x * q.y - p.y * q.x;
@@ -22,7 +22,7 @@ bool crosses(vec3 p, vec3 q) {
 }
 
 // t of a plane, brought into where the ray is within `half_size` of `centre`, seen from its start; −1 where it is not, or t ≤ 0. It is for
-// rays that graze the plane, and for BVHs, as in shapes/triangle.glsl: what rounding lets a ray hit is this close.
+// rays that graze the plane, and for BVHs, as in shapes/triangle.glsl: every point that rounding lets a ray hit is this close.
 float t_within(Ray ray, float t, vec3 centre, vec3 half_size) {
   float room = 16.0f * EPSILON * max_component(abs3(centre) + half_size);
   vec3 middle = centre * ray.inverse;

@@ -1,4 +1,4 @@
-// Rays and what they hit.
+// Rays and their hits.
 #ifndef RAY_GLSL
 #define RAY_GLSL
 #include "math/math.glsl"
@@ -18,7 +18,7 @@ struct Ray {
   float reach;   // how far the coordinates reach that the ray was mapped from, in the space that it is in now; 0 in the world
 #endif
 #if HAS_CSG
-  // A ray that asks a leaf of a CSG object for its next crossing: that behind which t, and on which side of the leaf the ray is until then.
+  // A ray that seeks the next crossing of a leaf of a CSG object: that behind which t, and on which side of the leaf the ray is until then.
   float after;
   uint side;
 #endif
@@ -71,7 +71,7 @@ struct Surface {
   // The values that bent normals need (materials/bent_normal.glsl).
   vec3 u_gradient;  // gradients of u and v at p; components off the surface do not count
   vec3 v_gradient;
-  vec4 tangent;  // a mesh's own: along u, and whether v is to the left of that, 1, or to the right, −1; w = 0 where the gradients say it
+  vec4 tangent;  // a mesh's own: along u, and whether v is to the left of that, 1, or to the right, −1; w = 0 where the gradients state it
 #if HAS_SECOND_UV
   vec2 second_uv;  // the same of a mesh's second texture coordinates; as above where it has none
   vec3 second_u_gradient;
@@ -185,7 +185,7 @@ Ray make_ray(vec3 o, vec3 d) {
 #if HAS_BLEND
   ray.alpha_key = 0u;
 #endif
-  // Over the whole length of the ray, 1e-12 of it is far less than what bvh.glsl widens its boxes by.
+  // Over the whole length of the ray, 1e-12 of it is far less than the margin by which bvh.glsl widens its boxes.
   float least = 1.0e-12f * abs(p.z);
   ray.inverse = vec3(bounded_inverse(d.x, least), bounded_inverse(d.y, least), bounded_inverse(d.z, least));
   return ray;

@@ -52,8 +52,8 @@ vec3 inward_of_rim(Primitive s, Ray ray, vec3 p, float radius, float slope) {
   return vec3(out_there.x * step, 0.0f, out_there.y * step);
 }
 
-// The surface at a point of a part. `radius` and `slope`: of the side at the height of p, and by how much it grows with y; `square`: of y² in the radius' square; `end_radius`: of a
-// cap's rim; `rim`: where the lower one is, below `bottom` where the side ends in a rounded tip. On the side u runs about the axis as on a globe and
+// The surface at a point of a part. `radius` and `slope`: of the side at the height of p, and by how much it grows with y. `square`: of y² in the radius' square. `end_radius`: of a
+// cap's rim. `rim`: where the lower one is, below `bottom` where the side ends in a rounded tip. On the side u runs about the axis as on a globe and
 // v from the bottom to the top; on caps, from the middle of the texture. A cap without a rim is the side's tip.
 Surface revolution_surface(Primitive s, Ray ray, vec3 p, float part, float rim, float bottom, float top, float radius, float slope,
                            float square, float end_radius) {

@@ -1,4 +1,4 @@
-// From a hit to the surface there: asks the shape that was hit, and brings an instance's into the world.
+// From a hit to the surface there: calls the shape that was hit, and brings an instance's into the world.
 #ifndef SURFACE_GLSL
 #define SURFACE_GLSL
 #include "geometry/clear_of_planes.glsl"

@@ -1,4 +1,4 @@
-// Texture coordinates on a shape in its own space, and how they grow around a place.
+// Texture coordinates on a shape in its own space, and how they grow around a point.
 #ifndef UV_FIELD_GLSL
 #define UV_FIELD_GLSL
 #include "math/math.glsl"

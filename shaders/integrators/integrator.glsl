@@ -1,9 +1,9 @@
 // The interface of integrators. A step is a function that never traces: the loop (loop.glsl) and the wavefront
 // (kernels/wavefront.comp.glsl) call these and trace the rays that they name.
-//   NAME_missed      the radiance of a ray that hits nothing
-//   NAME_emitted     what a path gains where it arrived, before any shadow ray, not yet weighted by its throughput
-//   NAME_shadow_ray  the i-th of shadow_rays(): false where it counts for nothing; else the ray, how far it goes, and what it adds if
-//                    nothing is in between, weighted as above; and to which light
+//   NAME_missed      the radiance of a ray that hits nothing.
+//   NAME_emitted     the path's gain where it arrived, before any shadow ray, not yet weighted by its throughput.
+//   NAME_shadow_ray  the i-th of shadow_rays(): false where it counts for nothing. Else the ray, its length, and the light that it adds if
+//                    nothing is in between, weighted as above; and to which light.
 //   NAME_scatter     how the path goes on
 #ifndef INTEGRATOR_GLSL
 #define INTEGRATOR_GLSL

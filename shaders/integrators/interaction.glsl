@@ -11,9 +11,9 @@ struct Interaction {
   Surface surface;             // as the shape has it
   Surface seen;                // the same with its normals towards where the ray came from
   vec3 d;                      // the direction that the ray came in, unit
-  uint primitive;              // the scene's index of what was hit
+  uint primitive;              // the scene's index of the hit primitive
   Material material;
-  ScatteringContext context;   // what the material's scattering depends on
+  ScatteringContext context;   // the inputs of the material's scattering
   Scattering scattering;       // towards where the ray came from
 #if RANDOM_WALK
   Bsdf bsdf;

@@ -1,6 +1,6 @@
-// Path tracing (Kajiya, "The Rendering Equation", SIGGRAPH 1986): one path a sample, and at each vertex a shadow ray to a place on one light.
-// What both a shadow ray and the path itself may find is weighed by the power heuristic (Veach and Guibas, "Optimally Combining Sampling
-// Techniques for Monte Carlo Rendering", SIGGRAPH 1995); paths end by Russian roulette (Arvo and Kirk, "Particle Transport and Image
+// Path tracing (Kajiya, "The Rendering Equation", SIGGRAPH 1986): one path a sample, and at each vertex a shadow ray to a point on one light.
+// Light that both a shadow ray and the path may find is weighed by the power heuristic (Veach and Guibas, "Optimally Combining Sampling
+// Techniques for Monte Carlo Rendering", SIGGRAPH 1995). Paths end by Russian roulette (Arvo and Kirk, "Particle Transport and Image
 // Synthesis", SIGGRAPH 1990).
 #ifndef PATH_GLSL
 #define PATH_GLSL
@@ -51,7 +51,7 @@ bool on_its_side(Interaction at, vec3 d, vec3 i) {
   return on_side;
 }
 
-// The power heuristic of what was chosen with density p, and could have been with density q. The ratio is squared: densities may be too large.
+// The power heuristic of a choice with density p that could also have density q. The ratio is squared: densities may be too large.
 float power_heuristic(float p, float q) {
   float ratio = q / p;
   return 1.0f / (1.0f + ratio * ratio);
@@ -74,7 +74,7 @@ vec3 path_missed(Frame frame, Path path) {
   return light;
 }
 
-// The surface's own light, less what shadow rays to it have brought already.
+// The surface's own light, less the part that shadow rays to it have brought already.
 vec3 path_emitted(Frame frame, Path path, Interaction at) {
   vec3 light = vec3(0.0f, 0.0f, 0.0f);
 #if HAS_EMISSION

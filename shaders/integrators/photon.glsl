@@ -14,7 +14,7 @@
 SHADER_BEGIN
 
 #if HAS_PHOTONS
-// A bent normal changes how much light a surface takes from one direction and sends in another, which paths and photons see from
+// A bent normal changes how much light a surface takes from one direction and sends in another. Paths and photons see this from
 // opposite ends (Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, 5.3). No path comes from where the triangle is
 // seen from its other side.
 float bent_both_ways(Interaction at, vec3 d) {
@@ -26,7 +26,7 @@ float bent_both_ways(Interaction at, vec3 d) {
   return (out_true / maximum(out_bent, 1.0e-6f)) * (in_bent / maximum(in_true, 1.0e-6f));
 }
 
-// Flux is radiance times area times solid angle. So in a medium that is index² times what radiance / index² makes of it.
+// Flux is radiance times area times solid angle. So in a medium it is index² times as much as for radiance / index².
 float squared_index(uint media) {
   if (HAS_MEDIA == 0) return 1.0f;
   float ior = load_medium(innermost_medium(media)).ior;

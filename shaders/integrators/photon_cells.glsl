@@ -7,7 +7,7 @@
 
 SHADER_BEGIN
 
-#define MOST_CELLS 8388608.0f  // from the eye along an axis; what is farther away is in none
+#define MOST_CELLS 8388608.0f  // from the eye along an axis; points farther away are in none
 
 // The cell of a point given in units of cells, relative to the eye.
 vec3 cell_of(vec3 place) { return vec3(floor(place.x), floor(place.y), floor(place.z)); }

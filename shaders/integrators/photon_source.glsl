@@ -17,12 +17,12 @@ struct PhotonSource {
   vec3 d;
   vec3 flux;   // of all photons, if each were as this one
   uint media;  // that it starts in
-  uint light;  // its number; NONE: what is around
+  uint light;  // its number; NONE: the surroundings
   bool below;  // it leaves a surface against its normal
   uint aim;    // as LightEmission has it
 };
 
-// A point for which places are chosen by area: within what is closed, on what is flat.
+// A point for which start points are chosen by area: within closed shapes, on flat ones.
 #define MIDDLE_sphere(e) emitter_origin(e)
 #define MIDDLE_disk(e) emitter_origin(e)
 #define MIDDLE_triangle(e) emitter_origin(e)

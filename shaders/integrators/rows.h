@@ -1,4 +1,4 @@
-// Every integrator; see shapes/rows.h. A row says to which lights the integrator casts shadow rays where a path hits something, and in
+// Every integrator; see shapes/rows.h. A row states to which lights the integrator casts shadow rays where a path hits something, and in
 // how many ways at most the path goes on from there.
 #ifndef INTEGRATORS
 #define INTEGRATORS(X)           \

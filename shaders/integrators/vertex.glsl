@@ -1,4 +1,4 @@
-// A vertex of a path, from its hit on: what both drivers do there, the loop and the wavefront.
+// A vertex of a path, from its hit on: the steps that both drivers, the loop and the wavefront, take there.
 #ifndef VERTEX_GLSL
 #define VERTEX_GLSL
 #include "bvh/traverse.glsl"
@@ -67,7 +67,7 @@ vec3 through_panes(Frame frame, Ray ray, float distance, uint light, uint media,
 }
 #endif
 
-// Adds what `path` gains at the hit of `ray`, and finds how it goes on. `counts`: rays, hits, flags, loop iterations; `trail`: what it decides
+// Adds the path's gain at the hit of `ray`, and finds how it goes on. `counts`: rays, hits, flags, loop iterations; `trail`: its decisions
 // (integrators/trail.glsl).
 Continuations shade(Frame frame, Path path, Ray ray, Hit hit, INOUT(vec3) color, INOUT(uvec4) counts, INOUT(uint) trail) {
   Continuations all = no_continuation(path);

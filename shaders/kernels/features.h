@@ -1,9 +1,9 @@
 // The defines by which a kernel is specialised: the contract between executors/specialise.cpp, which writes these defines for a scene,
-// the twin, which is compiled once for every scene (twin/shader_functions.hpp), and the shaders that ask them. A test compares the lists.
+// the twin, which is compiled once for every scene (twin/shader_functions.hpp), and the shaders that test them. A test compares the lists.
 #ifndef FEATURES_H
 #define FEATURES_H
 
-// ---- What the scene has. Default: everything; the twin takes it, and shaders ask the records as well ----------------
+// ---- The scene's features. Default: everything; the twin takes it, and shaders test the records as well -------------
 #ifndef HAS_COLORS  // a mesh's vertices have colours
 #define HAS_COLORS 1
 #endif
@@ -43,7 +43,7 @@
 #ifndef HAS_ROUGH_DIFFUSE  // a diffuse lobe is not Lambert's
 #define HAS_ROUGH_DIFFUSE 1
 #endif
-#ifndef HAS_SPECULAR_TEXTURES  // what a surface mirrors varies otherwise than by colour and roughness
+#ifndef HAS_SPECULAR_TEXTURES  // a surface's mirroring varies otherwise than by colour and roughness
 #define HAS_SPECULAR_TEXTURES 1
 #endif
 #ifndef HAS_COAT  // a surface is coated
@@ -127,18 +127,18 @@
 #ifndef UV_OF  // (name): whether the texture coordinates of that kind of shape count
 #define UV_OF(name) true
 #endif
-// No default; the twin asks its PackedScene.
+// No default; the twin queries its PackedScene.
 //   LIGHT_COUNT        how many lights there are
-//   EMITTER_COUNT      how many lights and surfaces one is chosen from; 0 where none is
+//   EMITTER_COUNT      how many lights and surfaces one is chosen from; 0 where none is.
 //   ANY_PANE           true or false: whether paths may pass a surface straight
-//   ANY_INTERFACE      true or false: whether one of these may be a border between media of one index
-//   HAS_ENVIRONMENT_LIGHT  true or false: whether one is chosen from the environment
+//   ANY_INTERFACE      true or false: whether one of these may be a border between media of one index.
+//   HAS_ENVIRONMENT_LIGHT  true or false: whether one is chosen from the environment.
 //   INSTANCE_COUNT     how many instances
 //   TRIANGLE_METHOD    TRIANGLE_WOOP or TRIANGLE_MOLLER_TRUMBORE
 //   HAS_BVH            true or false: whether there is a BVH of the world
-//   QUANTISED_NODES    true or false: how its nodes are coded
+//   QUANTISED_NODES    true or false: how its nodes are coded.
 //   KIND_FIRST         (name): the first slot of that kind in no BVH
-//   KIND_END           (name): and the end of its slots
+//   KIND_END           (name): and the end of its slots.
 //   KIND_name          the number of a shape, and below, by which KIND_FIRST, KIND_END and UV_OF answer
 //   FIRST_name
 //   END_name
@@ -148,17 +148,17 @@
 //   SHAPES
 //   CLOSED_SHAPES      those that the scene's CSG objects are made of …
 //   IMMEDIATE_LEAVES   … of these those that are not deferred (shapes/csg.glsl)
-//   DEFERRED_LEAVES    … and those that are
+//   DEFERRED_LEAVES    … and those that are.
 //   DEFERRED_SHAPES    those that rays wait with for each other (bvh/traverse.glsl)
 //   IMMEDIATE_SHAPES   those in BVHs that are not deferred
-//   ALPHA_TESTED_SHAPES  those of a material with an alpha
+//   ALPHA_TESTED_SHAPES  those of a material with an alpha.
 //   TEXTURES
-//   TEXTURES_OF        (name, X): those that materials have as that texture of theirs (MATERIAL_TEXTURES)
+//   TEXTURES_OF        (name, X): those that materials have as that texture of theirs (MATERIAL_TEXTURES).
 //   MATERIALS
 //   PANES              those that may be panes
 //   LOBES
 //   CAMERAS
-//   CAMERA_IS          (number): whether that is the frame's
+//   CAMERA_IS          (number): whether that is the frame's.
 //   SAMPLERS
 //   SAMPLER_IS         (number): whether that is the frame's
 //   LIGHTS
@@ -169,20 +169,20 @@
 // ---- Formulas -------------------------------------------------------------------------------------------------------
 //   FORMULAS              (X): X(number, name) of each surface's; shapes/implicit/*.glsl are included once for each …
 //   FORMULA_NAME          … with this to name their functions, (part), …
-//   FORMULA_VALUE         … and these to ask the formula
+//   FORMULA_VALUE         … and these to evaluate the formula.
 //   FORMULA_HAS_GRADIENT
 //   FORMULA_GRADIENT
 //   FORMULA_BOUND
 //   FORMULA_DUAL
-//   FORMULA_COLOR         (number, uv): what a colour's formula says
-//   FORMULA_DIRECTION     (number, at): what a camera's formula says …
-//   FORMULA_ORIGIN        … and where it says that the ray starts
+//   FORMULA_COLOR         (number, uv): the result of a colour's formula.
+//   FORMULA_DIRECTION     (number, at): the result of a camera's formula …
+//   FORMULA_ORIGIN        … and the start of the ray by that formula.
 //   FORMULA_OVERRAN       defined where a formula loops: whether one made too many turns
 //   FORMULA_NUMBERS       defined where formulas read their numbers from a buffer
 
-// ---- What is compiled in: defined or not; the twin has none of it ----------------------------------------------------
+// ---- Compiled-in records: defined or not; the twin has none of it ---------------------------------------------------
 //   SHADING_AS_CONSTANTS  materials, textures, media and lights
-//   FRAME_AS_CONSTANT     the frame
+//   FRAME_AS_CONSTANT     the frame.
 //   SCENE_MATERIALS       (X): X(name, index, material) of each
 //   SCENE_PRIMITIVES      (X): X(name, slot, primitive) of each, in the order of their ids
 
@@ -202,19 +202,19 @@
 #ifndef TRACE_ITERATIONS  // that a ray makes outside BVHs
 #define TRACE_ITERATIONS 0u
 #endif
-//   TUNABLES              constants that eyeray dev lets people move, from a buffer (executors/tunables.hpp)
+//   TUNABLES              constants that eyeray dev lets people move, from a buffer (executors/tunables.hpp).
 //   LOOP_PROBE            2, from a buffer (kernels/loops.glsl); kernels/bindings.glsl defines it
-//   STOPPED_LOOPS         defined in kernels that may hold a user's shaders: the bit of the loop that was stopped, or 0
+//   STOPPED_LOOPS         defined in kernels that may hold a user's shaders: the bit of the loop that was stopped, or 0.
 //   LOOP_BUDGET           defined where a driver caps loops: the iterations that a pixel may make (docs/lavapipe.md)
 
 // ---- How the kernel runs ---------------------------------------------------------------------------------------------
-#ifndef TEXEL_BUFFERS  // whether what grows with the scene is in texel buffers (kernels/bindings.glsl)
+#ifndef TEXEL_BUFFERS  // whether records that grow with the scene are in texel buffers (kernels/bindings.glsl)
 #define TEXEL_BUFFERS 0
 #endif
 #ifndef RAY_KINDS  // whether rays are counted by their kinds (records.h, SampleResult)
 #define RAY_KINDS 1
 #endif
-#ifndef SEARCH_COST  // whether first hits say what their search cost (records.h, HitResult)
+#ifndef SEARCH_COST  // whether first hits contain the cost of their search (records.h, HitResult)
 #define SEARCH_COST 1
 #endif
 #ifndef GROUP_STRIDE  // runs of workgroups (kernels/tile.glsl)
@@ -230,24 +230,24 @@
 #define PACKET_STACK 1
 #endif
 
-// ---- What an executor defines for one kernel of an entry -------------------------------------------------------------
+// ---- Defines of an executor for one kernel of an entry ---------------------------------------------------------------
 #ifndef STORED_HITS  // whether other kernels have traced the paths' rays and their shadow rays
 #define STORED_HITS 0
 #endif
 //   FIRST_HITS            first hits instead of samples
-//   AUXILIARY             what a denoiser asks of them (integrators/auxiliary.glsl)
-//   SENDS_PHOTONS         photons are sent out and stored, where other kernels gather them
+//   AUXILIARY             the inputs of a denoiser from them (integrators/auxiliary.glsl).
+//   SENDS_PHOTONS         photons are sent out and stored, where other kernels gather them.
 //   QUERY_ANY             any hit will do
 //   LISTED                the pixels of a list
-//   ENDS_ONLY             of a wavefront: what goes on is only listed
+//   ENDS_ONLY             of a wavefront: the paths that go on are only listed.
 //   PACKET_PRIMARY        a packet's rays are those of the eye …
-//   PACKET_SHADOW         … or those to the lights from what they hit
+//   PACKET_SHADOW         … or those to the lights from their hits.
 //   BOUNCE_HITS           kernels/cooperative/bvh4.comp.glsl traces the rays of a bounce …
-//   BOUNCE_SHADOW         … or those to the lights from what they hit
+//   BOUNCE_SHADOW         … or those to the lights from their hits.
 //   BVH4_STACK_SIZE       of kernels/cooperative/bvh4.comp.glsl
-//   PROBING               what shaders PROBE is recorded (kernels/probe.glsl) …
+//   PROBING               the values that shaders PROBE are recorded (kernels/probe.glsl) …
 //   PROBE_CAPACITY        … so many of it at most, …
-//   PROBED_name           … each name by its number
+//   PROBED_name           … each name by its number.
 //   PROBE                 (name, value), PROBE_RAY, PROBE_BACK: language.h has them empty, kernels/probe.glsl and the twin as they record
 //   PROBE_RAY             (kind, number, depth)
 //   PROBE_BACK            (depth)

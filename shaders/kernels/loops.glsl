@@ -1,4 +1,4 @@
-// Drivers that end loops early, and say nothing (docs/lavapipe.md).
+// Drivers that end loops early without any report (docs/lavapipe.md).
 #ifndef LOOPS_GLSL
 #define LOOPS_GLSL
 #include "records.h"

@@ -48,7 +48,7 @@ AuxiliaryResult render_auxiliary(Frame frame, uint x, uint y, uint index) {
   return result;
 }
 
-// Through the middle of the pixel, from that of the lens; of what blends it hits what the pixel's first sample does.
+// Through the middle of the pixel, from that of the lens; of surfaces that blend it hits the same as the pixel's first sample.
 HitResult first_hit(Frame frame, uint x, uint y) {
   vec2 place = vec2(float(x) + 0.5f, float(y) + 0.5f);
   vec2 lens = vec2(0.0f, 0.0f);
@@ -103,7 +103,7 @@ QueryHit answer(TraversalState state, bool any, uint flags) {
   return result;
 }
 
-// A ray asked about alone: the nearest hit before its t_max, or whether anything keeps its light away.
+// A single ray: the nearest hit before its t_max, or whether anything keeps its light away.
 QueryHit query(QueryRay asked, bool any) {
   Ray ray = make_ray(asked.origin, asked.direction);
   TraversalState state = search(ray, minimum(asked.t_max, T_MISS), any);

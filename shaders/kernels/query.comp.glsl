@@ -1,4 +1,4 @@
-// Entry: rays from a buffer, asked about alone. Without QUERY_ANY the nearest hit, with it whether there is one.
+// Entry: single rays from a buffer. Without QUERY_ANY the nearest hit, with it whether there is one.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require

@@ -1,4 +1,4 @@
-// A path as the kernels of the wavefront hand it on: `paths`, by the place of its pixel in the tile. Only paths that never split wait
+// A path as the kernels of the wavefront hand it on: `paths`, by the position of its pixel in the tile. Only paths that never split wait
 // there.
 #ifndef QUEUED_PATH_GLSL
 #define QUEUED_PATH_GLSL

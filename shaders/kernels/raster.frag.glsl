@@ -1,4 +1,4 @@
-// Leaves the primitive's id where it is the nearest: what `eyeray verify --raster` draws.
+// Leaves the primitive's id where it is the nearest, for the rasterised triangles of `eyeray verify --raster`.
 #version 450
 
 layout(location = 0) flat in uint drawn;

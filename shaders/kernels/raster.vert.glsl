@@ -1,4 +1,4 @@
-// Places a vertex where the host has projected it, in float64: what `eyeray verify --raster` draws.
+// Puts a vertex where the host has projected it, in float64, for the rasterised triangles of `eyeray verify --raster`.
 #version 450
 
 layout(location = 0) in vec3 place;

@@ -1,9 +1,9 @@
-// Entry: a tile of the picture. One sample of each pixel, or with LISTED of those in a list; or with FIRST_HITS what the ray through
-// the centre of each hits, with AUXILIARY what a denoiser asks of the sample.
+// Entry: a tile of the picture. One sample of each pixel, or with LISTED of those in a list; or with FIRST_HITS the hit of the ray through
+// the centre of each, with AUXILIARY the sample's inputs of a denoiser.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
-#include "scene.glsl"  // made for the scene by executors/specialise.cpp: only what it has is compiled
+#include "scene.glsl"  // made for the scene by executors/specialise.cpp: only its features are compiled
 #include "kernels/pixel.glsl"
 #include "kernels/tile.glsl"
 

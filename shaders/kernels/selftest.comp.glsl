@@ -1,4 +1,4 @@
-// Known answers: what host/gpu/self_test.cpp asks of a driver before anything is rendered on it. Every invocation does each
+// Known answers: host/gpu/self_test.cpp requires them of a driver before anything is rendered on it. Every invocation does each
 // operation once on inputs from a buffer, so that no compiler can know the results.
 #version 450
 

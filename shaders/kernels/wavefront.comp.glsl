@@ -1,6 +1,6 @@
 // Entry: shades one bounce of the paths of a tile, all at the same depth. Without LISTED it takes every pixel, at its camera ray's hit;
 // with it the pixels of a list, whose paths go on, so that no lane is idle. With STORED_HITS other kernels have already traced the paths'
-// hits, and the losses of their shadow rays; else it traces them itself, each on its lane. Each pixel adds what its path gains, and enters
+// hits, and the losses of their shadow rays; else it traces them itself, each on its lane. Each pixel adds its path's gain, and enters
 // itself in the next list if the path goes on. The order of a list changes nothing. With ENDS_ONLY nothing is kept of paths that go on:
 // render.comp.glsl restarts those, if rays split in two.
 #version 460

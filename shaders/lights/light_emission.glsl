@@ -10,7 +10,7 @@ struct LightEmission {
   vec3 o;
   vec3 d;     // unit
   vec3 flux;  // the emitted light, divided by the density of position and direction
-  uint aim;   // what its trail says of that (photon_aim.glsl)
+  uint aim;   // its part of the trail (photon_aim.glsl)
 };
 
 LightEmission no_emission() {
@@ -22,7 +22,7 @@ LightEmission no_emission() {
   return none;
 }
 
-// A direction at most as far from the unit vector `axis` as the versine says, evenly by solid angle.
+// A direction at most as far from the unit vector `axis` as the versine allows, evenly by solid angle.
 vec3 within_cone(vec3 axis, float versine, vec2 u) {
   float below = u.x * versine;
   vec2 turn = sine_cosine(2.0f * PI * u.y);

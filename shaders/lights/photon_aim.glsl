@@ -1,5 +1,5 @@
 // Half of the photons of a light are aimed: at spheres around objects that focus light, glass and mirrors, which few unaimed photons would
-// hit. Jensen's projection maps do this too ("Global Illumination Using Photon Maps", 1996); here there are no cells and no bias: a
+// hit. Jensen's projection maps do this too ("Global Illumination Using Photon Maps", 1996). Here there are no cells and no bias: a
 // photon's flux is divided by the density of both ways together, by which it may have come (Veach's balance heuristic, of one sample).
 #ifndef PHOTON_AIM_GLSL
 #define PHOTON_AIM_GLSL
@@ -27,7 +27,7 @@ struct Window {
 };
 
 struct Aimed {
-  vec3 at;        // a direction, or a place on the disk
+  vec3 at;        // a direction, or a point on the disk
   bool by_aim;    // by a window
   float density;  // with which such are aimed there
   uint windows;   // that there are, …
@@ -65,7 +65,7 @@ vec3 in_window(Window window, AimFrom from) {
   return window.middle + (local.s * at.x + local.t * at.y);
 }
 
-// by_chance: what the light would choose itself.
+// by_chance: the light's own choice without aiming.
 Aimed aimed(PhotonPass pass, AimFrom from, vec3 by_chance) {
   Aimed all;
   all.at = by_chance;

@@ -1,4 +1,4 @@
-// It shines from one place to all sides.
+// It shines from one point to all sides.
 #ifndef POINT_GLSL
 #define POINT_GLSL
 #include "lights/photon_aim.glsl"

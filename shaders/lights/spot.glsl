@@ -1,4 +1,4 @@
-// It shines from one place into a cone.
+// It shines from one point into a cone.
 #ifndef SPOT_GLSL
 #define SPOT_GLSL
 #include "lights/photon_aim.glsl"
@@ -17,7 +17,7 @@ LightSample spot_sample(Light light, vec3 p) {
   LightSample s = no_light();
   s.direction = way / distance;
   s.distance = distance;
-  // The versine of the angle from the axis: where that is small, its cosine says nothing.
+  // The versine of the angle from the axis: where that is small, its cosine has no digits left.
   vec3 apart = s.direction + spot_axis(light);
   float within = minimum(maximum((spot_versine(light) - 0.5f * dot3(apart, apart)) * spot_steepness(light), 0.0f), 1.0f);
   s.color = light.intensity * (within * within / (distance * distance));

@@ -1,4 +1,4 @@
-// Shading normals that a material bends: by a normal map, in tangent space as glTF has them, and by the slope of a height field (Blinn,
+// Shading normals that a material bends: by a normal map, in tangent space as glTF has them, and by a height field's slope (Blinn,
 // "Simulation of Wrinkled Surfaces", SIGGRAPH 1978). docs/path-tracing.md has the formulas.
 #ifndef BENT_NORMAL_GLSL
 #define BENT_NORMAL_GLSL
@@ -67,7 +67,7 @@ vec3 bumped_normal(Material material, Surface surface, vec3 n, TextureContext pl
   return unit_or(n - (slope - n * dot3(n, slope)), n);
 }
 
-// A normal on the viewer's side, bent so far that what it mirrors to the viewer is above the surface too. Keller et al., "The Iray Light
+// A normal on the viewer's side, bent so far that the viewer's mirror direction is above the surface too. Keller et al., "The Iray Light
 // Transport Simulation and Rendering System" (2017), appendix. `d`: towards the surface, unit.
 vec3 above_surface(vec3 n, vec3 normal_geometric, vec3 d) {
   float upright = dot3(n, normal_geometric);

@@ -1,5 +1,5 @@
-// The media that a ray is inside of: a stack of up to four medium numbers, a byte each, the innermost lowest. 0 is what
-// is around all. Entering pushes and leaving removes wherever it lies, so media may overlap as well as nest.
+// The media that a ray is inside of: a stack of up to four medium numbers, a byte each, the innermost lowest. 0 is the medium
+// around all. Entering pushes and leaving removes wherever it lies, so media may overlap as well as nest.
 #ifndef MEDIA_GLSL
 #define MEDIA_GLSL
 #include "language.h"

@@ -9,7 +9,7 @@
 
 SHADER_BEGIN
 
-vec3 principled_f0(Material material) { return vec3(material.b); }  // of what is no metal, where its texture is white; and …
+vec3 principled_f0(Material material) { return vec3(material.b); }  // of all but metal, where its texture is white; and …
 float principled_f90(Material material) { return material.b.w; }  // … so seen edge-on
 
 Scattering principled_scattering(Material material, ScatteringContext context) {
@@ -31,7 +31,7 @@ vec3 principled_color(Material material, ScatteringContext context) {
   return color * context.color;
 }
 
-// The body, what mirrors above it, coat and sheen; no light goes through yet.
+// The body, the mirror above it, coat and sheen; no light goes through yet.
 Bsdf principled_surface(Material material, ScatteringContext context, vec3 color, float metallic) {
   Bsdf bsdf = black_bsdf();
   bsdf.diffuse = color * (1.0f - metallic);

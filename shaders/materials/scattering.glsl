@@ -36,8 +36,8 @@ struct Scattering {
   vec3 ambient;      // × the scene's ambient light
   vec3 diffuse;      // × light · cos θ
   vec3 specular;     // × light · highlight lobe
-  vec3 reflected;    // × what the mirror direction sees
-  vec3 transmitted;  // × what the refracted direction sees
+  vec3 reflected;    // × radiance from the mirror direction
+  vec3 transmitted;  // × radiance from the refracted direction
   vec3 emitted;      // radiance that the point emits
 };
 

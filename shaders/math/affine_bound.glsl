@@ -1,6 +1,6 @@
-// Guaranteed bounds of a function along a piece of a ray. The piece is o + (m + h·s)·d with −1 ≤ s ≤ 1, and the bound (a, b, e) of a function f on it
-// states |f − (a + b·s)| ≤ e for each s: a line, and the largest distance of f from it. It is an affine form whose only symbol is the position on the
-// ray (Comba and Stolfi 1993), so that terms of the same position cancel, and e shrinks with h². e includes float32's rounding. An unbounded
+// Guaranteed bounds of a function along a piece of a ray. The piece is o + (m + h·s)·d with −1 ≤ s ≤ 1. The bound (a, b, e) of a function f on it
+// states |f − (a + b·s)| ≤ e for each s: a line, and the largest distance of f from it. It is an affine form whose only symbol is s, the point on the
+// ray (Comba and Stolfi 1993). Therefore terms of the same point cancel, and e shrinks with h². e includes float32's rounding. An unbounded
 // function, as 1/x around 0, has an infinite e.
 #ifndef BOUND_GLSL
 #define BOUND_GLSL
@@ -15,7 +15,7 @@ SHADER_BEGIN
 
 #define BOUND_UNBOUNDED 1.0e30f
 #define BOUND_GROW 1.000002f   // rounding of a sum of some eight positive terms
-#define BOUND_TINY 1.0e-36f    // what products lose below the smallest float
+#define BOUND_TINY 1.0e-36f    // the loss of products below the smallest float
 
 // `rounded`: the sum of the absolute values of all results that were rounded on the way to a and b, each as often as it was.
 vec3 bound_rounded(float a, float b, float e, float rounded) {
@@ -174,7 +174,7 @@ vec3 bound_cosine(vec3 x) {
   return bound_wave(x, at.y, -at.x);
 }
 
-// The angle of (x, y) in (−π, π]: that of the piece's middle, and the arc tangent of what it turns from there. The middle's is off by the rounding of (c, s),
+// The angle of (x, y) in (−π, π]: that of the piece's middle, and the arc tangent of the turn from there. The middle's is off by the rounding of (c, s),
 // and by that of atan_yx, which is within seven ε: both are among the 16 that are added.
 vec3 bound_angle(vec3 y, vec3 x) {
   float length = sqrt(x.x * x.x + y.x * y.x);

@@ -1,4 +1,4 @@
-// A number with its gradient: (gradient, value). Functions of such numbers give the exact derivative, rounded, of what is computed (forward
+// A number with its gradient: (gradient, value). Functions of such numbers give the exact derivative, rounded, of the computation (forward
 // differentiation).
 #ifndef DUAL_GLSL
 #define DUAL_GLSL

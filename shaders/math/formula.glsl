@@ -1,5 +1,5 @@
 // GLSL's built-in functions for formulas that users write (docs/implicit-surfaces.md), of one number each, `sin` as `fn_sin`: in the operations of
-// math/math.glsl alone, so that GPU and twin agree to the last bit. Absolute or relative errors, whichever is larger, are of some 1e-7 where nothing else is said.
+// math/math.glsl alone, so that GPU and twin agree to the last bit. Absolute or relative errors, whichever is larger, are some 1e-7 unless stated otherwise.
 #ifndef FORMULA_GLSL
 #define FORMULA_GLSL
 #include "math/math.glsl"
@@ -26,7 +26,7 @@ float fn_inversesqrt(float x) { return 1.0f / sqrt(x); }
 float fn_radians(float x) { return x * 0.0174532925f; }
 float fn_degrees(float x) { return x * 57.2957795f; }
 
-// The sine of `quarters` quarter turns and x, up to |x| of some ten thousand; what lies beyond is no angle but within [−1, 1]. Cody and Waite's
+// The sine of `quarters` quarter turns and x, up to |x| of some ten thousand; for larger x some number within [−1, 1]. Cody and Waite's
 // reduction, polynomials of degree 7 and 8.
 float sine_of(float x, float quarters) {
   float k = floor(x * 0.636619772f + 0.5f);

@@ -12,7 +12,7 @@ SHADER_BEGIN
 
 float minimum(float x, float y) { return y < x ? y : x; }
 float maximum(float x, float y) { return x < y ? y : x; }
-// x, with 0 for −0. llvmpipe takes 0·x as 0 where a factor is a constant, whatever the sign of x: what leaves a kernel goes
+// x, with 0 for −0. llvmpipe takes 0·x as 0 where a factor is a constant, whatever the sign of x. Values that leave a kernel go
 // through here, so that the sign of a zero is the same everywhere.
 float positive_zero(float x) { return x == 0.0f ? 0.0f : x; }
 // a / b for b > 0 and a < 2^24. A CPU driver divides integers lane by lane, floats all at once; they are off by one at most, on any device.
@@ -76,7 +76,7 @@ float log_positive(float x) {
   return (r + y) + exponent * 0.693359375f;
 }
 
-// (1 − e)^n for 0 ≤ e ≤ 1. Taking e instead of 1 − e keeps highlights of high exponents exact where e is small: the error
+// (1 − e)^n for 0 ≤ e ≤ 1. Taking e instead of 1 − e keeps highlights of high exponents exact where e is small. The error
 // grows with √n, not with n. ln(1 − e) is Kahan's: the rounding of 1 − e is divided out again.
 float power_of_complement(float e, float n) {
   float u = 1.0f - e;

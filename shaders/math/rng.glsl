@@ -13,7 +13,7 @@ uint pcg_hash(uint x) {
   return (word >> 22u) ^ word;
 }
 
-// The uses of pairs of random numbers. Each use has its own pair, whatever a path does.
+// The uses of pairs of random numbers. Each use has its own pair, on every path.
 #define PAIR_PLACE 0u     // in the pixel
 #define PAIR_LENS 1u      // and on the lens
 #define PAIR_SCATTER 4u   // of the first vertex: which lobe, and whether the path ends; PAIRS_A_VERTEX further on those of the next
@@ -22,7 +22,7 @@ uint pcg_hash(uint x) {
 #define PAIR_EMITTER 7u   // where on it
 #define PAIRS_A_VERTEX 4u
 #define PHOTONS_OF 0x80000000u  // + a sample's number: in place of a pixel for its photons, in place of whose samples those are
-#define PAIR_SIDE 3u            // of a photon: which side of a surface it leaves, and what it is aimed at; before that, …
+#define PAIR_SIDE 3u            // of a photon: which side of a surface it leaves, and its target; before that, …
 #define PAIR_SOURCE 0u          // … which light, …
 #define PAIR_START 1u           // … where on it or from where around, …
 #define PAIR_HEADING 2u         // … and where to

@@ -1,4 +1,4 @@
-// Random places and directions, from two numbers in [0, 1).
+// Random points and directions, from two numbers in [0, 1).
 #ifndef SAMPLING_GLSL
 #define SAMPLING_GLSL
 #include "math/trigonometry.glsl"
@@ -54,7 +54,7 @@ LocalFrame frame_turned_to(vec3 n) {
   return local;
 }
 
-#define LEAST_COSINE 1.0e-4f  // towards the viewer: what bent normals turn away is seen edge-on
+#define LEAST_COSINE 1.0e-4f  // towards the viewer: surfaces that bent normals turn away are seen edge-on
 
 // A direction towards the viewer, that cosine above its frame's horizon at least.
 vec3 seen_from(vec3 o) {

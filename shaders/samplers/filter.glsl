@@ -38,7 +38,7 @@ float blackman_harris_place(float u) {
   return side < 0.0f ? -low : low;
 }
 
-// A place in the pixel, by the filter, from one drawn evenly.
+// A point in the pixel, by the filter, from one drawn evenly.
 vec2 filtered(Frame frame, vec2 u) {
   vec2 from_middle = u - vec2(0.5f, 0.5f);
   if (frame.pixel_filter == FILTER_GAUSSIAN) from_middle = gaussian_place(u);

@@ -5,7 +5,7 @@
 
 SHADER_BEGIN
 
-// The place in the pixel of what lies at `in_cell` of cell `index`.
+// The point in the pixel that lies at `in_cell` of cell `index`.
 vec2 in_grid(Frame frame, uint index, vec2 in_cell) {
   uint n = frame.samples_per_side;
   return vec2((float(index % n) + in_cell.x) / float(n), (float(index / n) + in_cell.y) / float(n));

@@ -1,4 +1,4 @@
-// A random place of each cell.
+// A random point of each cell.
 #ifndef JITTERED_GLSL
 #define JITTERED_GLSL
 #include "math/rng.glsl"

@@ -1,4 +1,4 @@
-// Every sampler, the `pattern` of a picture; see shapes/rows.h. A row says how many samples a pixel may have: n × n, or any number.
+// Every sampler, the `pattern` of a picture; see shapes/rows.h. A row states how many samples a pixel may have: n × n, or any number.
 #ifndef SAMPLERS
 #define SAMPLERS(X)      \
   X(regular, 0u, square)  \

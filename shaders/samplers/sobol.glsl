@@ -16,7 +16,7 @@ uint reversed_bits(uint x) {
   return ((x & 0x55555555u) << 1u) | ((x >> 1u) & 0x55555555u);
 }
 
-// Owen's scrambling of a number whose bits are reversed: what a bit becomes depends on those below it alone. Laine and Karras, "Stratified
+// Owen's scrambling of a number whose bits are reversed: each new bit depends only on the bits below it. Laine and Karras, "Stratified
 // Sampling for Stochastic Transparency" (EGSR 2011), with Burley's constants.
 uint owen_scrambled(uint x, uint seed) {
   x = x + seed;

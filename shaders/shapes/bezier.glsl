@@ -148,7 +148,7 @@ float bezier_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
     uv = there;
     gave_up = gave_up || (root.gave_up && search);
 
-    // Go on with its first half, with what is behind the root, or ahead by twice its length.
+    // Go on with its first half, with the piece behind the root, or ahead by twice its length.
     bool within = look && ends.y < 1.0f;
     search = search && (halve || within || far.w < end.w);
     BezierSection behind = bezier_on_arc(near, far, arc, ends.y);

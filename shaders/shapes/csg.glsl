@@ -1,7 +1,7 @@
 // Union, intersection and difference of closed shapes, its leaves.
-// extra: how many nodes, as bits the leaves that are taken away, how many leaves, as bits those of deferred kinds; the nodes; the leaves by kind in
+// extra: how many nodes, as bits the leaves that are taken away, how many leaves, as bits those of deferred kinds. The nodes; the leaves by kind in
 // registry order, each a Primitive, the centre of its bounds and half of their size.
-// A node: its operands as bits, leaves and nodes before it, and whether it is within all of them or within any. Within what is taken away is
+// A node: its operands as bits, leaves and nodes before it, and whether it is within all of them or within any. Within a removed leaf is
 // without. The last node is the CSG object.
 #ifndef CSG_GLSL
 #define CSG_GLSL
@@ -83,7 +83,7 @@ Ray beyond(Ray ray, float t) {
   return r;
 }
 
-// Three crossings of a leaf of an immediate kind, for most of what they take is the same: so of a convex one all is known at once.
+// Three crossings of a leaf of an immediate kind, for most of the work is the same: so all crossings of a convex one are known at once.
 LeafCrossings ask_immediate(Primitive leaf, Ray ray) {
   float t0 = T_MISS;
   float t1 = T_MISS;
@@ -130,9 +130,9 @@ LeafCrossings ask_deferred(Primitive leaf, Ray ray) {
 }
 #endif
 
-// Follows the ray from t = −∞, where it is outside of all that is closed: past what each leaf crosses up to t = 0, then from crossing to crossing
-// of all leaves to the first at which it enters or leaves the CSG object, and on to one that weakens a shadow ray by `enough`. So nothing is ever asked
-// where a ray starts. A leaf is asked again only where the ray has crossed what it said. All leaves that are crossed at the same t are crossed at once.
+// Follows the ray from t = −∞, outside of all closed shapes. It goes past each leaf's crossings up to t = 0, then from crossing to crossing
+// of all leaves to the first at which it enters or leaves the CSG object, and on to one that weakens a shadow ray by `enough`. So no query begins
+// where a ray starts. A leaf is queried again only where the ray has crossed its answer. All leaves that are crossed at the same t are crossed at once.
 CsgHit csg_traverse(Primitive s, Ray ray, float t_max, uint enough) {
   uvec4 head = load_outline(s.extra);
   uint nodes = s.extra + 1u;
@@ -162,7 +162,7 @@ CsgHit csg_traverse(Primitive s, Ray ray, float t_max, uint enough) {
   float from = T_NONE;
   bool going = near != 0u;
   do {
-    // Ask, of each list one after the other whatever their kinds, until the answer is at t > 0. Tested at the bottom, which saves an iteration with
+    // Query each list, one after the other whatever their kinds, until the answer is at t > 0. Tested at the bottom, which saves an iteration with
     // all lanes idle: the results are in the arrays (docs/lavapipe.md).
 #define ASK(ask, which)                                                                                     \
     {                                                                                                       \
@@ -193,7 +193,7 @@ CsgHit csg_traverse(Primitive s, Ray ray, float t_max, uint enough) {
     ASK(ask_deferred, head.w)
 #endif
 
-    // Cross, as long as that is known. Tested at the top: what comes out of it keeps for rays that are done with the loop around.
+    // Cross, as long as that is known. Tested at the top: its results keep for rays that are done with the loop around.
     asked = 0u;
     for (; going && asked == 0u;) {
       float next = T_MISS;
@@ -274,7 +274,7 @@ bool bounds_csg(Primitive s, uint own, uint within) {
   return holds.x != holds.y;
 }
 
-// `surface` of the leaf `own`, as a bit, with what the surfaces of other leaves add to `inward`, where they cut it.
+// `surface` of the leaf `own`, as a bit, with the displacements that the surfaces of other leaves add to `inward`, where they cut it.
 Surface clear_of_leaves(Primitive s, Surface surface, Ray ray, uint own) {
   uvec4 head = load_outline(s.extra);
   uint leaves = s.extra + 1u + head.x;

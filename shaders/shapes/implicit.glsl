@@ -1,5 +1,5 @@
 // f ≤ 0 within the cube from −1 to 1 of object space (geometry/object_space.glsl), where f is a formula of the scene.
-//   parameters: centre of the box, number of the formula; half its sides, Lipschitz constant; 1 where the cube is no cap
+//   Parameters: centre of the box, number of the formula; half its sides, Lipschitz constant; 1 where the cube is no cap
 #ifndef SHAPES_IMPLICIT_GLSL
 #define SHAPES_IMPLICIT_GLSL
 #include "shapes/implicit/search.glsl"

@@ -18,7 +18,7 @@ float plane_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   return (plane_distance(s) - dot3(n, ray.o)) / dot3(n, ray.d);
 }
 
-// Never asked: what is unbounded is in no BVH.
+// Never called: an unbounded shape is in no BVH.
 bool plane_reject(Primitive s, Ray ray) { return false; }
 void plane_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) {
   lower = vec3(-T_MISS, -T_MISS, -T_MISS);

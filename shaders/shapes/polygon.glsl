@@ -15,7 +15,7 @@ vec3 polygon_half_size(Primitive s) { return vec3(s.c); }
 vec3 path_vertex(Ray ray, uint i) { return seen_along(ray, vec3(bits_to_floats(load_outline(i)))); }
 
 // t, brought to the polygon's nearest edge if no part of the polygon is there. The polygon is cut, as in shapes/triangle.glsl, by the plane through
-// the ray and the sheared x or y axis, whichever is less along the polygon's plane: the ray is within where it has passed an odd number of edges.
+// the ray and the sheared x or y axis, whichever is less along the polygon's plane. The ray is within where it has passed an odd number of edges.
 float t_between_edges(Primitive s, Ray ray, float t, uint at, uint end) {
   vec3 steep = permute(abs3(polygon_normal(s)), ray.major);
   bool across_x = steep.x < steep.y;
@@ -51,7 +51,7 @@ float polygon_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   uint end = t > 0.0f ? at + 4u * polygon_turns(s) : at;
   vec3 a = path_vertex(ray, at);
   bool inside = false;
-  // Tested at the bottom, which saves an iteration with all lanes idle: a choice around loads keeps what came out for the rays that are done
+  // Tested at the bottom, which saves an iteration with all lanes idle: a choice around loads keeps the results for the rays that are done
   // (docs/lavapipe.md).
   do {
     if (at < end) {

@@ -1,6 +1,6 @@
 // A polygon of the xz plane from y = −1 to y = 1 in object space (geometry/object_space.glsl), |x|, |z| ≤ 1.
 //   parameters: number of walls, height; U, u0 and V, v0 (u = U·(x, z) + u0, v = V·(x, z) + v0 on the caps); x, z of both ends of each wall; then
-//   of each wall u at both ends and the x, z of its unit normal.
+//   for each wall u at both ends and the x, z of its unit normal.
 #ifndef PRISM_GLSL
 #define PRISM_GLSL
 #include "geometry/object_space.glsl"
@@ -14,7 +14,7 @@ SHADER_BEGIN
 
 // Seen along y the ray is a line, and the walls are edges that it passes at certain distances, on the way in or out. On which side of the line an
 // edge's end lies depends on that end alone, so the line goes out as often as in. It is within the outline where it has gone in more often; so
-// the caps are asked of the very distances at which the walls are hit, and no ray passes between them. From inside only a wall on the way out counts, and
+// the caps use the very distances at which the walls are hit, and no ray passes between them. From inside only a wall on the way out counts, and
 // from outside one on the way in: beside an edge of two walls rounding may swap their distances.
 float prism_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   ObjectRay r = object_ray(s, ray, 1.7320508f);

@@ -1,5 +1,5 @@
 // f(x, y, z) = A x² + B y² + C z² + D xy + E xz + F yz + G x + H y + J z + K ≤ 0 within the cube from −1 to 1 of object space
-// (geometry/object_space.glsl), the largest of the coefficients ±1.   parameters: A, B, C, 1 where the cube is no cap; D, E, F, K; G, H, J
+// (geometry/object_space.glsl), the largest of the coefficients ±1.   Parameters: A, B, C, 1 where the cube is no cap; D, E, F, K; G, H, J
 #ifndef QUADRIC_GLSL
 #define QUADRIC_GLSL
 #include "geometry/clipped_quadric.glsl"

@@ -1,7 +1,7 @@
 // Every kind of shape: a row is all that has to be added outside the shape's own files. Its number is its kind in
-// kind_of(primitive) and its place in the scene's order. Then its traits:
-//   deferred   takes long: in a BVH that holds others too, its intersection waits for other lanes (bvh/traverse.glsl); else immediate
-//   closed     encloses a volume, where it has no `open`: CSG objects are made of it, and its row stands before theirs; else no_leaf
+// kind_of(primitive) and its position in the scene's order. Then its traits:
+//   `deferred` takes long: in a BVH that holds others too, its intersection waits for other lanes (bvh/traverse.glsl); else immediate.
+//   `closed`   encloses a volume, where it has no `open`: CSG objects are made of it, and its row stands before theirs; else no_leaf
 #define SHAPE_ROWS(R, X) \
   R(X, sphere, 0u, immediate, closed) \
   R(X, plane, 1u, immediate, no_leaf) \

@@ -28,7 +28,7 @@ float torus_cubic_root(float p, float q) {
   return x;
 }
 
-// uv.x: t in object space, where it has more digits; at the iteration limit as records.h says.
+// uv.x: t in object space, where it has more digits; at the iteration limit as in records.h.
 float torus_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   uv = vec2(0.0f, 0.0f);
   float minor = object_parameters(s).x;
@@ -50,7 +50,7 @@ float torus_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   float from = start - r.t / slowness;
   float begin = maximum(from, -end);
   bool inside = from > -end && torus_depth(r.o, minor) < 0.0f;
-  float since = begin;  // what turns before it has been passed
+  float since = begin;  // the turning points before it have been passed
 #if HAS_CSG
   // For every caller, the stretches are those of the whole line.
   begin = ray.side == SIDE_UNKNOWN ? begin : -end;

@@ -39,13 +39,13 @@ bool triangle_inside(TriangleEdges edges) {
   return minimum(edges.u, minimum(edges.v, edges.w)) >= 0.0f || maximum(edges.u, maximum(edges.v, edges.w)) <= 0.0f;
 }
 
-// The t of the hit, if the edge functions say "inside".
-// There, the triangle is its plane: near the plane, and for slivers, this is far more exact than the weighted mean of the vertices'
-// distances, and a ray that starts off the plane on the far side has t ≤ 0 for certain. But along a ray that grazes the plane, t may
-// come out anywhere, and where products round to the same, edges reach far past their ends. A BVH would miss what brute force finds
-// there. So the triangle is cut by a plane through the ray and the x or y axis: a ray that has all vertices on one side of it misses,
+// The t of the hit, if the edge functions are all "inside".
+// There, the triangle is its plane. Near the plane, and for slivers, this is far more exact than the weighted mean of the vertices'
+// distances. A ray that starts off the plane on the far side has t ≤ 0 for certain. But along a ray that grazes the plane, t may
+// come out anywhere, and where products round to the same, edges reach far past their ends. A BVH would miss brute force's hits
+// there. So the triangle is cut by a plane through the ray and the x or y axis. A ray that has all vertices on one side of it misses,
 // for a product never rounds past another, and else t is brought to between the two points where edges cross it. Every hit then lies
-// on the triangle, up to a few roundings of what is farthest along the ray: within the box of any part that the triangle may be cut
+// on the triangle, up to a few roundings of the farthest coordinate along the ray: within the box of any part that the triangle may be cut
 // into. Of the two planes it is the one less along the triangle's own. The other one separates the vertices too: were they all on one side, two edge
 // functions would be sums of terms of one sign, a different one each.
 float triangle_t(Primitive s, Ray ray, TriangleEdges edges) {
@@ -121,7 +121,7 @@ vec3 triangle_inward(Primitive s, vec3 weights, float room) {
   vec3 edges = vec3(sqrt(dot3(bc, bc)), sqrt(dot3(ca, ca)), sqrt(dot3(ab, ab)));
   vec3 missing = vec3(minimum(edges.x * per_height, 0.25f), minimum(edges.y * per_height, 0.25f), minimum(edges.z * per_height, 0.25f)) - weights;
 
-  // Away from the edge that is farthest too near, perpendicular to it; or as askew as the two other edges ask. The weights that are missing are that
+  // Away from the edge that is farthest too near, perpendicular to it; or as askew as the two other edges need. The missing weights are that
   // edge's and those of the next two.
   vec3 distance = missing / edges;
   bool first = distance.x >= distance.y && distance.x >= distance.z;

@@ -1,4 +1,4 @@
-// A function of the scene's. color = what it is multiplied by.
+// A function of the scene's. color: a factor of its result.
 #ifndef TEXTURES_FORMULA_GLSL
 #define TEXTURES_FORMULA_GLSL
 #include "math/math.glsl"
@@ -9,7 +9,7 @@ SHADER_BEGIN
 
 uint texture_formula(Texture texture) { return texture.c.x; }  // its number among the scene's
 
-// Nobody knows what a function says: what is no number is 0.
+// A formula may return anything: a NaN becomes 0.
 float formula_share(float x) { return x > 0.0f ? minimum(x, 1.0f) : 0.0f; }
 
 vec3 formula_color(Texture texture, TextureContext place) {

@@ -1,4 +1,4 @@
-// A picture. color = what it is multiplied by.
+// A picture. color: a factor of its texels.
 #ifndef IMAGE_GLSL
 #define IMAGE_GLSL
 #include "math/math.glsl"
@@ -25,7 +25,7 @@ bool mirrored_copy(float x, uint wrap) {
   return wrap == WRAP_MIRROR && copy - 2.0f * floor(0.5f * copy) != 0.0f;
 }
 
-// The texel of `size` at i of a copy, −1 ≤ i ≤ size: beyond an edge, the first of the next copy. The result is one whatever i is.
+// The texel of `size` at i of a copy, −1 ≤ i ≤ size: beyond an edge, the first of the next copy. The result is a texel for every i.
 uint copied_texel(int i, uint size, uint wrap, bool mirrored) {
   bool repeats = wrap == WRAP_REPEAT;
   uint before = repeats ? size - 1u : 0u;
@@ -49,7 +49,7 @@ vec3 texel_color(Texture texture, uint column, uint row) {
 }
 
 // The four texels whose mean is an image at (u, v), by how near their centres are, which lie at half-integers; or nearest, all of the one
-// that holds (u, v). The place within a copy is found first, in the image's own unit, where that costs no precision.
+// that holds (u, v). The point within a copy is found first, in the image's own unit, where that costs no precision.
 struct TexelQuad {
   uint left;
   uint right;

@@ -13,7 +13,7 @@ struct TextureContext {
   vec3 p;  // from the eye
 };
 
-// For those that no pattern in space is asked by.
+// For callers that sample no pattern in space.
 TextureContext place_of_uv(vec2 uv) {
   TextureContext place;
   place.uv = uv;

@@ -1,4 +1,4 @@
-// Every kind of texture; see shapes/rows.h. A row says whether the texture varies over a surface.
+// Every kind of texture; see shapes/rows.h. A row states whether the texture varies over a surface.
 #ifndef TEXTURES
 #define TEXTURES(X)      \
   X(constant, 0u, false) \

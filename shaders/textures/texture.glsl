@@ -1,4 +1,4 @@
-// From a texture and a place on a surface to its colour, or its alpha: asks the kind of texture, of those that the scene's materials have there.
+// From a texture and a point on a surface to its colour, or its alpha: calls the kind of texture, of those that the scene's materials have.
 #ifndef TEXTURE_GLSL
 #define TEXTURE_GLSL
 #include "materials/rows.h"

@@ -1,6 +1,6 @@
 // Entry: incoherent rays, four lanes a ray (kernels/cooperative/bvh4.glsl).
 //   BOUNCE_HITS      the rays of the paths in a list → PacketHit
-//   BOUNCE_SHADOW    from what those hit to every light → occlusion
+//   BOUNCE_SHADOW    from those hits to every light → occlusion
 //   otherwise rays from a buffer → QueryHit, with QUERY_ANY whether there is one
 #version 460
 #extension GL_GOOGLE_include_directive : require

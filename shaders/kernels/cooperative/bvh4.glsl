@@ -66,7 +66,7 @@ uint sum_of_group(uint x) {
   return x;
 }
 
-// The ray of these four lanes. What is found is what this lane has hit, and `limit` the nearest of all four.
+// The ray of these four lanes. The result is this lane's hit, and `limit` the nearest of all four.
 Ray ray;
 BoxRay boxes;
 TraversalState state;
@@ -86,7 +86,7 @@ void visit_node() {
   int entry = entry_of(child, boxes);
   bool hits = entry <= exit_of(child, boxes, bound);
 
-  // Go to the nearest child that is hit, or to what waits.
+  // Go to the nearest child that is hit, or to the waiting one.
   uint key = hits ? (uint(entry) & ~3u) | lane : FAR_AWAY;
   uint nearest = least(key);
   bool some = nearest != FAR_AWAY;
@@ -122,7 +122,7 @@ void visit_leaf() {
   move_stack(0u, here ? 1u : 0u, 0u);
 }
 
-// From `at`, with what waits on the stack.
+// From `at`, with the waiting nodes on the stack.
 void traverse_bvh4() {
   // Leaves first: at the end of the common way most rays are at one.
   do {
@@ -175,7 +175,7 @@ uint traverse_together(BoxRay own, int own_limit) {
     }
     room += hit_children != 0u ? 1 : 0;
 
-    // Vote for where to go: a byte a child, and above them those who would have no room for what is left behind there: three at most,
+    // Vote for where to go: a byte a child. The top bits count the rays without room for the nodes left behind there: three at most,
     // for one is gone on to, or the ray leaves the way.
     uint votes = hit_children != 0u ? 1u << (8u * (nearest & 3u)) : 0u;
     votes += room < 3 ? 0x10000000u : 0u;
@@ -214,8 +214,8 @@ TraversalState trace_cooperatively(Ray own, float t_max) {
   intersect_linear_list(own_state, own, ANY);
   uint start = traverse_together(own_boxes, own_state.occluded >= OPTICAL_DEPTH_OPAQUE ? -1 : floatBitsToInt(own_state.hit.t));
 
-  // Rays that trace together should have equal work: order the rays by the number of children that wait for them. place: the number
-  // of rays with more; order: the member of each place, three bits each.
+  // Rays that trace together should have equal work: order the rays by the number of children that wait for them. `place`: the number
+  // of rays with more. `order`: the member of each position, three bits each.
   uint work = start != TRAVERSAL_DONE ? 1u : 0u;
   EACH_WAITING work += waiting[i] != TRAVERSAL_DONE ? 1u : 0u;
   work = (work << 3u) | member;

@@ -5,7 +5,7 @@
 
 uint stack[STACK_ROWS];
 
-// Pushes what the first `push` lanes have, or drops `drop` entries.
+// Pushes the values of the first `push` lanes, or drops `drop` entries.
 void move_stack(uint push, uint drop, uint value) {
   uint turn = (lane + drop - push) & (STACK_LANES - 1u);
   bool from_before = lane < push;

@@ -1,6 +1,6 @@
 // Entry: coherent rays (kernels/cooperative/packet.glsl).
 //   PACKET_PRIMARY   the rays of a tile's pixels → PacketHit
-//   PACKET_SHADOW    from what those hit to every light → occlusion
+//   PACKET_SHADOW    from those hits to every light → occlusion
 //   otherwise rays from a buffer → QueryHit, with QUERY_ANY whether there is one
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -77,7 +77,7 @@ void main() {
   EACH at_hit[k] = interaction_of(place[k], struck[k]);
   uint light = 0u;
   do {
-    // A ray for which nothing is asked hits nothing, but must be one.
+    // A ray that need not be traced hits nothing, but must be valid.
     EACH {
       Ray to_light;
       float distance;

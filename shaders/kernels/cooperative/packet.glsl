@@ -1,7 +1,7 @@
 // Coherent rays, PACKET at a time: the lanes of a subgroup traverse the BVH together, each with several rays. While they are
-// far from what they may hit, they go as one shaft, and it is the lanes that test different boxes: of the children of a node, as
-// many as there are lanes (pack/collapse.cpp), or of the primitives of a leaf. Only then are they rays again.
-// What a ray hits is what `search` finds (bvh/traverse.glsl), since neither asks in which order.
+// far from anything they may hit, they go as one shaft. Then the lanes test different boxes: of the children of a node, as
+// many as there are lanes (pack/collapse.cpp), or of the primitives of a leaf. After that they are rays again.
+// A ray has the hit that `search` finds (bvh/traverse.glsl), since neither depends on the order.
 //   ANY   whether any hit will do
 #ifndef PACKET_GLSL
 #define PACKET_GLSL
@@ -32,7 +32,7 @@ float width;    // how far from the shaft's first ray the others are at most
 int limit;      // how far along the shaft anything may still be hit, as the bits of a float
 uint work;      // done for this shaft, in nodes, leaves and primitives
 uint patience;  // the limit on it
-uint at;        // what comes next
+uint at;        // the next entry
 
 // A leaf, with a primitive a lane.
 uint first_slot;
@@ -169,7 +169,7 @@ void visit_node() {
   vec3 upper = vec3(low_half(c.x >> 16u), low_half(c.y >> 16u), low_half(c.z >> 16u)) * bvh.step;
   int child = here && c.w != NONE ? make_key(entry_of(shaft, lower, upper, limit)) : FAR_AWAY;
 
-  // Go to the nearest child that is hit, or to what waits.
+  // Go to the nearest child that is hit, or to the waiting one.
   int nearest = least(child);
   bool some = nearest != FAR_AWAY;
   uint top = from_lane(stack[0], 0u);
@@ -208,7 +208,7 @@ bool any_hits(vec3 lower, vec3 upper) {
   return in_any_lane(any);
 }
 
-// Goes on to what waits. Leaves in `key` which primitives of this leaf the shaft hits, if any ray hits the box around them.
+// Goes on to the waiting node. Leaves in `key` which primitives of this leaf the shaft hits, if any ray hits the box around them.
 void visit_leaf() {
   first_slot = (at & ~LEAF) >> 3u;
   bool there = at != TRAVERSAL_DONE && lane <= (at & 7u);
@@ -242,7 +242,7 @@ void look_at_primitive(uint from) {
   uint bits = 0u;
   EACH {
     Ray r = ray[k];
-    r.major = shaft.major;  // all members': said so that a driver permutes vertices once for all rays
+    r.major = shaft.major;  // all members': stated so that a driver permutes vertices once for all rays
     bool rejected = true;
 #define REJECT_KIND(name, number) \
     if (BVH_HOLDS(number, primitive)) rejected = name##_reject(primitive, r);
@@ -291,7 +291,7 @@ void intersect_passing() {
   EACH record_intersection(state[k], chosen == uint(k) ? t : -1.0f, uv, first_slot + from, primitive.id, NONE, primitive.optical_depth, ANY);
 }
 
-// Few rays pass a triangle: they wait until all of the leaf's have been looked at.
+// Few rays pass a triangle: they wait until all of the leaf's have been tested.
 void visit_leaves() {
   do {
     do { visit_leaf(); } while (next_lane() == uint(FAR_AWAY) && at >= LEAF && at != TRAVERSAL_DONE);
@@ -341,7 +341,7 @@ void shorten_rays() {
 // ---- Traversal -------------------------------------------------------------------------------------------------------------
 
 // A driver that runs both sides of every branch can skip only further iterations of a loop. So each loop here goes on until there is
-// work for the next, and the first way down stands by itself: only a packet without a leaf to visit pays for one that it does not need.
+// work for the next, and the first way down stands by itself. Only a packet without a leaf to visit pays for one that it does not need.
 void traverse_along_shaft() {
   EACH_ROW stack[i] = TRAVERSAL_DONE;
   limit = FAR_AWAY;

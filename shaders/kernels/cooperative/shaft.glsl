@@ -1,6 +1,6 @@
 // Rays that run much the same way, seen from far: a shaft with four flat sides around all of them, and which boxes it hits. A box
 // that the shaft misses, each of its rays misses.
-// Places count from the BVH's origin and are permuted, so that z is the axis along which the shaft runs. How far along something is
+// Positions count from the BVH's origin and are permuted, so that z is the axis along which the shaft runs. How far along something is
 // goes from 0, where the shaft begins, to 1, where it ends.
 #ifndef SHAFT_GLSL
 #define SHAFT_GLSL
@@ -24,8 +24,8 @@ struct Side {
 struct Shaft {
   uint major;     // the axis along which it runs
   bool backward;  // towards lower coordinates
-  float slack;    // what boxes are widened by: more than any rounding, here or of a hit
-  float scale;    // z is z · scale + begin along, less what boxes are widened by, or + end, and as much more
+  float slack;    // boxes are widened by this: more than any rounding, here or of a hit
+  float scale;    // z is z · scale + begin along, less the widening of boxes, or + end, and as much more
   float begin;
   float end;
   Side low_x;
@@ -46,7 +46,7 @@ Side make_side(float at_begin, float at_end, float slack, bool low) {
   return side;
 }
 
-// From z0 to z1 != z0. low and high: the least and the greatest x and y of any ray at z0 and at z1; rays are straight, so in between
+// From z0 to z1 != z0. low and high: the least and the greatest x and y of any ray at z0 and at z1. Rays are straight, so in between
 // none is outside of the lines between those.
 Shaft make_shaft(uint major, float z0, float z1, vec2 low0, vec2 low1, vec2 high0, vec2 high1, float slack) {
   Shaft shaft;

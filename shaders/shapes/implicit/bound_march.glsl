@@ -1,7 +1,7 @@
 // The first root along a ray, from affine bounds of the function (math/affine_bound.glsl): piece after piece, each as long as its affine bound
 // allows. The caller of the march evaluates the function's affine bound on march_middle(march) ± march_half(march) until march.over.
-// A root is where the sign changes. No change is overlooked but within a piece that is passed over, because it is as short as can be or its affine
-// bound hardly sharper than that of a point in it: there the function is zero within the bound of float32's rounding. At worst that bound is hundreds
+// A root is where the sign changes. No change is overlooked but within a piece passed over: one as short as can be, or one whose affine
+// bound is hardly sharper than that of a point in it. There the function is zero within the bound of float32's rounding. At worst that is hundreds
 // of times the actual rounding. So the deviation of neighbouring points from a line is measured first, and where it is small, it counts instead. If
 // the sign is another than before, the root among the pieces that were passed over is narrowed down by the signs that f has in float32.
 #ifndef ENCLOSURE_MARCH_GLSL
@@ -20,10 +20,10 @@ SHADER_BEGIN
 #define MARCH_POINTS 6u
 #define MARCH_STRAYS 3.0f
 #define MARCH_LEAST_SHARE 0.015625f
-#define MARCH_ROUNDS 2.0e-4f  // where that share is less, e is no rounding, but what undecided conditions choose from
+#define MARCH_ROUNDS 2.0e-4f  // where that share is less, e is no rounding, but the choices of undecided conditions
 
 struct March {
-  float t;        // up to here the sign is known, but for what was passed over
+  float t;        // up to here the sign is known, but for the pieces passed over
   float h;        // half the length of the piece that is next
   float end;      // of the ray
   float finest;   // a piece with a smaller h cannot be distinguished from a point; at least an ulp of t, so that every piece leads on
@@ -32,12 +32,12 @@ struct March {
   float coarse;   // e of the piece before, where that was undecided; beyond all else
   float noise;    // e of a point nearby; 0 where it is not known
   float pass;     // the h of a piece that may be passed over
-  float waiting;  // while points are asked: h of the piece after that; else 0
-  uint points;    // how many are still to be asked
+  float waiting;  // while points are evaluated: h of the piece after that; else 0
+  uint points;    // how many are still to be evaluated
   float value;    // a of the last of them, …
   float rise;     // … less that of the one before it
   float stray;    // their greatest second difference
-  float share;    // of e of a point, what is taken for rounding: 1 where all of it is; below 0 while points are asked, 0 before that
+  float share;    // of e of a point, the part taken for rounding: 1 where all of it is; below 0 while points are evaluated, 0 before that
   float root;     // once found
   float low;      // while that is narrowed down among pieces that were passed over: before it, …
   float high;     // … and past it
@@ -134,7 +134,7 @@ March march_on(March march, vec3 f) {
   bool narrow = crosses && (blunt || right - left <= 16.0f * march.finest);
   bool passes = !none && !narrow && blunt && march.h <= march.pass;
 
-  // Before any is passed over, ask what rounding comes to.
+  // Before any is passed over, measure the rounding.
   if (passes && march.share == 0.0f) {
     next.waiting = march.h;
     next.points = MARCH_POINTS;
@@ -166,7 +166,7 @@ March march_on(March march, vec3 f) {
   next.pass = none ? MARCH_FIRST_PASS * march.finest : passes ? 2.0f * march.h : march.pass;
   next.coarse = none || passes ? 3.0e38f : f.z;
 
-  // Next, a piece around what is left, or a longer one. If e hardly shrinks with h, it may be rounding: ask a point.
+  // Next, a piece around the rest, or a longer one. If e hardly shrinks with h, it may be rounding: evaluate a point.
   float closer = minimum(maximum(0.625f * (right - left), crosses ? 0.0f : 0.125f * march.h), 0.5f * march.h);
   bool doubt = !none && !blunt && noise == 0.0f && f.z > 0.7f * march.coarse;
   next.h = none ? 2.0f * march.h

@@ -1,5 +1,5 @@
 // Finds the hit of a ray with one formula's surface f = 0 in the cube (shapes/implicit.glsl) if no Lipschitz constant is declared: by affine bounds
-// of f (bound_march.glsl), and its slope by forward differentiation. Included once a formula, with FORMULA_NAME(part), what its functions are called,
+// of f (bound_march.glsl), and its slope by forward differentiation. Included once a formula, with FORMULA_NAME(part), the name of its functions,
 // FORMULA_BOUND(it, x, y, z) and FORMULA_DUAL(it, p).
 #ifndef FORMULA_NAME
 #error FORMULA_NAME, FORMULA_BOUND and FORMULA_DUAL say whose march this is

@@ -1,5 +1,5 @@
 // Finds the hit of a ray with one formula's surface f = 0 in the cube (shapes/implicit.glsl), by sphere tracing. f is nowhere steeper than a declared
-// constant, so no root is nearer than |f| over it. Included once a formula, with FORMULA_NAME(part), what its functions are called, FORMULA_VALUE(it,
+// constant, so no root is nearer than |f| over it. Included once a formula, with FORMULA_NAME(part), the name of its functions, FORMULA_VALUE(it,
 // p) and, where FORMULA_HAS_GRADIENT(it), FORMULA_GRADIENT(it, p).
 #ifndef FORMULA_NAME
 #error FORMULA_NAME, FORMULA_VALUE and FORMULA_GRADIENT say whose march this is
@@ -8,16 +8,16 @@
 SHADER_BEGIN
 
 // Along o + s·d from `start` to `end`, a segment within the cube. `at_entry`: it starts on a face, which is a cap where f is negative. `sign`: of f at
-// the start; 0 where that is not known. Not `wanted`, it takes no time. Returns s, what is there, and from where on f has which sign.
+// the start; 0 where that is not known. Not `wanted`, it takes no time. Returns s, f there, and from where on f has which sign.
 vec4 FORMULA_NAME(march)(Implicit it, ObjectRay r, float start, float end, bool at_entry, float sign, bool wanted) {
   vec3 toward = it.extent * r.d;
   float stride = 1.0f / (it.lipschitz * sqrt(dot3(toward, toward)));
   float unit = 1.0f / sqrt(dot3(r.d, r.d));
   float shortest = IMPLICIT_LEAST_STEP * unit;
 
-  // Step until the sign changes. Nothing is hit within |f| over the constant of a place; where the free ways of two places touch, nothing is between them.
+  // Step until the sign changes. Nothing is hit within |f| over the constant of a point; where the free ways of two points touch, nothing is between them.
   // So a step may be longer than the free way, as long as that at its far end is expected to touch, by how fast the last two shrank. If it does not, back to
-  // the free way (Bálint and Valasek 2018). The least step gets past where f is almost 0, and grows while it stays so; what is thinner is not seen.
+  // the free way (Bálint and Valasek 2018). The least step gets past where f is almost 0, and grows while it stays so; thinner parts are not seen.
   float s = start;
   float f = 0.0f;
   float before = start;
