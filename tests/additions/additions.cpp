@@ -1,5 +1,5 @@
 // Follows every docs/adding-a….md in a copy of the tree: adds the kind by the very blocks of the page,
-// builds, renders and verifies its scene. So a page cannot rot, and a kind is what the page says: two files
+// builds, renders and verifies its scene. So a page cannot rot, and a kind is as the page states: two files
 // and a row.
 #include <fmt/format.h>
 
@@ -60,8 +60,8 @@ std::string with_row(const std::string& text, const std::string& row) {
   return last.prefix().str() + "\n" + row + "};\n" + last.suffix().str();
 }
 
-// A copy of what the program is built from, with what the pages add. It lies beside its build as the tree
-// does, so that ccache has what the pages do not touch.
+// A copy of the program's sources, with the additions of the pages. It lies beside its build as the tree
+// does, so that ccache has all files that the pages do not change.
 class Tree {
  public:
   Tree() {

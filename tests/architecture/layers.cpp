@@ -32,7 +32,7 @@ struct Library {
   std::regex headers;
   std::set<std::string> layers;
   std::set<std::string>
-      public_in;  // of them, those whose headers may include it: what sees these sees it too
+      public_in;  // of them, those whose headers may include it: layers that see these see it too
 };
 const Library libraries[] = {
     {std::regex(R"((volk|vulkan|glslang|spirv-tools|spirv)([/.].*))"),

@@ -72,7 +72,7 @@ std::vector<Line> top_level(const SourceFile& file) {
 bool in_its_own_namespace(const SourceFile& file, const std::string& name) {
   const std::string own = "eyeray::engine::" + file.layer();
   if (name == own || name.starts_with(own + "::")) return true;
-  if (file.layer() == "library" && name == "eyeray::inline v0") return true;  // what other programs know
+  if (file.layer() == "library" && name == "eyeray::inline v0") return true;  // known to other programs
   if (of_everyone.contains(file.layer()) && (name == "eyeray::engine" || name == "eyeray::engine::detail"))
     return true;
   return speaks_shader.contains(file.layer()) && name == "eyeray::engine::shader";

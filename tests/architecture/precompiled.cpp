@@ -55,7 +55,7 @@ const std::map<std::string, Names> headers_of = [] {
   return headers;
 }();
 
-// "std::string" of "std::string::npos", wherever a line says such a name.
+// "std::string" of "std::string::npos", wherever a line contains such a name.
 Names names_in(const std::string& line) {
   Names names;
   for (const char* space : {"std::", "fmt::", "glm::"}) {

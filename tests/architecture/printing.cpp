@@ -12,7 +12,7 @@ TEST_CASE("text for people is printed by print_lines, and JSON is made by json_t
   const std::regex prints(R"(\bfmt::print\(|\bstd::(f?puts|f?printf)\(|\bstd::(cout|cerr)\b)");
   const std::regex prints_whole(R"re(\bfmt::print\((stderr, )?"\{\}(\\n)?",)re");
   const std::regex makes_json(R"(\.dump\()");
-  // The bar draws by escape sequences; a check that fails prints whatever state the program is in.
+  // The bar draws by escape sequences; a check that fails prints in every state of the program.
   const std::set<std::string> may_print{"host/program/bar.cpp", "host/core/error.cpp"};
   size_t printed = 0;
   for (const SourceFile& file : layer_files()) {

@@ -11,7 +11,7 @@ bool entry(const SourceFile& file) {
          file.path.ends_with(".frag.glsl");
 }
 
-// The self-test is no shader of pictures: it asks the driver about its arithmetic.
+// The self-test is no shader of pictures: it tests the driver's arithmetic.
 bool self_test(const SourceFile& file) {
   return file.path == "shaders/kernels/selftest.comp.glsl";
 }

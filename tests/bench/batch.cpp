@@ -97,7 +97,7 @@ material = "m"
 )",
                                           groups),
                               "groups");
-    // The meshes as the loader would place them: one of the scene's own, one in the group, in which there are
+    // The meshes as the loader would put them: one of the scene's own, one in the group, in which there are
     // two.
     scene.meshes.push_back(octasphere(4));
     const auto at = [](double x, double y) {

@@ -76,7 +76,7 @@ TEST_CASE("a run builds, races all batches, and lists every contender") {
     REQUIRE(batch.timings.size() == 4);
     CHECK(batch.timings[0].kind == ContenderKind::single);
     CHECK(batch.timings[1].contender == "ours");
-    CHECK(batch.timings[1].differing > 10);  // it says that nothing is ever hit
+    CHECK(batch.timings[1].differing > 10);  // it reports that nothing is ever hit
     CHECK(batch.timings[2].differing <= 2);
     CHECK(fastest(batch, ContenderKind::packet) != nullptr);
     CHECK(times_as_fast(batch, batch.timings[1], ContenderKind::single) < 0.1);

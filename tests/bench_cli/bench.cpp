@@ -1,4 +1,4 @@
-// eyeray-bench measures what it says; how fast anything is, no test asks.
+// eyeray-bench measures the quantities that it names; no test checks how fast anything is.
 #include <fmt/format.h>
 
 #include <map>
@@ -265,7 +265,7 @@ TEST_CASE("each way to trace incoherent rays races by itself; an unknown one is 
   REQUIRE(builds.size() == 3);
   CHECK(builds.at(1).at("contender") == "gpu cooperative");
   CHECK(builds.at(2).at("contender") == "gpu lanes");
-  // The BVH4 is counted with what it was made of.
+  // The BVH4 is counted with the BVH that it was made of.
   CHECK(builds.at(1).at("bytes") > builds.at(2).at("bytes"));
 
   const ProcessResult refused = race("wider");

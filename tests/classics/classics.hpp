@@ -77,7 +77,7 @@ struct Gear {
 void for_each_gear(int size_factor, const std::function<void(const Gear&)>& visit);
 
 // ---- mount: a fractal mountain below four balls of glass ----
-// What decides a grid point's height, for i, j from 0 to 2ⁿ. It repeats itself: that belongs to the scene.
+// The seed of a grid point's height, for i, j from 0 to 2ⁿ. It repeats itself: that belongs to the scene.
 uint32_t mount_seed(int size_factor, int i, int j);
 // A normally distributed number by the polar method, from the package's generator started with `seed`.
 double mount_gauss(uint32_t seed);

@@ -32,7 +32,7 @@ std::string scene(int) {
   const Vec3 middle{-0.8, 0.8, 1};
   const double height = radius * std::sqrt(1.5), s = std::sqrt(3.0) / 2;
   const Vec3 foot = Vec3(2, -2, -1) * (height / 3);
-  // Glass of which a tenth scatters and a tenth mirrors: a dielectric lets Fresnel's equations say it. A
+  // Glass of which a tenth scatters and a tenth mirrors: a dielectric leaves that to Fresnel's equations. A
   // shadow ray keeps 0.9 at each of the two crossings.
   std::string text =
       classic_stage({.eye = {-1.6, 1.6, 1.7}, .target = {0, 0, 0}, .lights = {{-100, -100, 100}}}) +

@@ -1,4 +1,4 @@
-// The databases as their descriptions have them: counts, places, heights, and the pixels on which points
+// The databases as their descriptions have them: counts, positions, heights, and the pixels on which points
 // fall.
 #include <algorithm>
 #include <cmath>
@@ -107,7 +107,7 @@ TEST_CASE("tree has 2^(n+1) - 1 branches, each shorter and thinner than the one 
   CHECK(all[0].foot == Vec3(0.0));
   CHECK(all[0].tip == Vec3(0, 0, 1));
   CHECK(all[0].radius == 0.15);
-  // Leaning by 40° towards what was y turned by 90°, to −x.
+  // Leaning by 40° towards the former y turned by 90°, to −x.
   CHECK(glm::distance(all[1].tip, Vec3(0.65 * 0.6427876096865394, 0, 1 + 0.65 * 0.766044443118978)) < 1e-15);
   CHECK(glm::distance(all[8].tip, {-0.226621, 0.190158, 1.634415}) < 1e-6);
   CHECK(all[8].radius == doctest::Approx(0.15 * 0.67));

@@ -1,5 +1,5 @@
-// eyeray render --aov albedo,shading_normal: what denoisers ask for. And what is said of samples that stand
-// out.
+// eyeray render --aov albedo,shading_normal: the inputs of denoisers. It also tests the warning about samples
+// that stand out.
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>

@@ -16,7 +16,7 @@ const std::set<std::string> only_the_scene{"scene.toml"};
 
 struct BadScene {
   std::string before, after;          // a change of the small scene
-  std::vector<std::string> messages;  // "line:column: error: …" and anything else that must be said
+  std::vector<std::string> messages;  // "line:column: error: …" and any other text that must be printed
 };
 
 }  // namespace

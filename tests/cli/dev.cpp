@@ -41,7 +41,7 @@ TEST_CASE("dev renders on every save, and outlives what it renders") {
   REQUIRE(dev.says("rendered "));
   CHECK(read_image(folder / "a.pfm").pixel(0, 0)[0] == 0.125f);
 
-  // A broken scene and a broken shader: the place of the fault is named, the picture stays.
+  // A broken scene and a broken shader: the position of the fault is named, the picture stays.
   const std::string picture = read_text(folder / "a.pfm");
   replace_in_file(folder.scene(), "radius = 1", "radius = 0");
   REQUIRE(dev.says(folder.scene() + ":26:10: error: "));
@@ -60,7 +60,7 @@ TEST_CASE("dev renders on every save, and outlives what it renders") {
   CHECK(read_image(folder / "a.pfm").pixel(0, 0)[0] == 1.125f);
   CHECK(dev.worker() == worker);
 
-  // Saving what was there renders nothing anew.
+  // Saving the same text again renders nothing anew.
   write_text(pixel, read_text(pixel));
   write_text(shaders + "/kernels/nobody_includes.glsl", "nonsense");
 

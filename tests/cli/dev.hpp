@@ -9,13 +9,13 @@
 
 namespace eyeray::engine::test {
 
-// A running `eyeray dev`, and the place in its words up to which they have been looked at.
+// A running `eyeray dev`, and the position in its output up to which it has been read.
 class Dev {
  public:
   Dev(const SceneFolder& folder, const std::string& timeout, const std::vector<std::string>& options = {})
       : process_(command(folder, timeout, options)) {}
 
-  // True if it says `text` from here on.
+  // True if it prints `text` from here on.
   bool says(const std::string& text) {
     if (!process_.wait_for_error_text(text, 600, seen_)) {
       MESSAGE("no '", text, "' in: ", process_.err().substr(seen_));

@@ -37,7 +37,7 @@ class LongRender : public Process {
 
 TEST_CASE("a standard error that takes nothing costs nothing") {
   const SceneFolder folder;
-  // A warning is the first thing said.
+  // A warning is the first line printed.
   write_text(folder.scene(), std::string(small_scene) + "[[material]]\nname = \"spare\"\ntype = \"phong\"\n");
   REQUIRE(run_line(folder, "$EYERAY render $SCENE -o whole.png").err.find("warning") != std::string::npos);
   for (const std::string streams :

@@ -41,7 +41,7 @@ TEST_CASE(
     "a loop without an end is an error that names it, however it comes about and however rays are traced") {
   Shaders shaders;
   for (const std::string loop :
-       {// Optimisers see that this one never ends, and remove it with what comes after it.
+       {// Optimisers see that this one never ends, and remove it with the code after it.
         "int i = 0; while (i < 10) t += 0.001f;", "while (true) {}", "for (;;) t += 0.001f;",
         // This one depends on the ray.
         "for (float w = 0.0f; w < 1.0f; w += 0.0f * ray.d.x) t += 0.001f;",

@@ -1,4 +1,4 @@
-// Huge pages, where Linux gives them to who asks.
+// Huge pages, where Linux gives them on request.
 #include "scene.hpp"
 //
 #include "tests/support/doctest.hpp"

@@ -1,4 +1,4 @@
-// Formulas that users write, end to end: what is wrong with them, functions without an end, scenes that
+// Formulas that users write, end to end: their faults, functions without an end, scenes that
 // nobody trusts.
 #include <fstream>
 #include <nlohmann/json.hpp>

@@ -23,7 +23,7 @@ std::vector<std::string> split(const std::string& words) {
   return all;
 }
 
-// The names at the start of a line of --help: options, or what stands under "COMMANDs".
+// The names at the start of a line of --help: options, or the commands below "COMMANDs".
 std::set<std::string> options_in_help(const std::string& command) {
   std::vector<std::string> arguments = split(command);
   arguments.push_back("--help");

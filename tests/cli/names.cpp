@@ -1,4 +1,4 @@
-// Names on the command line: legends of ids, what verify says was hit, what check lists.
+// Names on the command line: legends of ids, verify's report of hits, check's lists.
 #include <fmt/format.h>
 #include <cmath>
 #include <map>

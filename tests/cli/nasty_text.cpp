@@ -1,5 +1,5 @@
 // Names and values are shown so that no line is a command to a terminal or to GitHub's workflows, and JSON
-// can be read. The table lists each place that shows a text of a file, a name or the command line.
+// can be read. The table lists each output that shows a text of a file, a name or the command line.
 #include <functional>
 #include <nlohmann/json.hpp>
 

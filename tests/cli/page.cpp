@@ -1,4 +1,4 @@
-// verify --report: the page, and what a browser makes of it.
+// verify --report: the page, and its contents in a browser.
 #include <nlohmann/json.hpp>
 
 #include "scene.hpp"

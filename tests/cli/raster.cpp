@@ -1,4 +1,4 @@
-// `verify --raster`: what it says, and of what cannot be drawn.
+// `verify --raster`: its output, also about surfaces that cannot be drawn.
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -73,7 +73,7 @@ TEST_CASE("a device that does not draw, or has no memory for it, is one sentence
   CHECK(has(no_memory.err, " bytes left for the picture's ids in a heap of "));
   CHECK(has(no_memory.err, "VK_ERROR_OUT_OF_DEVICE_MEMORY"));
 
-  // Wider than any device draws; the crop is what is drawn.
+  // Wider than any device draws; only the crop is drawn.
   const ProcessResult too_wide = verify({"scenes/whitted.toml", "-s", "60000x1"});
   CHECK(too_wide.code == 3);
   CHECK(has(too_wide.err, " pixels a side, but this one has 60000×1: leave out --raster"));

@@ -1,4 +1,4 @@
-// The twin of a user's shaders: the bits of the device, and what debuggers and sanitizers say of it.
+// The twin of a user's shaders: the bits of the device, and the reports of debuggers and sanitizers.
 #include <fmt/format.h>
 #include <sys/stat.h>
 

@@ -170,7 +170,7 @@ TEST_CASE("every command explains itself with an example, in lines that fit") {
     for (std::string line; std::getline(lines, line);) {
       CAPTURE(line);
       CHECK(line.size() <= 125);
-      // CLI11's own words: a flag's value, a type, what excludes what.
+      // CLI11's own words: a flag's value, a type, options that exclude each other.
       if (line.starts_with("  ") && line.find("eyeray") == std::string::npos)
         CHECK_FALSE(std::regex_search(line, std::regex(R"(\{\w|:value|Excludes|TEXT|REQUIRED)")));
     }
@@ -275,7 +275,7 @@ TEST_CASE("parts know the program by its sources and its compiler, not by the co
     std::filesystem::remove_all(changed);
   }
 
-  // The part's own is that of what was built.
+  // The part's own sum is that of the sources of the built program.
   const SceneFolder scene;
   REQUIRE(run_eyeray({"render", scene.scene(), "--shard", "1/2", "-o", scene / "a.eyeray"}).code == 0);
   const std::string part = read_text(scene / "a.eyeray");

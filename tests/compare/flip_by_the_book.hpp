@@ -101,7 +101,7 @@ inline double hyab(const Color& a, const Color& b) {
   return std::abs(a[0] - b[0]) + std::sqrt((a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
 }
 
-// Weights of places up to `radius` away, and what they make of one channel.
+// Weights of pixels up to `radius` away, and their weighted sum of one channel.
 struct Filter {
   int radius;
   std::vector<double> weights;

@@ -73,7 +73,7 @@ TEST_CASE("a failed write is a file error that says why, and leaves everything a
 }
 
 TEST_CASE("a full disk leaves the old file and no part of the new one") {
-  // /dev/full is no place to rename in; a file size limit fails the write in the same way.
+  // /dev/full allows no renaming in it; a file size limit fails the write in the same way.
   const TemporaryFolder folder;
   write_text(folder / "a", "old");
   const std::string script = "trap '' XFSZ; ulimit -f 1; exec \"$0\" --test-case='write much' --no-skip";

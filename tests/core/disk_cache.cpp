@@ -81,7 +81,7 @@ TEST_CASE("a cache that is not used says why, and one that is used or not there 
                                      "other users may write to it; chmod go-w " + name + " keeps them out"});
   std::filesystem::permissions(cache.folder(), perms(0700));
 
-  // Modules of the twin and what Mesa compiles lie in separate folders.
+  // Modules of the twin and Mesa's compiled shaders lie in separate folders.
   std::filesystem::create_directory(cache.folder() / "twin");
   std::filesystem::permissions(cache.folder() / "twin", perms(0777));
   const std::string twin = name + "/twin";

@@ -72,7 +72,7 @@ TEST_CASE("pictures are compared where both have come equally far") {
   for (int y = 0; y < 3; ++y) put("reference", y, 1, 0, grey(5, 0.25f));
   CHECK(difference(0, 0) == 0.25f);
 
-  // Another picture: of the reference's old rows nothing is said, nor of those with fewer samples.
+  // Another picture: the reference's old rows have no difference; rows with fewer samples have none either.
   for (int y = 0; y < 3; ++y) put("gpu", y, 2, 1, grey(5, 1));
   CHECK(std::isnan(difference(0, 0)));
   put("reference", 0, 2, 0, grey(5, 0.5f));

@@ -10,7 +10,7 @@
 
 namespace eyeray::engine::test {
 
-// A client of a server on this machine that says whatever it likes.
+// A client of a server on this machine that sends arbitrary text.
 class Client {
  public:
   explicit Client(int port, const char* address = "127.0.0.1") {

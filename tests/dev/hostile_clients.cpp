@@ -21,7 +21,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// A process may open 1024 files at first, and more if it asks.
+// A process may open 1024 files at first, and more on request.
 void allow_many_files() {
   rlimit files{};
   ::getrlimit(RLIMIT_NOFILE, &files);
@@ -68,7 +68,7 @@ TEST_CASE("slow clients are dropped, and keep nobody waiting for ever") {
   limits.request_seconds = 0.5;
   limits.connections = 4;
   const Site site(0, limits);
-  // More than there are connections: some say nothing, some say a little now and then.
+  // More than there are connections: some send nothing, some send a little now and then.
   const auto slow = clients(site, 12);
   std::atomic<bool> enough = false;
   std::thread drip([&] {
@@ -218,7 +218,7 @@ TEST_CASE("a reader of events who does not read is dropped") {
   deaf.send("GET " + site.root() + "events HTTP/1.1\r\nHost: " + site.host() + "\r\n\r\n");
   CHECK(deaf.answer("\n\n").find("data: {") != std::string::npos);
   CHECK(status(site.get(site.root() + "events")) == 503);
-  // Its place is free again once it has not taken what there is to say.
+  // Its slot is free again once it has not taken the waiting text.
   const std::string much(1 << 20, 'x');
   int answered = 503;
   for (int i = 0; i < 10000 && answered == 503; ++i) {

@@ -1,4 +1,4 @@
-// The page's server with a picture, and what its clients need.
+// The page's server with a picture, and helpers for its clients.
 #pragma once
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Tests of what counts as a change of a file.
+// Tests of changes of a file: which of them count.
 #include "host/dev/source_files.hpp"
 
 #include "tests/support/process.hpp"

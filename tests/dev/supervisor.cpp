@@ -1,4 +1,4 @@
-// The supervisor, with a worker that says what the tests need.
+// The supervisor, with a worker that sends the messages of the tests.
 #include "host/dev/supervisor.hpp"
 
 #include "client.hpp"

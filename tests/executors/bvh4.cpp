@@ -1,5 +1,5 @@
-// Four lanes a ray: the nodes they traverse hold what the binary BVH holds, and they find what the twin
-// finds.
+// Four lanes a ray: the nodes they traverse have the contents of the binary BVH, and they find the twin's
+// hits.
 #include <fmt/format.h>
 
 #include <map>
@@ -23,7 +23,7 @@ namespace {
 constexpr double extent = 3;
 
 // Triangles that are hard on BVHs: on a grid, so that corners and boxes coincide, needles, duplicates that
-// tie; and with `glass`, some that let light through, and a plane in the linear list that does.
+// tie. With `glass`, some also let light through, as a plane in the linear list does.
 void add_hard_triangles(Scene& scene, Random& random, int count, bool glass) {
   const int opaque = test::add(scene, make_phong({}));
   const int other = glass ? test::add(scene, make_dielectric({.shadow = 0.9})) : opaque;
@@ -114,7 +114,7 @@ TEST_CASE("nearest and any: four lanes a ray find what the twin finds, bit by bi
     const PackedScene scene_packed = packed(scene, split);
     std::vector<shader::QueryRay> rays(50'003);  // no whole number of workgroups
     for (shader::QueryRay& ray : rays) ray = test::random_ray(random);
-    // Half of them in bundles that start together, as bounces do, and so have a common way down.
+    // Half of them in bundles that start together, as bounces do. So they have a common way down.
     for (size_t i = 0; i < rays.size() / 2; ++i) {
       rays[i].origin = rays[i / 16 * 16].origin;
       if (i % 3 == 0) rays[i].origin += glm::vec3(random.point(1e-3));

@@ -1,4 +1,4 @@
-// Rays that wait with deferred shapes for each other (bvh/traverse.glsl) find what rays find that do not.
+// Rays that wait with deferred shapes for each other (bvh/traverse.glsl) find the same as rays that do not.
 #include <algorithm>
 #include <string>
 

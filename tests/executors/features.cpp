@@ -1,5 +1,5 @@
-// shaders/kernels/features.h is the written contract of the specialisation: what is defined is listed, and
-// what is listed is defined.
+// shaders/kernels/features.h is the written contract of the specialisation: every define is listed, and
+// every listed name is defined.
 #include <filesystem>
 #include <regex>
 #include <set>

@@ -138,7 +138,7 @@ TEST_CASE("more iterations in a BVH than a capped driver grants: every pixel is 
 
   check_right_or_flagged(scene, *gpu, *twin);
 
-  // Rays alone have no place for a flag: they are right, or an error.
+  // Rays alone have no room for a flag: they are right, or an error.
   for (const QueryKind kind : {QueryKind::nearest, QueryKind::any}) {
     std::vector<Query> rays;
     for (int i = 0; i < 64; ++i) rays.push_back({Vec3(0.001 * i, 0, 5), Vec3(0, 0, -1)});

@@ -1,4 +1,4 @@
-// coherent rays, in packets: they find what the twin finds, where a shaft is narrow and where it takes
+// coherent rays, in packets: they find the twin's hits, where a shaft is narrow and where it takes
 // too long and is begun again.
 #include <fmt/format.h>
 

@@ -48,7 +48,7 @@ const std::vector<std::string> materials = {
     "type = 'principled'\ncoat = 1\ncoat_normal = { image = 'studs_normal.png' }",
 };
 
-// 80 places, enough for a light BVH.
+// 80 points, enough for a light BVH.
 std::string many_places() {
   std::string text;
   for (int i = 0; i < 80; ++i)

@@ -1,4 +1,4 @@
-// Rays counted by what sends them out.
+// Rays counted by their kind.
 #include <algorithm>
 
 #include "host/loader/scene_file.hpp"

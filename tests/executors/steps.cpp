@@ -1,5 +1,5 @@
-// Iteration limits: with a superellipsoid's lowered on the GPU, whatever is not flagged is right all the
-// same, and what is flagged does not depend on how rays are traced.
+// Iteration limits: with a superellipsoid's lowered on the GPU, every sample without a flag is right all the
+// same, and the flagged ones do not depend on how rays are traced.
 #include <fmt/format.h>
 
 #include "host/executors/executor.hpp"

@@ -17,7 +17,7 @@ shader::vec3 bound_piece(const expression::StraightLine& line, const shader::vec
 
 struct FirstRoot {
   float t;    // -1 where there is none
-  int steps;  // pieces looked at
+  int steps;  // pieces examined
   bool over;  // whether that is certain
 };
 // By shaders/shapes/implicit/bound_march.glsl, with `most` pieces at most.

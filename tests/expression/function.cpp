@@ -46,7 +46,7 @@ TEST_CASE("a expression computes what the text says") {
       worst = std::max(worst, std::abs(test::evaluate(function, p) - value));
       largest = std::max(largest, std::abs(value));
     }
-    CHECK(worst <= 1e-6 * largest);  // what float32 leaves of constants
+    CHECK(worst <= 1e-6 * largest);  // the rounding of constants to float32
   }
 }
 
@@ -107,8 +107,8 @@ TEST_CASE("loops, calls and branches come down to what they compute") {
              "p[i]; } return s; }") ==
         "vec3 f(vec3 x, vec3 y, vec3 z) {\n  vec3 v0 = x;\n  vec3 v1 = z;\n  vec3 v2 = bound_add(v0, "
         "v1);\n  return v2;\n}\n");
-  // A branch that is known leaves nothing behind; one that is not chooses; what returns early is not computed
-  // on.
+  // A branch that is known leaves nothing behind; one that is not chooses; an early return ends the
+  // computation.
   CHECK(text("float f(vec3 p) { if (1.0 < 2.0) return p.x; return p.y / 0.0; }") ==
         "vec3 f(vec3 x, vec3 y, vec3 z) {\n  vec3 v0 = x;\n  return v0;\n}\n");
   const std::string early = text("float f(vec3 p) { if (p.x < 0.0) return p.y; return p.z; }");

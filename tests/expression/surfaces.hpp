@@ -1,5 +1,5 @@
-// Functions of p in GLSL, and by hand in float64: classics of algebraic geometry, and what procedural
-// modelling is made of.
+// Functions of p in GLSL, and by hand in float64: classics of algebraic geometry, and the building blocks of
+// procedural modelling.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ struct TestSurface {
   std::string_view name;
   std::string glsl;
   double (*f)(const Vec3& p);
-  double reach;        // of the cube around 0 within which it is looked at
+  double reach;        // of the cube around 0 within which it is examined
   bool jumps = false;  // not continuous, or made of functions that are not
 };
 

@@ -57,7 +57,7 @@ bool finite(const Vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-// True if what a ray from there hits, in either half, is a surface or nothing.
+// True if a ray from there hits, in either half, a surface or nothing.
 bool can_be_met(const Shape& shape, const PackedScene& packed, const Vec3& from, const Vec3& target) {
   const shader::Ray ray = shader::make_ray(glm::vec3(from), glm::vec3(glm::normalize(target - from)));
   const shader::Primitive& primitive = packed.primitives[0];

@@ -22,7 +22,7 @@ using test::Random;
 
 namespace {
 
-// An eighth of what is nearly a unit ball, about the pole (0, ±1, 0), where all of v = 1 is one point.
+// An eighth of nearly a unit ball, about the pole (0, ±1, 0), where all of v = 1 is one point.
 BezierNet eighth(int quarter, double side) {
   constexpr double k = 0.5522847498;
   const double radius[] = {1, 1, k, 0}, height[] = {0, k, 1, 1};

@@ -14,7 +14,7 @@ namespace eyeray::engine::test {
 
 namespace {
 
-// Any affine map that float32 can bear: not nearly flat. Places it around one at most 3 `size` away.
+// Any affine map that float32 can bear: not nearly flat. Moves the origin to a point at most 3 `size` away.
 Mat4 some_map(Random& random, double size) {
   Mat3 linear;
   do {
@@ -141,7 +141,7 @@ const std::map<std::string, MakeShape> makers = {
     {"quadric",
      [](Random& random, double size) {
        // One in four is a cone, its apex in the box. Where all squares have one sign, a cone may be its apex
-       // alone: which rays hit that point is a matter of rounding, and nothing to be asked.
+       // alone: which rays hit that point is a matter of rounding, and is not tested.
        const bool cone = random.below(4) == 0;
        shapes::QuadricValues values{.square = random.point(1),
                                     .product = random.point(1),

@@ -1,5 +1,5 @@
 // Every shape's float32 half, as the shaders have it, against its float64 half: first hits from all
-// distances, and rays that leave. docs/numerics.md has the figures; EYERAY_FULL_TESTS=1 makes them, with ten
+// distances, and rays that leave. docs/numerics.md has the figures. EYERAY_FULL_TESTS=1 makes them, with ten
 // times as many rays.
 #include <fmt/format.h>
 
@@ -123,7 +123,7 @@ bool is_grazing(const Sample& sample, const shader::Ray& ray, double t, double r
   return t >= least - spread && t <= greatest + spread;
 }
 
-// The exact t of the first hit on what is, along the ray, thicker than `room`.
+// The exact t of the first hit on a part that is, along the ray, thicker than `room`.
 double first_thick(const Sample& sample, const shader::Ray& ray, double room) {
   for (const Span& span : sample.shape->spans({Vec3(ray.o), Vec3(ray.d)})) {
     const double t = span.in.t > 0 ? span.in.t : span.out.t;
@@ -220,7 +220,7 @@ TEST_CASE("every closed shape as a part of CSG objects: first hits, no wrong ans
     for (const double distance : {1.5, 1e2, 1e4}) check_first_hits(name + " and ball", make_pair, distance);
   }
 
-  // These are what the shaders ask.
+  // These are the kinds that the shaders query.
   std::set<std::string> asked;
 #define NAME(name, number) asked.insert(#name);
   CLOSED_SHAPES(NAME)

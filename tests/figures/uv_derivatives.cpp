@@ -23,7 +23,7 @@ struct Counts {
   int wrong_gradients = 0;
 };
 
-// True if a step of the surface is what its derivatives make of the step in uv.
+// True if a step of the surface follows from its derivatives and the step in uv.
 bool follows(const SurfacePoint& point, const SurfacePoint& aside) {
   const Vec3 step = aside.position - point.position;
   const Vec2 uv = aside.uv - point.uv;

@@ -1,4 +1,4 @@
-// Formulas of cameras: what they must define, and what they say.
+// Formulas of cameras: their required functions, and their results.
 #include "host/formula/formula.hpp"
 
 #include "tests/support/doctest.hpp"

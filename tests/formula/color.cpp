@@ -1,4 +1,4 @@
-// Formulas of colours: what they must define, and what they say.
+// Formulas of colours: their required functions, and their results.
 #include "host/formula/formula.hpp"
 
 #include "tests/support/doctest.hpp"

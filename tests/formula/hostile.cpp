@@ -1,4 +1,4 @@
-// Texts that want to harm: each is refused at its place, or does what GLSL says and no more.
+// Texts that want to harm: each is refused at its position, or does as GLSL requires and no more.
 #include <fmt/format.h>
 
 #include "host/formula/formula.hpp"

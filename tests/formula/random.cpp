@@ -1,4 +1,4 @@
-// Formulas at random: whatever they say, they are refused with words or run to an end, twice to the same
+// Formulas at random: all of them are refused with words or run to an end, twice to the same
 // bits. EYERAY_FULL_TESTS=1 draws a million, EYERAY_SEED other ones.
 #include <cstring>
 

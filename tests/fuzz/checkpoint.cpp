@@ -1,6 +1,6 @@
 // The fuzzer's test of a checkpoint: it is refused, or gives as many sums and rows as requested. The bytes
-// are a file's, or, where they begin with "size: ", an identity, a 0, the bytes of the position, the sums and
-// the rows, to which the lengths and checksums are made: else nothing behind these would be seen.
+// are a file's. If they begin with "size: ", they are an identity, a 0, the bytes of the position, sums and
+// rows. Lengths and checksums are made to fit these: else nothing behind them would be seen.
 #include <unistd.h>
 
 #include <cstdlib>

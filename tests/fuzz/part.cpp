@@ -1,6 +1,6 @@
 // The fuzzer's test of a part: it is refused, or read whole, and its header and totals stay the same when
-// they are written again. The bytes are a file's, or, where they begin with {, a header's, a 0, those of the
-// totals, a 0 and pixels, to which the lengths and checksums are made: else nothing behind these would be
+// they are written again. The bytes are a file's. If they begin with {, they are a header's, a 0, those of
+// totals, a 0 and pixels. Lengths and checksums are made to fit these: else nothing behind them would be
 // seen.
 #include <sys/mman.h>
 #include <unistd.h>

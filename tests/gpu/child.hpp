@@ -9,7 +9,7 @@ namespace eyeray::engine::test {
 // "list": names the devices on standard output; "endless": work that outlasts its time-out.
 void child_work(std::string_view name);
 
-// "failing calls": says on standard output which calls of Vulkan end badly when they fail.
+// "failing calls": prints on standard output which calls of Vulkan end badly when they fail.
 void fail_every_call();
 
 }  // namespace eyeray::engine::test

@@ -1,5 +1,5 @@
-// Triangles by the device's rasteriser: where they lie, which is in front, and what is said of what cannot be
-// drawn.
+// Triangles by the device's rasteriser: where they lie, which is in front, and the errors for triangles that
+// cannot be drawn.
 #include "host/gpu/rasterizer.hpp"
 
 #include "support.hpp"

@@ -1,4 +1,4 @@
-// The validation layers see nothing wrong with what this layer does, and would say so if there were.
+// The validation layers see nothing wrong with the calls of this layer, and would report any fault.
 #include "host/gpu/context.hpp"
 #include "support.hpp"
 
@@ -7,7 +7,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// A day's work: buffers, an upload, a dispatch that reads what the one before wrote, with a barrier between
+// A day's work: buffers, an upload, a dispatch that reads the results of another, with a barrier between
 // them or not, and a read. (The layer keeps silent about two dispatches that write one buffer: it cannot know
 // which words.)
 void use(gpu::Device& device, bool with_barrier) {

@@ -1,4 +1,4 @@
-// Fields that say what a picture's codes mean: each that is not honoured is a warning.
+// Fields that define the meaning of a picture's codes: each that is not honoured is a warning.
 #include "host/image/color_fields.hpp"
 #include <fstream>
 

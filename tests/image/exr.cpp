@@ -1,4 +1,4 @@
-// OpenEXR: what is written comes back, and files that others wrote are read or refused with a clear sentence.
+// OpenEXR: written values come back, and files that others wrote are read or refused with a clear sentence.
 #include <algorithm>
 #include <array>
 #include <bit>

@@ -1,4 +1,4 @@
-// Animations of glTF files: what nodes, skins and morph targets are at a moment, and what is wrong with them.
+// Animations of glTF files: the state of nodes, skins and morph targets at a moment, and faults in them.
 #include <functional>
 #include <numbers>
 

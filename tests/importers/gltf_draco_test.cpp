@@ -1,4 +1,4 @@
-// KHR_draco_mesh_compression: what the library's encoder makes is read back; all else is refused.
+// KHR_draco_mesh_compression: meshes from the library's encoder are read back; all else is refused.
 #include <ctime>
 
 #include "coded_grid.hpp"
@@ -31,7 +31,7 @@ std::string varint(uint32_t value) {
   return bytes + char(value);
 }
 
-// Up to where an edgebreaker's mesh says how large it is.
+// Up to where an edgebreaker's mesh states its size.
 const std::string edgebreaker_head("DRACO\x02\x02\x01\x01\x00\x00\x00", 12);
 
 }  // namespace
@@ -292,7 +292,7 @@ TEST_CASE("draco: one attribute of a large mesh is not copied into accessors wit
                  "makes the number of elements larger than a file of this size may have"));
 }
 
-// Draco 1.5.5 takes 7 s for what they claim, in a few bytes; the count lies where only decoding finds it.
+// Draco 1.5.5 takes 7 s for the claimed orientations, in a few bytes; only decoding finds their count.
 TEST_CASE("draco: orientations of uv without end") {
   const std::string whole = draco_grid_data({draco::MESH_EDGEBREAKER_ENCODING, 3}, hilly_grid());
   size_t survived = 0;

@@ -114,7 +114,7 @@ class GltfFile {
   }
 
  private:
-  // With its extensions in extensionsUsed, unless the test says which are there.
+  // With its extensions in extensionsUsed, unless the test lists them itself.
   Json declared() const {
     Json whole = json;
     if (whole.contains("extensionsUsed")) return whole;

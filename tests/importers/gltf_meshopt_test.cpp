@@ -1,4 +1,4 @@
-// EXT_meshopt_compression: what the library's encoder makes is read back; all else is refused.
+// EXT_meshopt_compression: meshes from the library's encoder are read back; all else is refused.
 #include "coded_grid.hpp"
 
 using namespace eyeray::engine;
@@ -11,7 +11,7 @@ Json& coding_of(GltfFile& file, size_t view) {
   return file.json["bufferViews"][view]["extensions"]["EXT_meshopt_compression"];
 }
 
-// Four floats a vertex, the last of them 1: what the filters' encoders take.
+// Four floats a vertex, the last of them 1: the input of the filters' encoders.
 std::vector<float> by_four(const std::vector<double>& three) {
   std::vector<float> four;
   for (size_t i = 0; i < three.size(); ++i) {
@@ -211,7 +211,7 @@ TEST_CASE("meshopt: data cut short at every byte, or of another version") {
 }
 
 TEST_CASE("meshopt: absurd counts take no memory, alone or many of them together") {
-  // 64 bytes at most of one, plus what is at the ends.
+  // 64 bytes at most of one, plus the bytes at the ends.
   for (const auto& [view, stride] : {std::pair(size_t{0}, 12), std::pair(size_t{3}, 2)}) {
     GltfFile file = meshopt_grid();
     coding_of(file, view)["count"] = 999999999;

@@ -31,7 +31,7 @@ TEST_CASE("rules of glTF: samplers, and pictures without uv") {
   CHECK(said_of(file) ==
         "meshes without the uv that their material's picture needs: 1, the first meshes[0].primitives[0]");
 
-  // A picture of another type than it says, and one that is two.
+  // A picture of another type than it states, and one that is two.
   Json& image = file.json["images"][0];
   file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] = 0;
   image["mimeType"] = "image/jpeg";

@@ -260,7 +260,7 @@ TEST_CASE("rules of glTF: what is said when each is broken") {
        camera({{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0}}}}), ""},
       {"a camera without a type", camera({{"perspective", {{"yfov", 1}, {"znear", 1}}}}),
        "cameras whose type is not that of their values, which are used: 1, the first cameras[0]"},
-      // Properties of other names, or in other places.
+      // Properties of other names, or at other positions.
       {"a property in another case", set("/materials/0/alphamode", "BLEND"),
        "properties that glTF does not define, left out: 1, the first materials[0].alphamode"},
       {"a property one level too high", set("/materials/0/baseColorFactor", {1, 0, 0, 1}),
@@ -354,7 +354,7 @@ TEST_CASE("rules of glTF: a kind is said once, with its count and first place") 
   CHECK(said_of(file) ==
         "rotations that are not of unit length, normalised: 38, the first nodes[2].rotation");
 
-  // More places than are remembered one by one.
+  // More positions than are remembered one by one.
   GltfFile many = square_file();
   for (int i = 0; i < 70'000; ++i) many.json["nodes"].push_back({{"name", i}});
   CHECK(said_of(many) ==

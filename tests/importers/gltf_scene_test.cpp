@@ -1,4 +1,4 @@
-// The materials and textures of glTF files, and what is left out.
+// The materials and textures of glTF files, and the parts that are left out.
 #include "gltf_files.hpp"
 #include "host/image/coded_image.hpp"
 #include "host/scene/image_texture_file.hpp"
@@ -83,7 +83,7 @@ TEST_CASE("metallic-roughness as a BSDF, with its coat, its index and its map") 
   CHECK(painted.coat == 0.75);
   CHECK(painted.coat_roughness == 0.1);
 
-  // In a map, green is roughness and blue is metalness, whatever red is.
+  // In a map, green is roughness and blue is metalness; red has no meaning.
   std::ifstream png("tests/image/pictures/rgb.png", std::ios::binary);
   const std::string picture{std::istreambuf_iterator<char>(png), {}};
   GltfFile mapped = with_material({{"pbrMetallicRoughness",
@@ -163,8 +163,8 @@ TEST_CASE("extensions of materials, with their pictures: which channel of each c
     CHECK(over.coat == doctest::Approx(channel(0)->at(uv).x));
     CHECK(over.coat_roughness == doctest::Approx(channel(1)->at(uv).x));
   }
-  // A material with thickness refracts, is tinted and dims light. One without is a pane, whatever Whitted's
-  // pictures show.
+  // A material with thickness refracts, is tinted and dims light. One without is a pane, however Whitted's
+  // pictures show it.
   const Json volume = {{"thicknessFactor", 1}, {"attenuationDistance", 2}, {"attenuationColor", {1, 0.5, 1}}};
   const ImportedScene thick = imported({{"KHR_materials_transmission", {{"transmissionFactor", 0.25}}},
                                         {"KHR_materials_volume", volume},
@@ -270,7 +270,7 @@ TEST_CASE("alphaMode MASK cuts out by factor, picture and vertices, BLEND blends
   REQUIRE(mask_of());
   CHECK(mask_of()->blends);
   CHECK(mask_of()->alpha->alpha_at(Vec2(0)) == 0.6);
-  // A ray hits it with a probability of 0.6, or of half that where its vertices say so.
+  // A ray hits it with a probability of 0.6, or of half that where its vertices set that.
   CHECK(mask_of()->covers(Vec2(0), 1, 0.6));
   CHECK_FALSE(mask_of()->covers(Vec2(0), 0.5, 0.6));
   CHECK(mask_of()->covers(Vec2(0), 0.5, 0.3));

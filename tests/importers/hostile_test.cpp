@@ -1,5 +1,5 @@
-// Files cut short at every byte, and files with random damage: refused or read, never a crash, and what is
-// read keeps every promise.
+// Files cut short at every byte, and files with random damage: refused or read, never a crash, and a file
+// that is read keeps every promise.
 #include <random>
 
 #include "coded_grid.hpp"

@@ -217,7 +217,7 @@ TEST_CASE(
   REQUIRE(cut.materials[0]->mask);
   CHECK(cut.materials[0]->mask->alpha->alpha_at(Vec2(0.5)) < 1);
   CHECK(!square_of(folder, "d 0").materials[0]->mask->covers(Vec2(0)));
-  CHECK(cut.materials[0]->mask->blends);  // its picture is grey in places
+  CHECK(cut.materials[0]->mask->blends);  // its picture is grey at some points
   for (const std::string half : {"d 0.5", "Tr 0.5", "illum 2\nd 0.5"}) {
     const ImportedScene blended = square_of(folder, half);
     CHECK(blended.warnings.empty());

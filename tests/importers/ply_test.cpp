@@ -210,7 +210,7 @@ TEST_CASE("a header may promise what it likes") {
 
 namespace {
 
-// A square of four vertices and two faces that have what `properties` says.
+// A square of four vertices and two faces that have the properties in `properties`.
 std::string two_faces(const std::string& comments, const std::string& properties, const std::string& first,
                       const std::string& second) {
   return "ply\nformat ascii 1.0\n" + comments +

@@ -257,7 +257,7 @@ TEST_CASE("a scene built in code is the same as one from a file") {
   const Picture picture = renderer().render(builder.scene());
   CHECK(same_bits(picture.color(), renderer().render(Scene::read(small)).color()));
 
-  // A mesh of one triangle beside the sphere changes pixels; one of wrong arrays is refused, and says why.
+  // A mesh of one triangle beside the sphere changes pixels; one of wrong arrays is refused, with the reason.
   const std::vector<float> positions{-2, 0, 1, -1, 0, 1, -1.5, 2, 1};
   const std::vector<uint32_t> corners{0, 1, 2};
   builder.add_mesh({positions, corners}, Table().set("material", "say \"matte\"\n"));

@@ -1,4 +1,4 @@
-// [animation] and [[track]]: what a scene is at a frame.
+// [animation] and [[track]]: the state of a scene at a frame.
 #include <fmt/format.h>
 
 #include <cmath>

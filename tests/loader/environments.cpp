@@ -1,4 +1,4 @@
-// [environment]: what is said of files that are no light.
+// [environment]: messages about files that are no light.
 #include <cmath>
 #include <limits>
 

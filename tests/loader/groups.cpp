@@ -1,4 +1,4 @@
-// Groups move what they hold as one, and show it once a transform of their batch.
+// Groups move their members as one, and show them once a transform of their batch.
 #include <fmt/format.h>
 
 #include "host/scene/affine.hpp"

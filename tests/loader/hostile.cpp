@@ -167,7 +167,7 @@ TEST_CASE("files that are none") {
   CHECK(unreadable("") == "cannot read the scene : No such file or directory");
   CHECK(unreadable(folder / std::string(300, 'x')).ends_with(": File name too long"));
 
-  // A file of /proc says that it has no bytes, and has.
+  // A file of /proc has a size of no bytes, and yet contents.
   CHECK(!read_input_file("/proc/self/status", "the scene", 1 << 20).empty());
   CHECK_THROWS_WITH_AS(read_input_file("/proc/self/status", "the scene", 10),
                        "cannot read the scene /proc/self/status: it has more than 10 bytes", Error);
@@ -189,7 +189,7 @@ TEST_CASE("mutated scenes are either loaded or refused") {
   const std::string seed{std::istreambuf_iterator<char>(file), {}};
   REQUIRE_FALSE(refused(seed));
 
-  // Damage one to eight places of the text, in the ways of editors, bad disks and fuzzers.
+  // Damage one to eight positions of the text, in the ways of editors, bad disks and fuzzers.
   std::mt19937 random(20240711);
   const auto below = [&](size_t n) { return std::uniform_int_distribution<size_t>(0, n - 1)(random); };
   constexpr std::string_view tokens[] = {"[",          "]",

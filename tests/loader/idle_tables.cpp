@@ -1,4 +1,4 @@
-// Keys that change nothing in a scene: a warning that says why.
+// Keys that change nothing in a scene: a warning that states why.
 #include <fmt/ranges.h>
 
 #include "host/loader/scene_file.hpp"

@@ -1,4 +1,4 @@
-// Images that a scene names: where they may lie, what they become, and what is said when they are none.
+// Images that a scene names: where they may lie, their textures, and the messages when they are none.
 #include <sys/stat.h>
 
 #include "host/core/atomic_file.hpp"
@@ -62,7 +62,7 @@ TEST_CASE("a texture's keys for its image arrive") {
   const Vec3 red(1, 0, 0), green(0, 1, 0), black(0), white(1);
   const auto near = [](const Vec3& a, const Vec3& b) { return glm::length(a - b) < 1e-12; };
 
-  // Bilinear and repeated unless said otherwise: at u = 0 the first column and the last are mixed.
+  // Bilinear and repeated by default: at u = 0 the first column and the last are mixed.
   CHECK(near(color("", {1.0 / 6, 0.75}), red));
   CHECK(near(color("", {2.0 / 6, 0.75}), (red + green) / 2.0));
   CHECK(near(color("", {0, 0.75}), Vec3(0.5, 0, 0.5)));

@@ -1,4 +1,4 @@
-// Instances of groups: named ones, where they are instanced, and what may not be.
+// Instances of groups: named ones, where they are instanced, and their errors.
 #include <fmt/format.h>
 
 #include "host/scene/affine.hpp"

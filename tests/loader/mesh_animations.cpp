@@ -21,7 +21,7 @@ std::string floats(const std::vector<float>& numbers) {
 }
 
 // A triangle whose node goes from 0 to 8 along x ("Walk") or y ("Run") from 1 s to 2 s, and stands at 5 along
-// z at rest. `nodes`: these and what else there is to them; `path` and `end`: of "Walk".
+// z at rest. `nodes`: these and the rest of the file; `path` and `end`: of "Walk".
 std::string walker(const Folder& folder, const std::string& name = "walker.gltf",
                    const std::string& nodes = R"("nodes": [{"mesh": 0, "translation": [0, 0, 5]}])",
                    const char* path = "translation", const Vec3& end = Vec3(8, 0, 0)) {

@@ -1,4 +1,4 @@
-// Every message a scene's author may see: NAME.toml is the scene, NAME.txt exactly what is said of it.
+// Every message a scene's author may see: NAME.toml is the scene, NAME.txt exactly the text that is printed.
 #include <fstream>
 #include <iterator>
 #include <set>

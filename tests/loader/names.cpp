@@ -1,4 +1,4 @@
-// Names of shapes, meshes and groups: who bears which, and what messages say.
+// Names of shapes, meshes and groups: who bears which, and the names in messages.
 #include <fmt/format.h>
 
 #include "host/loader/scene_file.hpp"

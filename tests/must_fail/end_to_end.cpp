@@ -1,4 +1,4 @@
-// Faults in the GPU's shaders alone: the program itself must notice, say why, and answer 1.
+// Faults in the GPU's shaders alone: the program itself must notice, print the reason, and answer 1.
 #include <limits>
 #include <set>
 
@@ -126,7 +126,7 @@ std::vector<Expected> all_expected() {
   };
 }
 
-// Verifies a scene with the fault, and looks for what the report must say.
+// Verifies a scene with the fault, and looks for the expected text in the report.
 void expect_noticed(const Expected& expected) {
   CAPTURE(expected.fault);
   const TemporaryFolder folder;

@@ -1,4 +1,4 @@
-// Gate D: what samples of random paths are excused, and what not.
+// Gate D: which samples of random paths are excused, and which are not.
 #include <cmath>
 
 #include "honest_frame.hpp"

@@ -1,4 +1,4 @@
-// Faults of geometry on the GPU's side, against what the device's rasteriser draws: gate R must detect each
+// Faults of geometry on the GPU's side, against triangles of the device's rasteriser: gate R must detect each
 // that changes a camera ray's hit, and pass the twin and the reference.
 #include <nlohmann/json.hpp>
 

@@ -1,4 +1,4 @@
-// Cutouts by alpha: what is behind one is hit, whatever the way of searching, by nearest and by shadow rays.
+// Cutouts by alpha: the surface behind one is hit in every way of searching, by nearest and by shadow rays.
 #include <fmt/format.h>
 
 #include "host/pack/collapse.hpp"
@@ -114,7 +114,7 @@ TEST_CASE("cutouts: BVHs find what brute force finds, and in float64 too, to the
     MESSAGE(fmt::format("{} instances: {} of {} rays hit cutouts, {} differ from float64", instances, cut,
                         2 * rays.size(), apart));
     CHECK(cut > 19'000);
-    CHECK(apart < 100);  // where rounding is to say on which side of a cutout's edge a ray is
+    CHECK(apart < 100);  // where rounding decides on which side of a cutout's edge a ray is
   }
 }
 

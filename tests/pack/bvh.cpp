@@ -1,4 +1,4 @@
-// A BVH changes nothing: what is found through it is what testing everything finds, to the last bit.
+// A BVH changes nothing: its hits are those of testing everything, to the last bit.
 #include <fmt/format.h>
 
 #include <array>

@@ -1,4 +1,4 @@
-// Materials that are there only in front: rays from behind a triangle of theirs hit what is beyond, in every
+// Materials that are there only in front: rays from behind a triangle of theirs hit surfaces beyond, in every
 // search, by nearest and by shadow rays. The expectation is computed here, in the world.
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>

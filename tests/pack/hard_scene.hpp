@@ -224,7 +224,7 @@ class HardScene {
           operands.push_back(std::move(inner));
         }
       }
-      // Most of what is within all of them would be nothing.
+      // Most intersections of all of them would be empty.
       const bool all = operands.size() < 3 && chance(0.4);
       auto csg = shapes::make_csg(all, std::move(operands), std::move(removed));
       if (glm::all(glm::lessThan(csg->bounds().min, csg->bounds().max))) add(scene_, std::move(csg), 0);
@@ -352,7 +352,7 @@ class HardScene {
     }
     if (direction == Vec3(0)) direction = {0, 0, 1};
     direction = unit(direction);
-    // Half of them end, some close to what they aim at.
+    // Half of them end, some close to their target.
     const double distance = glm::length(Vec3(target) - origin);
     const double t_max = chance(0.5)   ? 3e38
                          : chance(0.5) ? distance

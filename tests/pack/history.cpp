@@ -1,5 +1,5 @@
-// BVHs of frames: refitted where items have moved a little, built where that would cost rays much; what rays
-// hit is the same.
+// BVHs of frames: refitted where items have moved a little, built where that would cost rays much; hits of
+// rays are the same.
 #include "host/bvh/history.hpp"
 
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr size_t many = 3000;
 
-// Small ones all over a cube; of two seeds in other places.
+// Small ones all over a cube; of two seeds at other positions.
 std::vector<Box> boxes_of(uint64_t seed, float shift = 0) {
   test::Random random{seed};
   std::vector<Box> boxes;
@@ -143,7 +143,7 @@ TEST_CASE("what moved a little is refitted, what is elsewhere is built, and so i
   CHECK_FALSE(built_again);
   CHECK(std::ranges::equal(first.order, second.order));
   CHECK(frame(boxes_of(2)).second);                       // everything is elsewhere
-  CHECK_FALSE(frame(boxes_of(2, 0.02f)).second);          // that is what is kept now
+  CHECK_FALSE(frame(boxes_of(2, 0.02f)).second);          // these boxes are kept now
   CHECK(frame(boxes_of(2), uint32_t(many - 40)).second);  // others are lone
   std::vector<Box> fewer = boxes_of(2);
   fewer.resize(many - 1);

@@ -122,7 +122,7 @@ TEST_CASE("neighbours' ids, another t, another place, a miss and a ghost are eac
         if (hit.primitive > 0) hit.primitive = 1 << 30;
       },
       "the ray hits a primitive that");
-  // Both t and place, along the ray.
+  // Both t and position, along the ray.
   const Vec3 eye = compared.scene.camera.eye;
   fails(
       [&](FirstHit& hit) {

@@ -1,4 +1,4 @@
-// The reference's BVH finds what asking everything finds, to the last bit.
+// The reference's BVH finds the same hit as testing every shape, to the last bit.
 #include <fmt/format.h>
 
 #include <bit>
@@ -154,7 +154,7 @@ bool same(const std::optional<reference::Hit>& a, const std::optional<reference:
          same_bits(a->at.u, b->at.u) && same_bits(a->at.v, b->at.v);
 }
 
-// The nearest hit as the definition says, without a box in it anywhere.
+// The nearest hit by the definition, without a box in it anywhere.
 std::optional<Intersection> plain_search(const Scene& scene, const Ray& ray) {
   std::optional<Intersection> nearest;
   const auto offer = [&](const std::optional<Intersection>& hit) {

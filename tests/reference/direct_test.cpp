@@ -62,7 +62,7 @@ TEST_CASE("the side that is seen is the side that is lit") {
   add_sun(scene, {0, 1, 0}, Vec3(1));
   PixelSample sample = look(scene);
   CHECK(sample.color == Vec3(0));
-  CHECK(sample.rays == 1);  // nothing is asked of a light that is behind
+  CHECK(sample.rays == 1);  // no shadow ray goes to a light that is behind
   scene.lights.clear();
   add_sun(scene, {0, -1, 0}, Vec3(1));
   CHECK(look(scene).color == Vec3(1));

@@ -1,4 +1,4 @@
-// Meshes and their instances in the reference: what they look like, against shapes and closed forms.
+// Meshes and their instances in the reference: their looks, against shapes and closed forms.
 #include "tests/support/empty_scene.hpp"
 #include "tests/support/meshes.hpp"
 
@@ -11,7 +11,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// Light, shadow, a mirror, glass and a floor, for whatever is put between them.
+// Light, shadow, a mirror, glass and a floor, for the objects that are put between them.
 Scene studio() {
   Scene scene = test::empty_scene();
   scene.image = {.width = 48, .height = 36};

@@ -113,7 +113,7 @@ TEST_CASE("rounding that takes another check at each mirror stays within the dar
     CHECK(look_with(x, darkest) == 1.875 * Vec3(0.25, 0.5, 0));
     CHECK(look_with(x, brightest) == 1.875 * Vec3(1, 1, 0));
   }
-  // Off the border by more than what is rounded there is one colour at each.
+  // Off the border by more than the rounding there is one colour at each.
   for (const double x : {0.001, 0.5, -0.001}) {
     CHECK(look_with(x, darkest) == look_with(x, at_hit));
     CHECK(look_with(x, brightest) == look_with(x, at_hit));
@@ -169,7 +169,7 @@ TEST_CASE("a glass sphere in a uniform world loses no light") {
     CHECK(near(look(scene).color, Vec3(1, 0.5, 0.25), 1e-12));
   }
 
-  // One ray deep, only what the front mirrors comes back.
+  // One ray deep, only the light that the front mirrors comes back.
   scene.camera.target = {0, 0, 0};
   scene.render.max_depth = 1;
   CHECK(near(look(scene).color, 0.04 * Vec3(1, 0.5, 0.25), 1e-15));
@@ -315,7 +315,7 @@ TEST_CASE("a shape that gives up is no hit, and flagged where it might have been
     uint32_t flags = 0;
     CHECK(tracer.transmittance({{0, 0, 1.001}, {0, 0, 1}}, 2, flags) == 1);
     CHECK(flags == (sure_until < 2 ? iteration_limit : 0u));
-    // A dark path is dark, whatever else is on its way.
+    // A dark path is dark, with anything else on its way.
     flags = 0;
     CHECK(tracer.transmittance({{0, 0, 5}, {0, 0, -1}}, 10, flags) == 0);
     CHECK(flags == 0);

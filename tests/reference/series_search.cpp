@@ -1,4 +1,4 @@
-// The reference's search by Chebyshev series finds what its search by a Lipschitz constant finds.
+// The reference's search by Chebyshev series finds the same roots as its search by a Lipschitz constant.
 #include <cmath>
 #include <memory>
 

@@ -17,7 +17,7 @@ TEST_CASE("torus: four crossings, one after the other, the hole and the pole") {
   CHECK(distance(*torus, {{9, 2, 3}, {-1, 0, 0}}) == -1);
   CHECK(distance(*torus, {{9, 3.49, 3}, {-1, 0, 0}}) == -1);
   CHECK(near(distance(*torus, {{9, 4, 3}, {-1, 0, 0}}), 7.5, 1e-13));
-  // Square to that, through the hole's middle plane: (y − 2)² = (2 ± 0.5)² − 1.
+  // Perpendicular to that, through the hole's middle plane: (y − 2)² = (2 ± 0.5)² − 1.
   CHECK(near(distance(*torus, {{1, 12, 4}, {0, -1, 0}}), 10 - std::sqrt(5.25), 1e-13));
   CHECK(near(distance(*torus, {{1, 2, 4}, {0, -1, 0}}), std::sqrt(1.25), 1e-13));
 
@@ -59,7 +59,7 @@ TEST_CASE("torus: a point aimed at is a point hit, however thin, from all distan
     const Vec3 around(std::cos(u), 0, std::sin(u));
     const Vec3 normal = around * std::cos(v) + Vec3(0, std::sin(v), 0);
     const Vec3 target = around + normal * minor;
-    // From within the tube: whatever lies beyond cannot be nearer.
+    // From within the tube: surfaces beyond cannot be nearer.
     const Vec3 from = around + normal * (minor * dice.between(0, 0.99));
     const double expected = glm::length(target - from);
     worst = std::max(worst, std::abs(distance(*torus, {from, normal}) - expected));

@@ -1,4 +1,4 @@
-// Renders that are interrupted and taken up again; and what a checkpoint file may be instead of one.
+// Renders that are interrupted and taken up again; and other files in place of a checkpoint.
 #include "host/render/checkpoint.hpp"
 
 #include "fake_executor.hpp"
@@ -122,7 +122,7 @@ TEST_CASE("a render that fails leaves its checkpoint, and one that is killed the
   CHECK(Checkpoint::resume(file, identity, seldom).position().samples == 2);
   CHECK(same_rendering(render_rest(scene, 3, file), whole));
 
-  // Every call is followed by a checkpoint; what the killed run wrote afterwards is dropped.
+  // Every call is followed by a checkpoint; rows that the killed run wrote afterwards are dropped.
   const TemporaryFolder killed;
   {
     Checkpoint checkpoint = Checkpoint::begin(file, identity, 0);

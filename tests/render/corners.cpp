@@ -16,7 +16,7 @@ using namespace eyeray::engine::cameras;
 
 namespace {
 
-// The ray at a place (x, y) in pixels from the upper left.
+// The ray at a point (x, y) in pixels from the upper left.
 Ray ray_at(const Scene& scene, double x, double y) {
   return reference::CameraRays(scene.camera, scene.image).ray({x, y});
 }

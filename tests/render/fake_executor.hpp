@@ -13,7 +13,7 @@ namespace eyeray::engine::test {
 
 class FakeExecutor : public executors::Executor {
  public:
-  // `before_call(n)` is asked before the n-th call of sample, from 0; false interrupts, and it may throw.
+  // `before_call(n)` is called before the n-th call of sample, from 0; false interrupts, and it may throw.
   explicit FakeExecutor(std::function<bool(int)> before_call = {}) : before_call_(std::move(before_call)) {}
 
   bool sample(const Grid& grid, uint32_t index, std::span<PixelSample> out,

@@ -62,7 +62,7 @@ TEST_CASE("every shard has as many tiles, to within one, and they lie all over t
 }
 
 TEST_CASE("the order is what parts on disk were made by") {
-  // A part says only which share it is: its tiles must be the same in every version that reads its layout.
+  // A part states only which share it is: its tiles must be the same in every version that reads its layout.
   const Tiling tiling(256, 64, 4);
   CHECK(tiling.tile_width() == 256);
   // By a transcription in another language.

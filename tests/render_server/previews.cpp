@@ -1,4 +1,4 @@
-// What the worker of dev shows while a kernel compiles.
+// The pictures that the worker of dev shows while a kernel compiles.
 #include <sys/socket.h>
 
 #include <thread>
@@ -38,7 +38,7 @@ radius = 1
 material = "stripes"
 )";
 
-// A RenderServer on a thread, and what it has said.
+// A RenderServer on a thread, and the messages that it has sent.
 class Served {
  public:
   Served() {

@@ -43,7 +43,7 @@ TEST_CASE("every shape of the registry has a scene of its name, in which it is")
     const std::string file = "scenes/shapes/" + std::string(shapes::types()[kind]->name) + ".toml";
     CAPTURE(file);
     REQUIRE(std::filesystem::exists(file));
-    // Which the manual shows, made by scripts/pictures.
+    // The manual shows this picture, made by scripts/pictures.
     CHECK(std::filesystem::exists("docs/images/shapes/" + std::string(shapes::types()[kind]->name) + ".png"));
     CHECK(kinds_of(load_scene(file)).shapes.contains(kind));
   }

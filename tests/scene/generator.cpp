@@ -102,7 +102,7 @@ double Writer::number(const Key& key) {
   const bool share = key.type == KeyType::color || key.type == KeyType::texture;
   const double low = share ? 0 : std::max(key.min, -3.0);
   const double high = share ? 1 : key.max <= 1000 ? key.max : 3;
-  // Neither end, which may be excluded or extreme; and of great ranges no more than what is seen well.
+  // Neither end, which may be excluded or extreme; and of great ranges only the part that is seen well.
   if (key.name == "fov") return random_.uniform(20, 110);
   if (key.name == "turbulence") return random_.uniform(0, 2);
   return random_.uniform(low + (high - low) * 0.05, high - (high - low) * 0.02);
@@ -276,7 +276,7 @@ std::string Writer::write() {
     if (chance(0.8)) mostly = {"normals"};
     // An uneven scale is no sphere's.
     if (chance(0.5)) mostly.insert("transform");
-    // A formula stands in one place; that of a file, in none.
+    // A formula stands at one position; that of a file, at none.
     mostly.insert({"code", "file", "ready", "lipschitz"});
     const auto given = [&](const shapes::ShapeType& shape) {
       if (shape.name != "implicit") return "";

@@ -1,5 +1,5 @@
-// Scene files made up at random, every key of every table in them: what the loader declares (Key) is what is
-// written, so a new shape or material takes part by itself.
+// Scene files made up at random, with every key of every table in them. They contain the keys that the loader
+// declares (Key), so a new shape or material takes part by itself.
 #pragma once
 
 #include <string>

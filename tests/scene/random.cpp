@@ -1,4 +1,4 @@
-// Scenes that nobody would write: either the loader says what is wrong with them, or they render.
+// Scenes that nobody would write: either the loader reports their faults, or they render.
 #include <fmt/format.h>
 
 #include <array>
@@ -93,7 +93,7 @@ TEST_CASE("scenes with extreme values: a clear error or a sound picture") {
       for (const Backend backend : {Backend::twin, Backend::reference}) {
         const Frame frame = render_frame(scene, backend);
         Soundness soundness = inspect(frame);
-        // The scene's own doing, and said: media in media; a patch that is 1e12 wide and bent within 1.
+        // The scene's own doing, and reported: media in media; a patch that is 1e12 wide and bent within 1.
         reached_iteration_limit += bool(soundness.flags & iteration_limit);
         soundness.flags &= ~(media_overflow | iteration_limit);
         soundness.flagged_pixels = 0;

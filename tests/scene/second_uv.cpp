@@ -31,7 +31,7 @@ std::shared_ptr<const ImageTexture> picture(Random& random, int least) {
 
 // A ball with colours at its vertices, shown twice, and a cube without normals. Colours, roughness and the
 // coat's normals are pictures on one set of uv, light and the surface's normals on another. Which of the two
-// is a mesh's second, `swapped` says.
+// is a mesh's second depends on `swapped`.
 Scene ball_and_cube(bool swapped) {
   Scene scene = empty_scene();
   scene.image = {.width = 40, .height = 30, .samples = 4};

@@ -1,4 +1,4 @@
-// materials/bent_normal.glsl: what it bends is bent as the reference says, and what is mirrored to the viewer
+// materials/bent_normal.glsl: it bends normals as the reference does, and the viewer's mirror direction
 // stays above the surface.
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ using test::Random;
 
 namespace {
 
-// A place on some surface, in both forms.
+// A point on some surface, in both forms.
 struct Place {
   SurfacePoint point;
   shader::Surface surface;

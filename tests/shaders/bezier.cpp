@@ -1,4 +1,4 @@
-// Arcs of a Bézier patch's section: what is guessed from them is found again by Newton's method, but the
+// Arcs of a Bézier patch's section: roots guessed from them are found again by Newton's method, but the
 // later, the worse the guess.
 #include "host/twin/shader_functions.hpp"
 

@@ -1,5 +1,5 @@
-// The lobes of BSDFs: what they say of a direction beside what they send there, in the shaders and in the
-// reference; and that none makes or loses light.
+// The lobes of BSDFs: their values for a direction beside the light that they send there, in shaders and
+// the reference; and that none makes or loses light.
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -72,7 +72,7 @@ double integral(const F& f, const Vec2& low, const Vec2& high, double error, int
   return sum;
 }
 
-// Points of the lattice that counts what is lost, and how well they count it.
+// Points of the lattice that counts the lost light, and how well they count it.
 int lattice_points() {
   return test::amount(1 << 18, 1 << 20, 1 << 24);
 }
@@ -109,7 +109,7 @@ double critical_z(int tests) {
   return high;
 }
 
-// Cells of (angle, turn), and one of what goes the wrong way and is lost.
+// Cells of (angle, turn), and one for the light that goes the wrong way and is lost.
 void check_samples(const std::vector<double>& roughnesses, const std::vector<double>& cosines, int samples) {
   const records::PackedScene scene = scene_with_albedos();
   const shader::Binding binding(twin::view_of(scene));
@@ -157,12 +157,12 @@ void check_samples(const std::vector<double>& roughnesses, const std::vector<dou
           expected[cell] = samples * share;
           sum += share;
         }
-        // Density and what is lost are 1 together.
+        // Density and loss are 1 together.
         const double off = std::abs(sum + share_lost(viewed) - 1);
         CHECK(off < lattice_error());
         worst_sum = std::max(worst_sum, off);
 
-        // Few that are expected are counted together, as Pearson's test asks.
+        // Few that are expected are counted together, as Pearson's test requires.
         double statistic = 0, few = 0, few_expected = 0;
         int freedom = -1;
         for (size_t cell = 0; cell < counts.size(); ++cell) {

@@ -77,7 +77,7 @@ TEST_CASE("the length of a ray in a medium is the integral of its density") {
       CHECK(by_shader(extent, ray, t) > 1e8);
       continue;
     }
-    // A grazed corner is as long as rounding says; heights are rounded by 1e-6 of a coordinate.
+    // A grazed corner is as long as rounding makes it; heights are rounded by 1e-6 of a coordinate.
     const double lowest = ray.o.y + std::min(0.0, t * ray.d.y);
     const double densest = std::exp((extent.base - lowest) / extent.scale_height);
     const double rounding = 1e-17 + 1e-5 * (densest + expected * (1 + 1 / extent.scale_height));

@@ -1,4 +1,4 @@
-// Random numbers of samples, and places on emitters: the shaders' beside the reference's.
+// Random numbers of samples, and points on emitters: the shaders' beside the reference's.
 #include <set>
 
 #include "host/pack/emitter_records.hpp"
@@ -131,7 +131,7 @@ TEST_CASE("places on emitters and their densities are those of the reference") {
     }
   }
   MESSAGE("places are up to " << apart << " apart, densities to " << denser << " of themselves");
-  // At a sphere's rim places run like a square root.
+  // At a sphere's rim points run like a square root.
   CHECK(apart < 1e-4);
   CHECK(denser < 4e-6);
 }
@@ -193,7 +193,7 @@ TEST_CASE("light from all around, its density and places in it are those of the 
 
 namespace {
 
-// Places of pixel filters, from the middle, in widths, by the shaders.
+// Points of pixel filters, from the middle, in widths, by the shaders.
 std::vector<Vec2> filtered_places(PixelFilter filter, uint32_t count) {
   shader::Frame frame = seeded(3);
   frame.pixel_filter = uint32_t(filter);
@@ -239,7 +239,7 @@ TEST_CASE("a pixel's filter: shaders and reference take a sample to the same pla
     }
     CHECK(mean < 1e-6);
     CHECK(worst < 1e-3);  // far out, where the filter is next to nothing
-    // The middle stays, and what is drawn on one side of it is there.
+    // The middle stays, and a point drawn on one side of it is there.
     CHECK(Vec2(shader::filtered(frame, {0.5f, 0.5f})) == Vec2(0.5));
     CHECK(shader::filtered(frame, {0.25f, 0.5f}).x < 0.5f);
     CHECK(shader::filtered(frame, {0.5f, 0.75f}).y > 0.5f);

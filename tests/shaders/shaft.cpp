@@ -1,4 +1,4 @@
-// kernels/cooperative/shaft.glsl: what any ray hits, the shaft around the rays hits.
+// kernels/cooperative/shaft.glsl: a shaft around rays hits every box that one of them hits.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ bool meets(const shader::Ray& ray, double t_max, const Box& box) {
   return near <= far;
 }
 
-// Rays from about one place in about one direction, all along one axis; how far apart they are varies.
+// Rays from about one point in about one direction, all along one axis; how far apart they are varies.
 std::vector<shader::Ray> bundle(Random& random, double scale) {
   const Vec3 start = random.point(2 * scale);
   const Vec3 direction = random.direction();

@@ -95,7 +95,7 @@ double excess(const CutLamp& lamp, const std::function<Vec2(const shader::vec2&)
         uv_of({float(random.below(1 << 24)) * 0x1p-24f, float(random.below(1 << 24)) * 0x1p-24f}))];
   double all = 0, chi_squared = 0, degrees = -1;
   for (const double one : lamp.solid_angles) all += one;
-  // Cells that few places fall on count as one.
+  // Cells that few points fall on count as one.
   double few_expected = 0, few_found = 0;
   const auto add = [&](double expected, double places) {
     chi_squared += (places - expected) * (places - expected) / expected;

@@ -1,4 +1,4 @@
-// textures/image.glsl: which texels a point sees, how they are mixed, and what their codes stand for.
+// textures/image.glsl: which texels a point sees, how they are mixed, and the values of their codes.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -164,7 +164,7 @@ TEST_CASE("200 000 points of random images: the shader agrees with the formulas 
   double worst = 0;
   int compared = 0;
   for (int round = 0; round < 400; ++round) {
-    // Sizes that are and are not powers of two; places near and far; pictures of any size in uv.
+    // Sizes that are and are not powers of two; points near and far; pictures of any size in uv.
     constexpr int sizes[] = {1, 2, 3, 7, 16, 61, 128};
     const int width = sizes[random.below(7)], height = sizes[random.below(7)];
     std::vector<Texel> texels;

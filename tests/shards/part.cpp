@@ -1,4 +1,4 @@
-// Files of parts: what was written is read, and every flipped bit is found.
+// Files of parts: the written values are read, and every flipped bit is found.
 #include <algorithm>
 
 #include "host/core/error.hpp"

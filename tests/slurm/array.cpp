@@ -1,4 +1,4 @@
-// Arrays on a real Slurm: they make the picture of one machine, whatever happens to their jobs.
+// Arrays on a real Slurm: they make the picture of one machine, however their jobs end.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-// Programs that answer what a test wants: what real ones take minutes to reach, or reach only when something
+// Programs that give the answers of a test. Real ones take minutes for these, or give them only if something
 // breaks.
 #pragma once
 
@@ -26,7 +26,7 @@ class FakePrograms {
   std::string path_ = std::getenv("PATH");
 };
 
-// squeue and sacct print the files `queue` and `accounts`. sbatch takes as many jobs as `most` says.
+// squeue and sacct print the files `queue` and `accounts`. sbatch takes at most `most` jobs.
 struct FakeSlurm : FakePrograms {
   FakeSlurm() {
     add("sbatch",

@@ -1,5 +1,5 @@
-// A picture known in closed form at every point, to try the comparisons on: what a reference renderer would
-// be, with one discontinuity of each kind. All edges lie 0.00003 pixels beyond a row or column of pixel
+// A picture known in closed form at every point, to try the comparisons on. It is an ideal reference
+// picture, with one discontinuity of each kind. All edges lie 0.00003 pixels beyond a row or column of pixel
 // centres, so that rays moved by 0.00005 pixels cross them: a small honest difference, as
 // float32 makes them.
 #pragma once
@@ -29,8 +29,8 @@ inline FirstHit hit_of(double t, const Vec3& position, const Vec3& normal, const
 }
 
 // The picture at a point in pixels from its top left corner: a ball (primitive 1) before a wall (primitive
-// 0), an opening in the wall, a shadow and a checker's edge on it, and a mirror (primitive 2) in which two
-// colours hit.
+// 0), an opening in the wall, a shadow and a checker's edge on it. A mirror (primitive 2) is there too, where
+// two colours touch.
 inline compare::Neighbour picture_at(double x, double y) {
   const auto between = [](double value, double low, double high) { return value >= low && value < high; };
   compare::Neighbour neighbour;

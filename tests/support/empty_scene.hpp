@@ -5,7 +5,7 @@
 
 namespace eyeray::engine::test {
 
-// A scene with nothing in it but the camera of a file that says nothing.
+// A scene with nothing in it but the camera of an empty file.
 inline Scene empty_scene() {
   Scene scene;
   scene.camera.projection = cameras::make_projection(PerspectiveCamera{});

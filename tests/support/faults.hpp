@@ -8,8 +8,8 @@
 
 namespace eyeray::engine::test {
 
-// In a shader's file the text `from` becomes `to`. docs/gates.md says what each does, and what the
-// report says of it.
+// In a shader's file the text `from` becomes `to`. docs/gates.md describes the effect of each, and its
+// line in the report.
 struct Fault {
   std::string_view name;
   const char* file;

@@ -1,4 +1,4 @@
-// Formulas at random with what they give, computed here in float32 and 32 bits by the rules of
+// Formulas at random with their results, computed here in float32 and 32 bits by the rules of
 // docs/formulas.md alone: nothing of eyeray's reads these texts.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Forty texts that do harm where they are shown without being escaped: what a file or its name may hold.
+// Forty texts that do harm where they are shown without being escaped: a file or its name may hold them.
 #pragma once
 
 #include <string>

@@ -21,7 +21,7 @@ inline std::string eyeray_binary() {
   return path ? path : "eyeray";
 }
 
-// Runs eyeray with `arguments`. How long it may take says only that it ends at all, however busy the machine
+// Runs eyeray with `arguments`. The limit only ensures that it ends at all, however busy the machine
 // is.
 inline ProcessResult run_eyeray(std::vector<std::string> arguments, const Environment& environment = {},
                                 double timeout_seconds = 3600, int signal_after_ms = -1) {
@@ -68,7 +68,7 @@ inline std::string read_text(const std::filesystem::path& path) {
   return text.str();
 }
 
-// Waits until a process is gone with all its threads, or a zombie that its parent has not looked at yet.
+// Waits until a process is gone with all its threads, or a zombie that its parent has not reaped yet.
 inline bool wait_until_ended(pid_t pid, double seconds = 600) {
   const Stopwatch watch;
   while (watch.seconds() < seconds) {

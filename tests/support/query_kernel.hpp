@@ -21,7 +21,7 @@ namespace eyeray::engine::test {
 class QueryKernel {
  public:
   // With a `collapsed`, by kernels/cooperative/bvh4.comp.glsl; else in packets or each ray alone, as the
-  // profile says.
+  // profile sets.
   QueryKernel(gpu::Device& device, const records::PackedScene& scene,
               const executors::Specialisation& specialisation, const pack::CollapsedBvh* collapsed = nullptr)
       : device_(device), scene_(scene), specialisation_(specialisation) {

@@ -1,4 +1,4 @@
-// Formulas at random, over a grammar of what they may say: arrays, indices, loops, calls, shadowing, odd
+// Formulas at random, over a grammar of their parts: arrays, indices, loops, calls, shadowing, odd
 // literals.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Surfaces of alpha_mode "blend": pictures are on average what alpha compositing gives (Porter and Duff,
+// Surfaces of alpha_mode "blend": pictures are on average those of alpha compositing (Porter and Duff,
 // "Compositing Digital Images", SIGGRAPH 1984), under every integrator.
 #include "patch.hpp"
 #include "tests/support/meshes.hpp"

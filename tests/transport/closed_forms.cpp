@@ -1,4 +1,4 @@
-// Path tracing where the answer is known: what all executors share, the formula itself, is proved by others.
+// Path tracing where the answer is known. The formula itself, which all executors share, is proved by others.
 // Each picture is of one small patch, so that its pixels are 64 estimates of one value, independent of each
 // other. A test whose error is above half a percent could not fail, and is an error itself.
 #include "host/formula/formula.hpp"
@@ -349,7 +349,7 @@ TEST_CASE("a normal map of one color is a tilted surface; on a slope bumps are o
           albedo * 0.7 * glm::dot(to_light, glm::normalize(Vec3(0.5 * tilted.x, tilted.y, 0.5 * tilted.z))),
           1e-5);
 
-    // Heights that rise evenly, away from the viewer: what is mirrored stays above the floor.
+    // Heights that rise evenly, away from the viewer: the mirrored light stays above the floor.
     scene.materials[0]->normal_map.reset();
     scene.materials[0]->bump_map = BumpMap{
         textures::make_formula(std::make_shared<const formula::Formula>(

@@ -9,7 +9,7 @@ using namespace eyeray::engine::test;
 namespace {
 
 // Irradiance at the floor's origin from a convex body of radiance 1 above the floor: that of the facets that
-// face it. at(u, v) is a point of the body's surface, which u and v in [0, 1] cover.
+// face it. `at(u, v)` is a point of the body's surface, which u and v in [0, 1] cover.
 double irradiance_of_body(const std::function<Vec3(double, double)>& at, const Vec3& middle) {
   constexpr int steps = 400;
   double sum = 0;
@@ -244,7 +244,7 @@ TEST_CASE("a textured area light: each part is as bright as its texel") {
       check(seen, radiance);
     }
 
-  // A globe whose southern half is what the floor sees.
+  // A globe whose southern half is seen by the floor.
   Scene globe = floor(1024);
   add(globe, make_sphere({0, 2, 0}, 0.5), picture(globe, {2, 0.5}));
   check(globe, shown(4 * M_PI * 0.25 / 4), 1e-4);

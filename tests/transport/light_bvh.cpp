@@ -1,4 +1,4 @@
-// The BVH by which one of many lights is chosen: what it holds, and how likely each light is.
+// The BVH by which one of many lights is chosen: its contents, and how likely each light is.
 #include "host/scene/light_bvh.hpp"
 
 #include <set>
@@ -129,7 +129,7 @@ TEST_CASE("what may light a point is important to it, and to each node above") {
       const reference::LitPoint point{random.point(7), random.direction()};
       const auto light = size_t(random.below(60));
       const LightBounds& bounds = lights.bounds[light];
-      // A place of it, and whether it shines here.
+      // A point of it, and whether it shines here.
       Vec3 place = bounds.center;
       if (bounds.radius > 0) {
         const auto& [a, b, c] = lights.triangles[light].vertices;

@@ -53,7 +53,7 @@ Scene above_balls(Aiming aiming, bool glass, std::span<const PhotonTarget> those
 }
 
 struct Flux {
-  Estimate all, at_balls;  // what is sent, and what of that heads for a ball
+  Estimate all, at_balls;  // the sent flux, and the part that heads for a ball
   double share;            // of the photons that do so
 };
 

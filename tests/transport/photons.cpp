@@ -105,7 +105,7 @@ TEST_CASE("in a ball that shines: L / (1 − ρ); where it is full of what absor
     Scene ball = by_photons(patch({0, 0, 0}, {0, 0, -1}), 1 << 16, 0.18, 32, 200);
     ball.medium.absorption = Vec3(absorption);
     add(ball, make_sphere({0, 0, 0}, 1), add(ball, make_phong({.diffuse = gray(0.5), .emission = gray(1)})));
-    // T is the mean of e^(−σd) over the ways from one place of the ball to others.
+    // T is the mean of e^(−σd) over the ways from one point of the ball to others.
     const double x = 2 * absorption;
     const double mean = x > 0 ? 2 * (1 - (1 + x) * std::exp(-x)) / (x * x) : 1;
     check_photons(ball, std::exp(-absorption) / (1 - 0.5 * mean));

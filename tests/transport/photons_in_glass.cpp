@@ -1,6 +1,6 @@
 // Photons in glass. Flux is radiance times area times solid angle, and behind a surface that refracts solid
-// angles shrink by the square of the index. Paths carry radiance / index², so what photons show there has to
-// be divided by that.
+// angles shrink by the square of the index. Paths carry radiance / index², so the light that photons show
+// there has to be divided by that.
 #include "by_photons.hpp"
 #include "tests/support/environments.hpp"
 //
@@ -18,7 +18,7 @@ enum class Between { glass, nested, hollow, principled, interface, frosted, roug
 
 constexpr double upper = 0, lower = -1.4;  // heights of the disks: one within, one without
 
-// In thermal equilibrium everything has the radiance 1 / index² = 1, whatever mirrors, refracts or scatters
+// In thermal equilibrium everything has the radiance 1 / index² = 1, if it mirrors, refracts or scatters
 // it: each surface shines by as much as it absorbs (Kirchhoff).
 Scene equilibrium(Between between, const Vec3& eye, const Vec3& target) {
   Scene scene = patch(eye, target);

@@ -1,4 +1,4 @@
-// The sky's light: what is known of it without a picture of it.
+// The sky's light: its properties that are known without a picture of it.
 #include <cmath>
 
 #include "host/lights/sky.hpp"

@@ -66,7 +66,7 @@ TEST_CASE("a photon that no rounding explains fails, though many may part") {
 }
 
 TEST_CASE("where surfaces coincide float32 takes either, and the reference knows of it") {
-  // Light from below comes to the floor and to what stands on it at the same place.
+  // Light from below comes to the floor and to the shape on it at the same point.
   const verify::JudgedPhotons judged = judge(scene_of("scenes/cameras/formula.toml"), [](auto&) {});
   CHECK(judged.tally.diverged > 4);
   CHECK(judged.tally.unexplained == 0);

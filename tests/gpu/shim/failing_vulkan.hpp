@@ -1,8 +1,8 @@
 // A Vulkan loader in front of the system's, for EYERAY_VULKAN_LOADER: one chosen call fails without reaching
-// the driver, calls are counted, and so are the objects that were made and not destroyed.
+// the driver. Calls are counted, and also the objects that were made and not destroyed.
 //
 // EYERAY_FAILING_CALL="vkWaitForFences 3 -4" chooses the call in a separate process: the third call answers
-// −4; 1000 in its place is a call that says so on standard error and never returns. EYERAY_NO_GRAPHICS=1
+// −4; 1000 in its place is a call that prints this on standard error and never returns. EYERAY_NO_GRAPHICS=1
 // hides that queues draw.
 #pragma once
 
