@@ -184,7 +184,7 @@ struct Material {
 #define OPTICAL_DEPTH_OPAQUE 0x10000000u
 #define OPTICAL_DEPTH_SCALE 1048576.0f
 
-// ---- Albedos: 16 bytes each; empty where no lobe needs them ------------------------------------------------------------
+// ---- Albedos: 16 bytes each; empty where no lobe needs them ----------------------------------------------------------
 // Those of host/tables, of as many rows by roughness as columns by √cosine. First bsdf/ggx_albedo.glsl, then sheen.glsl, then
 // rough_glass.glsl, this one with GLASS_SLICES of them by the two indices.
 #define GGX_ALBEDOS 64u
@@ -277,7 +277,7 @@ struct LightNode {
 // row and first column again. The fourth word is the end of the numbers by which the cell is chosen whose lower left corner this is,
 // among those of its row. In the last column it is the end of those by which the row is chosen.
 
-// ---- Frame: the values that all pixels share, 208 bytes ---------------------------------------------------------------
+// ---- Frame: the values that all pixels share, 208 bytes -------------------------------------------------------------
 struct Frame {
   uint width;
   uint height;
@@ -322,7 +322,7 @@ struct Frame {
 #define FILTER_GAUSSIAN 1u
 #define FILTER_BLACKMAN_HARRIS 2u
 
-// ---- Push constants: the values that change from dispatch to dispatch, 32 bytes ---------------------------------------
+// ---- Push constants: the values that change from dispatch to dispatch, 32 bytes -------------------------------------
 struct Dispatch {
   uint tile_x;
   uint tile_y;

@@ -1,4 +1,4 @@
-// The part of the ABI that comes back: results of kernels, and records that they hand on to each other; by the rules of records.h, which
+// The part of the ABI that comes back: results of kernels, and records that they hand on to others; by the rules of records.h, which
 // includes it.
 #ifndef RESULT_RECORDS_H
 #define RESULT_RECORDS_H

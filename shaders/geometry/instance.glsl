@@ -12,7 +12,7 @@ struct LocalRay {
   uint instance;        // NONE in the world
   uint first_id;        // to be added to the id of a primitive, …
   uint first_triangle;  // … or this, to that of a triangle of a group's meshes
-  uint optical_depth;         // by which each primitive weakens a shadow ray; NONE where they state it themselves
+  uint optical_depth;         // by which each primitive weakens a shadow ray; NONE where they set it themselves
 };
 
 LocalRay world_ray(Ray ray) {

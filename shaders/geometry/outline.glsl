@@ -22,7 +22,7 @@ bool crosses(vec3 p, vec3 q) {
 }
 
 // t of a plane, brought into where the ray is within `half_size` of `centre`, seen from its start; −1 where it is not, or t ≤ 0. It is for
-// rays that graze the plane, and for BVHs, as in shapes/triangle.glsl: every point that rounding lets a ray hit is this close.
+// rays that graze the plane, and for BVHs, as in shapes/triangle.glsl: all points that rounding lets a ray hit are this close.
 float t_within(Ray ray, float t, vec3 centre, vec3 half_size) {
   float room = 16.0f * EPSILON * max_component(abs3(centre) + half_size);
   vec3 middle = centre * ray.inverse;

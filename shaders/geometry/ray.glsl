@@ -185,7 +185,7 @@ Ray make_ray(vec3 o, vec3 d) {
 #if HAS_BLEND
   ray.alpha_key = 0u;
 #endif
-  // Over the whole length of the ray, 1e-12 of it is far less than the margin by which bvh.glsl widens its boxes.
+  // Over the whole length of the ray, 1e-12 of it is far less than bvh.glsl's margin of boxes.
   float least = 1.0e-12f * abs(p.z);
   ray.inverse = vec3(bounded_inverse(d.x, least), bounded_inverse(d.y, least), bounded_inverse(d.z, least));
   return ray;

@@ -1,4 +1,4 @@
-// Leaves the primitive's id where it is the nearest, for the rasterised triangles of `eyeray verify --raster`.
+// Leaves the primitive's id where it is the nearest, for the triangles of `eyeray verify --raster`.
 #version 450
 
 layout(location = 0) flat in uint drawn;

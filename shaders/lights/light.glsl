@@ -1,4 +1,4 @@
-// From a light and a point to the light that arrives there, and to a photon that it sends out: calls the kind of light.
+// From a light and a point to the light arriving there, and to a photon sent out: calls the kind of light.
 #ifndef LIGHT_GLSL
 #define LIGHT_GLSL
 #include "lights/light_emission.glsl"

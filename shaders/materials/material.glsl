@@ -1,4 +1,4 @@
-// From a material and a point to its scattering, in Whitted's terms and as a BSDF: calls the kind of material.
+// From a material and a point to its scattering, in Whitted's terms and as a BSDF: calls the material's kind.
 #ifndef MATERIAL_GLSL
 #define MATERIAL_GLSL
 #include "materials/scattering.glsl"

@@ -1,4 +1,4 @@
-// A piece of the bicubic patch Σ B_i(v)·B_j(u)·p_ij, 0 ≤ u, v ≤ 1; render/ lays out as many as host/shapes/bezier_net.cpp makes.
+// A piece of the bicubic patch Σ B_i(v)·B_j(u)·p_ij, 0 ≤ u, v ≤ 1. The layer render/ lays out as many as host/shapes/bezier_net.cpp makes.
 // extra: the first of 13 vertices: p_00 … p_33, three floats each, u running faster; then the patch's middle, the radius of a ball around it
 #ifndef BEZIER_GLSL
 #define BEZIER_GLSL

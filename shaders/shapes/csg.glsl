@@ -63,7 +63,7 @@ uvec2 csg_holds(uint at, uint nodes, uvec2 literals) {
 
 // The next crossings of a ray with a leaf.
 struct LeafCrossings {
-  float next;    // where it does at t > 0; 0 where the leaf's search reached its iteration limit; below where that takes asking again, from `passed` on
+  float next;    // where it does at t > 0; 0: the leaf's search reached its iteration limit; below 0: to be queried again, from `passed` on
   float second;  // where it does after that, negative where more may come; 0 where that is not known
   bool inside;   // until `next`; where that is below 0, from `passed` on
   float passed;
@@ -83,7 +83,7 @@ Ray beyond(Ray ray, float t) {
   return r;
 }
 
-// Three crossings of a leaf of an immediate kind, for most of the work is the same: so all crossings of a convex one are known at once.
+// Three crossings of a leaf of an immediate kind, for most of the work is the same: so one call finds all of a convex one.
 LeafCrossings ask_immediate(Primitive leaf, Ray ray) {
   float t0 = T_MISS;
   float t1 = T_MISS;
@@ -130,7 +130,7 @@ LeafCrossings ask_deferred(Primitive leaf, Ray ray) {
 }
 #endif
 
-// Follows the ray from t = −∞, outside of all closed shapes. It goes past each leaf's crossings up to t = 0, then from crossing to crossing
+// Follows the ray from t = −∞, outside of all closed shapes. It goes past each leaf's crossings up to t = 0. Then it follows the crossings
 // of all leaves to the first at which it enters or leaves the CSG object, and on to one that weakens a shadow ray by `enough`. So no query begins
 // where a ray starts. A leaf is queried again only where the ray has crossed its answer. All leaves that are crossed at the same t are crossed at once.
 CsgHit csg_traverse(Primitive s, Ray ray, float t_max, uint enough) {
@@ -274,7 +274,7 @@ bool bounds_csg(Primitive s, uint own, uint within) {
   return holds.x != holds.y;
 }
 
-// `surface` of the leaf `own`, as a bit, with the displacements that the surfaces of other leaves add to `inward`, where they cut it.
+// `surface` of the leaf `own`, as a bit, with the parts that surfaces of other leaves add to `inward`, where they cut it.
 Surface clear_of_leaves(Primitive s, Surface surface, Ray ray, uint own) {
   uvec4 head = load_outline(s.extra);
   uint leaves = s.extra + 1u + head.x;

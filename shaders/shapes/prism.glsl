@@ -1,5 +1,5 @@
 // A polygon of the xz plane from y = −1 to y = 1 in object space (geometry/object_space.glsl), |x|, |z| ≤ 1.
-//   parameters: number of walls, height; U, u0 and V, v0 (u = U·(x, z) + u0, v = V·(x, z) + v0 on the caps); x, z of both ends of each wall; then
+//   Parameters: number of walls, height; U, u0 and V, v0 (u = U·(x, z) + u0, v = V·(x, z) + v0 on the caps). Then x, z of each wall's ends; then
 //   for each wall u at both ends and the x, z of its unit normal.
 #ifndef PRISM_GLSL
 #define PRISM_GLSL

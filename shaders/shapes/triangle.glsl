@@ -45,7 +45,7 @@ bool triangle_inside(TriangleEdges edges) {
 // come out anywhere, and where products round to the same, edges reach far past their ends. A BVH would miss brute force's hits
 // there. So the triangle is cut by a plane through the ray and the x or y axis. A ray that has all vertices on one side of it misses,
 // for a product never rounds past another, and else t is brought to between the two points where edges cross it. Every hit then lies
-// on the triangle, up to a few roundings of the farthest coordinate along the ray: within the box of any part that the triangle may be cut
+// on the triangle, up to a few roundings of the farthest point along the ray: within the box of any part that the triangle may be cut
 // into. Of the two planes it is the one less along the triangle's own. The other one separates the vertices too: were they all on one side, two edge
 // functions would be sums of terms of one sign, a different one each.
 float triangle_t(Primitive s, Ray ray, TriangleEdges edges) {

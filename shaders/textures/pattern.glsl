@@ -1,5 +1,5 @@
 // Patterns in space: a share of [0, 1] at each point, and a colour for each share. In vertices: three rows of the map from the eye's space
-// to the pattern's; the values that the pattern's .glsl lists; then the colours, each with the share that it is for.
+// to the pattern's; the values that the pattern's .glsl lists; then the colours, each with its share.
 #ifndef PATTERN_GLSL
 #define PATTERN_GLSL
 #include "math/math.glsl"

@@ -1,6 +1,6 @@
 // Coherent rays, PACKET at a time: the lanes of a subgroup traverse the BVH together, each with several rays. While they are
 // far from anything they may hit, they go as one shaft. Then the lanes test different boxes: of the children of a node, as
-// many as there are lanes (pack/collapse.cpp), or of the primitives of a leaf. After that they are rays again.
+// many as there are lanes (pack/collapse.cpp), or of the primitives of a leaf. Then they are rays again.
 // A ray has the hit that `search` finds (bvh/traverse.glsl), since neither depends on the order.
 //   ANY   whether any hit will do
 #ifndef PACKET_GLSL

@@ -60,7 +60,7 @@ vec2 bezier_within(vec4 range, vec2 uv) {
   return vec2(minimum(maximum(uv.x, range.x), range.y), minimum(maximum(uv.y, range.z), range.w));
 }
 
-// True if three points of a section, and hence the piece between them, are all beyond one border, not just so.
+// True if three points of a section, and hence the part between, are all beyond one border, not just so.
 bool bezier_outside(vec4 range, vec2 a, vec2 b, vec2 c) {
   float room_u = 0.02f * (range.y - range.x);
   float room_v = 0.02f * (range.w - range.z);

@@ -37,7 +37,7 @@ struct March {
   float value;    // a of the last of them, …
   float rise;     // … less that of the one before it
   float stray;    // their greatest second difference
-  float share;    // of e of a point, the part taken for rounding: 1 where all of it is; below 0 while points are evaluated, 0 before that
+  float share;    // of e of a point, the part taken for rounding: 1 where all of it is; below 0 while points are evaluated, 0 before
   float root;     // once found
   float low;      // while that is narrowed down among pieces that were passed over: before it, …
   float high;     // … and past it

@@ -1,4 +1,4 @@
-// Finds the hit of a ray with one formula's surface f = 0 in the cube (shapes/implicit.glsl), by sphere tracing. f is nowhere steeper than a declared
+// Finds the hit of a ray with one formula's surface f = 0 in the cube (shapes/implicit.glsl), by sphere tracing. `f` is never steeper than a declared
 // constant, so no root is nearer than |f| over it. Included once a formula, with FORMULA_NAME(part), the name of its functions, FORMULA_VALUE(it,
 // p) and, where FORMULA_HAS_GRADIENT(it), FORMULA_GRADIENT(it, p).
 #ifndef FORMULA_NAME
