@@ -51,7 +51,7 @@ int main(int argc, char** argv) try {
   const eyeray::Picture picture = renderer.render(builder.scene());
   picture.write(argv[1]);
 
-  // What is wrong is refused as in a file, by the line of builder.text().
+  // Faults are refused as in a file, by the line of builder.text().
   try {
     builder.add("sphere", Table().set("center", {0, 0, 0}).set("radius", -1).set("material", "glass"));
     static_cast<void>(builder.scene());

@@ -1,4 +1,4 @@
-// render_file SCENE PICTURE: a scene's file becomes a picture; Ctrl-C keeps what is there.
+// render_file SCENE PICTURE: a scene's file becomes a picture; Ctrl-C keeps the picture so far.
 #include <eyeray/eyeray.hpp>
 
 #include <csignal>

@@ -41,7 +41,7 @@ bool is_mesh_of_arrays(const py::handle& table);
 // TypeError or ValueError, which begin with `where`, for arrays of wrong type or shape.
 void add_mesh(eyeray::SceneBuilder& builder, const py::dict& table, const std::string& where);
 
-// A dict as a table, all that is in it too; TypeError for what no scene can hold.
+// A dict as a table, with all inside it; TypeError for a value that no scene can hold.
 eyeray::Table table_of(const py::dict& dict, const std::string& where);
 // The values that `defines` lays over a scene: strings as they are, a dict's entries as "key=value".
 std::vector<std::string> defines_of(const py::object& defines);

@@ -121,7 +121,7 @@ std::exception_ptr Background::thrown() const {
 }
 
 void Background::abandon() {
-  // Registered last, it is asked first: before the driver's own.
+  // Registered last, it is called first: before the driver's own.
   static const bool waits = std::atexit(wait_for_all) == 0;
   static_cast<void>(waits);
   give_back(std::exchange(worker_, nullptr));

@@ -53,10 +53,10 @@ class InsideCallback {
 };
 
 // Runs `work` in another thread without the GIL. This one looks for signals, which Python handles in its main
-// thread alone; what a handler raises, KeyboardInterrupt say, cancels the work and goes on to the caller.
-// Work that does not end then within 0.3 s, since a driver compiles a kernel, is left alone: it must own all
-// that it uses, and ask for the GIL no more once it is cancelled. Called from a callback it runs in the
-// callback's thread, where the library refuses it.
+// thread alone; an exception of a handler, such as KeyboardInterrupt, cancels the work and goes on to the
+// caller. Work that does not end then within 0.3 s, since a driver compiles a kernel, is left alone. It must
+// own all that it uses, and ask for the GIL no more once it is cancelled. Called from a callback it runs in
+// the callback's thread, where the library refuses it.
 template <typename Answer>
 Answer in_background(eyeray::Cancellation cancellation, std::function<Answer()> work) {
   constexpr std::chrono::milliseconds between_looks(50);

@@ -19,7 +19,7 @@ using eyeray::Report;
 using eyeray::Scene;
 using Path = std::filesystem::path;
 
-// Text for people: what is no UTF-8 in it is shown as \xff.
+// Text for people: bytes in it that are no UTF-8 are shown as \xff.
 py::str text_of(const std::string& text) {
   return py::reinterpret_steal<py::str>(
       PyUnicode_DecodeUTF8(text.data(), py::ssize_t(text.size()), "backslashreplace"));
@@ -67,7 +67,7 @@ eyeray::Rect rect_of(const py::object& crop) {
 }
 
 // False, or nothing at all? None goes on. From whichever thread. Once the call is cancelled its frame, and
-// with it the callback, may be gone: it is not asked then.
+// with it the callback, may be gone: it is not called then.
 std::function<bool(const eyeray::Progress&)> progress_of(const py::object& callback,
                                                          const Cancellation& cancellation) {
   if (callback.is_none()) return {};

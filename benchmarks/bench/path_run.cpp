@@ -26,7 +26,7 @@ namespace {
 constexpr int least_samples = 4;
 constexpr int regions_a_side = 4;
 constexpr double false_alarms = 1e-3;
-constexpr double darkest = 0.01;  // added to what relative errors are relative to
+constexpr double darkest = 0.01;  // added to the value that errors are relative to
 
 // Photons blur by the square of their radius. What they are measured against has a sixteenth of that blur.
 constexpr double reference_radius = 0.25;
@@ -48,7 +48,7 @@ struct Pictures {
   // `references`: null where the error is the variance over the runs.
   void add(const image::Image& picture, const References* references) {
     const std::span<const float> samples = picture.samples();
-    // The mean of a product of what is independent: the references' own noise is not in it.
+    // The mean of a product of independent values: the references' own noise is not in it.
     if (references)
       for (size_t i = 0; i < samples.size(); ++i)
         squares += (double(samples[i]) - double(references->a[i])) *

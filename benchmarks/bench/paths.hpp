@@ -63,7 +63,7 @@ struct Likeness {
   double greatest = 0;          // of all differences of regions, over ours
   double t = 0, p = 1;          // of the most unlikely region; 1 where the other is not random
   double threshold = 0;         // of p, so that one comparison in a thousand is beyond by chance
-  bool judged = true;           // else it is biased, and the noise says nothing
+  bool judged = true;           // else it is biased, and the noise means nothing
 
   bool within_noise() const { return p >= threshold; }
 };

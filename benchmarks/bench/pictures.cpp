@@ -63,7 +63,7 @@ std::vector<Series> measure(const fs::path& scene, const PictureOptions& options
   return all;
 }
 
-// From nothing to a written 640×480 picture, without and with what earlier runs left in the caches.
+// From nothing to a written 640×480 picture, without and with the caches of earlier runs.
 std::vector<Series> measure_start(const fs::path& scene, const PictureOptions& options) {
   Series cold{"cold start", {}}, warm{"warm start", {}};
   std::vector<std::string> words = arguments(scene, "gpu", options);

@@ -25,7 +25,7 @@ struct PictureOptions {
   bool povray = true;                  // where it is installed, and the scene is there as .pov too
   std::filesystem::path povray_scene;  // used if none is beside the scene; may be empty
   bool start = true;                   // also cold and warm starts
-  uint64_t primitives = 0;             // of the scene, to say what memory each takes; 0: not said
+  uint64_t primitives = 0;             // of the scene, to print the memory of each; 0: not printed
 };
 
 // The times of one contender's runs.

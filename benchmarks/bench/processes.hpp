@@ -24,7 +24,7 @@ struct ProcessReport {
   std::string kind;  // the counted quantity
   int count = 0;
   std::vector<Way> ways;
-  ProcessCost ratio;  // of what the many ought to save, or must not cost
+  ProcessCost ratio;  // of the costs that the many ought to save, or must not add
 };
 
 // Frames from 0 on in one process, beside each in its own. Caches are the user's, and warm, in both. Error

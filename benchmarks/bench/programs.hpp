@@ -17,7 +17,7 @@ struct TimedRun {
   std::vector<std::pair<std::string, double>> seconds;  // by stage, "whole process" first
   uint64_t rays = 0;
   uint64_t peak_memory = 0;      // bytes; 0 where unknown
-  double tracing = 0;            // seconds spent on tracing alone, as the program itself says
+  double tracing = 0;            // seconds spent on tracing alone, as the program itself reports
   double tracing_processor = 0;  // … of all its threads together; 0 where unknown
   double whole_processor = 0;    // of the whole process
   std::string device;
@@ -44,7 +44,7 @@ TimedRun run_render(const std::vector<std::string>& arguments, const std::filesy
 
 // True if POV-Ray is installed.
 bool have_povray();
-// Error (file_io), which says so, where it is not; or Blender.
+// Error (file_io), which states that, where it is missing; or Blender.
 void check_povray();
 void check_blender();
 // POV-Ray with two threads; its own trace time. Error when it fails.

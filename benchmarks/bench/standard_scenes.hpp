@@ -1,5 +1,5 @@
-// The scenes that are measured when none is given: known from Haines' databases, or of a size that says
-// something.
+// The scenes that are measured when none is given: known from Haines' databases, or of a size that is of
+// interest.
 #pragma once
 
 #include <filesystem>

@@ -13,11 +13,11 @@ inline constexpr std::string_view cycles_environment_file = "environment.exr";
 
 // The scene as a Python script for Blender 3.4, which renders it by Cycles:
 //   blender -b --factory-startup -P SCRIPT -- OUTPUT.exr SAMPLES SEED
-// Nothing in it is biased or cut off but by the scene's own depth, and a pixel is a box. At its end it prints
+// Only the scene's own depth biases it or cuts paths off, and a pixel is a box. At its end it prints
 // "eyeray: cpu SECONDS wall SECONDS", of rendering alone. Shapes become triangles: spheres and tori many of
-// them, smooth, and planes squares of a hundred times the scene. Error (bad_input) for what has no likeness
-// there, or one that is not the same: patterns, textures, rough materials, other shapes and cameras, groups,
-// spots and lenses.
+// them, smooth, and planes squares of a hundred times the scene. Error (bad_input) for things without a
+// likeness there, or with one that differs: patterns, textures, rough materials, other shapes and cameras,
+// groups, spots and lenses.
 std::string cycles_scene(const Scene& scene, int width, int height);
 
 // The script's picture of the environment; empty if there is none.

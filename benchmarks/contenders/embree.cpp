@@ -220,7 +220,7 @@ double Embree::query(std::span<const Query> rays, QueryKind kind, std::span<Quer
     const size_t first = size_t(number) * rays_at_once, count = std::min(rays_at_once, rays.size() - first);
     const std::span<FloatRay> some(float_rays.data() + first, count);
 
-    // The planes first: what lies behind them need not be looked for.
+    // The planes first: hits behind them need not be looked for.
     for (FloatRay& ray : some) {
       for (uint32_t i = 0; i < world_->planes.size(); ++i) {
         const EmbreePlane& plane = world_->planes[i];

@@ -76,7 +76,7 @@ EmbreeWorld::EmbreeWorld(const Scene& scene) : device_(rtcNewDevice(nullptr)) {
   add_shapes(scene);
   add_meshes(scene);
 
-  // Only what a renderer needs is timed; the second scene is for our glass.
+  // Only a renderer's needs are timed; the second scene is for our glass.
   const Stopwatch watch;
   for (const auto& mesh : meshes_) rtcCommitScene(mesh.get());
   rtcCommitScene(all_.get());

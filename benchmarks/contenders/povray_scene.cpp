@@ -158,7 +158,7 @@ void add_combination(std::string& text, const Scene& scene, const std::vector<co
   if (shapes.size() > 1) text += "}\n";
 }
 
-// Each part has its own texture; what fills the CSG object, its first part's says.
+// Each part has its own texture; the first part's fills the CSG object.
 void add_csg_object(std::string& text, const Scene& scene, const CsgForm& csg) {
   if (!csg.removed.empty()) text += "difference {\n";
   add_combination(text, scene, csg.operands, csg.all);

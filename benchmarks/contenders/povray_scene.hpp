@@ -6,8 +6,8 @@
 
 namespace eyeray::engine::contenders {
 
-// The scene in POV-Ray 3.7's language, for a picture of width × height: geometry, camera, lights and depth
-// are the same, and so is what phong and mirror materials scatter, but for textures (their colour at uv 0
+// The scene in POV-Ray 3.7's language, for a picture of width × height: geometry, camera, lights, depth and
+// the scattering of phong and mirror materials are the same. Exceptions: textures (their colour at uv 0
 // stands for all of them) and coloured highlights (white ones of their mean). Glass is glass, without
 // nesting. Error (bad_input) for a shape that POV-Ray has no primitive for, and for cutouts.
 std::string povray_scene(const Scene& scene, int width, int height);

@@ -16,7 +16,7 @@ namespace {
 // The cost of testing an item, relative to that of a node's two boxes.
 constexpr float node_cost = 1.0f;
 constexpr float item_cost = 1.0f;
-// Embree makes leaves of whatever is left there; ours may go a little deeper.
+// Embree makes leaves of all the rest there; ours may go a little deeper.
 constexpr unsigned deepest = 56;
 
 // Embree calculates with the bits of an item's number as if they were a fourth coordinate. As denormals,
@@ -26,7 +26,7 @@ uint32_t number_of(const RTCBuildPrimitive& item) {
   return item.primID - number_zero;
 }
 
-// A BVH as Embree has it made. A node counts what becomes of it and all below: nodes, and places in
+// A BVH as Embree has it made. A node counts the results of it and all below: nodes, and entries in
 // Bvh::order.
 struct BuildNode {
   bool leaf;
@@ -100,8 +100,8 @@ void split_item(const RTCBuildPrimitive* item, unsigned axis, float position, RT
   Box high = box;
   low.upper[int(axis)] = position;
   high.lower[int(axis)] = position;
-  // No slices of a few roundings: Embree may put such a one on the other side than it thought it would, and
-  // comes to an assertion where that side is left empty (RenderKit/embree#489; Debian's 3.13 has it).
+  // No slices of a few roundings: Embree may put such a one on the other side than it expected. An assertion
+  // fails if that side is then empty (RenderKit/embree#489; Debian's 3.13 has it).
   const float start = box.lower[int(axis)], end = box.upper[int(axis)];
   const float thin = 0x1p-20f * std::max(std::fabs(start), std::fabs(end));
   if (position - start <= thin) {
@@ -206,7 +206,7 @@ class Flattener {
 
 // The items from which Embree builds, and which it sorts.
 struct BuildItems {
-  RawVector<RTCBuildPrimitive> all;  // and room for what splits add
+  RawVector<RTCBuildPrimitive> all;  // and room for the items that splits add
   size_t count;
 };
 

@@ -19,7 +19,7 @@ enum class ChildType : uint8_t { node, leaf, lone_item };
 
 struct Child {
   Box box;
-  uint32_t index = 0;  // of the node; of a leaf's first place in Bvh::order; or of the item
+  uint32_t index = 0;  // of the node; of a leaf's first entry in Bvh::order; or of the item
   uint8_t count = 0;   // of a leaf's items, 1 … most_in_leaf
   ChildType type = ChildType::node;
 };

@@ -5,7 +5,7 @@
 namespace eyeray::engine::bvh {
 namespace {
 
-// A refitted BVH is kept while it costs rays no more than this times what it did when it was built.
+// A refitted BVH is kept while it costs rays no more than this times its cost when it was built.
 constexpr double most_growth = 1.2;
 // Below, a build takes no time.
 constexpr size_t least_items = 1024;

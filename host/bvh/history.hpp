@@ -32,7 +32,7 @@ class BvhHistory {
     size_t finite;  // of them
     uint32_t lone;  // BvhOptions::first_lone
   };
-  std::vector<Kept> kept_;  // by place
+  std::vector<Kept> kept_;  // by position
   size_t next_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// eyeray check: reads a scene, says whether it is sound, and prints what follows from it.
+// eyeray check: reads a scene, reports whether it is sound, and prints facts derived from it.
 #include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>

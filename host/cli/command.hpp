@@ -47,8 +47,8 @@ void add_new(CLI::App& app, Run& run);
 void add_completion(CLI::App& app, Run& run);
 void add_manual(CLI::App& app, Run& run);
 
-// SCENE and what the command line may change of it: -D, --allow-path, -s, --spp, --integrator, --seed,
-// --triangle, --max-depth.
+// SCENE and the options of the command line that change it: -D, --allow-path, -s, --spp, --integrator,
+// --seed, --triangle, --max-depth.
 class SceneOptions {
  public:
   void add_to(CLI::App& command);

@@ -1,4 +1,4 @@
-// eyeray devices: what --device can choose from.
+// eyeray devices: the choices of --device.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <nlohmann/json.hpp>

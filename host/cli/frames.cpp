@@ -29,7 +29,7 @@ std::optional<int> as_number(std::string_view text) {
   return number;
 }
 
-// A place for a number in a name: %d or %0Nd.
+// A placeholder for a number in a name: %d or %0Nd.
 struct Place {
   size_t begin;
   size_t end;

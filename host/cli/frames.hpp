@@ -1,4 +1,4 @@
-// The frames of an animation: which are wanted, what their files are called, and a video of them.
+// The frames of an animation: which are wanted, the names of their files, and a video of them.
 #pragma once
 
 #include <filesystem>

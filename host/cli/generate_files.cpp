@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::string_view made_by = "Made by eyeray generate";
 
-// Error where `path` cannot be written, or holds what somebody else made.
+// Error where `path` cannot be written, or holds somebody else's work.
 void check_target(const fs::path& path, bool force) {
   std::string start(200, '\0');
   std::ifstream file(path, std::ios::binary);

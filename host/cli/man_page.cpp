@@ -1,4 +1,4 @@
-// A command's man page, of what its --help has.
+// A command's man page, made from its --help.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -37,7 +37,7 @@ bool is_report(const std::string& file) {
   return fs::path(file).extension() == ".json";
 }
 
-// For programs that start again what is missing.
+// For programs that start missing parts again.
 Json to_json(const shards::PartFaults& faults, const shards::PartSet& set) {
   Json json{{"complete", !faults.any()}, {"shards", faults.count}, {"parts", set.parts().size()}};
   if (const shards::PartHeader* header = set.header()) {
@@ -103,7 +103,7 @@ session::Result MergeCommand::merge(shards::PartSet& set) const {
   return picture;
 }
 
-// All of them, for who asks before the picture is wanted.
+// All of them, for callers that check before the picture is wanted.
 ExitCode MergeCommand::report_faults(const shards::PartSet& set) const {
   const shards::PartFaults& faults = set.faults();
   if (json) print_json(to_json(faults, set));

@@ -28,7 +28,7 @@ struct NewCommand {
   void write() const;
 };
 
-// All files or none: what stood there stays, and a disk that is full keeps nothing.
+// All files or none: existing files stay, and a disk that is full keeps nothing.
 void NewCommand::write() const {
   for (const EmbeddedFile& file : project_files())
     if (const fs::path path = fs::path(folder) / file.name; fs::exists(path))

@@ -48,7 +48,7 @@ std::string description_of(const ValueOption& option) {
   return fmt::format("{}: {}.", option.text, values);
 }
 
-// A file that has an embedded shader's name, but lies elsewhere, takes nothing's place.
+// A file that has an embedded shader's name, but lies elsewhere, replaces nothing.
 void warn_of_misplaced_shaders(const std::filesystem::path& folder) {
   std::error_code error;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, error)) {

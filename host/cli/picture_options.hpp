@@ -10,7 +10,7 @@
 
 namespace eyeray::engine::cli {
 
-// The most samples of a pixel that does not reach the noise that is wanted, where nothing else is said.
+// The most samples of a pixel that does not reach the noise that is wanted, where nothing else is set.
 constexpr int most_samples_by_default = 1 << 14;
 
 struct PictureOptions {

@@ -21,7 +21,7 @@ double share_of(const render::Progress& progress) {
   return double(progress.samples_done) / double(progress.samples_total);
 }
 
-// " band 3 of 32, sample 2 of 4"; what there is only one of is not said.
+// " band 3 of 32, sample 2 of 4"; a number whose total is one is left out.
 std::string place(const render::Progress& progress) {
   std::vector<std::string> parts;
   if (progress.bands > 1) parts.push_back(fmt::format("band {} of {}", progress.band + 1, progress.bands));

@@ -139,7 +139,7 @@ session::Result RenderCommand::render(PictureOptions& wanted) {
   return result;
 }
 
-// One picture. `said`: what is said of it as JSON.
+// One picture. `said`: the report on it as JSON.
 ExitCode RenderCommand::run_picture(PictureOptions wanted, Json& said) {
   wanted.check_outputs();
   session::Request& request = wanted.request;

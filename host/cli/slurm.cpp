@@ -65,7 +65,7 @@ void SlurmCommand::check_options() const {
   if (!video.empty()) check_video_name(video);
 }
 
-// Adds what the array makes: a picture, by its last job, or frames, every N-th of them a share.
+// Adds the array's outputs: a picture, by its last job, or frames, every N-th of them a share.
 void SlurmCommand::add_outputs(slurm::Array& array, const fs::path& scene) const {
   std::vector<std::string> outputs = picture.outputs;
   if (outputs.empty())

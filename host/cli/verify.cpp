@@ -48,7 +48,7 @@ struct VerifyCommand {
   std::optional<render::Shard> shard = {};  // of the scenes
   std::vector<std::string> files = {};      // those that are verified
   size_t suite_size = 0;                    // all, and …
-  std::string suite = {};                   // … what names them and the options
+  std::string suite = {};                   // … the text that names them and the options
 
   ExitCode run();
   void find_files();

@@ -17,7 +17,7 @@ struct Judgement : PixelOutcome {
 
 constexpr int64_t always_allowed = 4;     // so that a small crop around an edge can pass
 constexpr size_t examined_at_once = 256;  // so that failures are reported soon
-// Where a colour oscillates, the usual positions may all miss its extreme. If they leave only few pixels
+// If a colour oscillates, the usual positions may all miss its extreme. If they leave only few pixels
 // unexplained, these are examined again at more positions.
 constexpr int usual_angles = 16;
 constexpr int many_angles = 256;
@@ -33,7 +33,7 @@ bool equal(const FirstHit& value, const FirstHit& reference) {
          float(value.cosine) == float(reference.cosine) && glm::vec2(value.uv) == glm::vec2(reference.uv);
 }
 
-// Both frames and what was found so far, one judgement a pixel and gate.
+// Both frames and the findings so far, one judgement a pixel and gate.
 class Judge {
  public:
   Judge(const Frame& value, const Frame& reference, const Tolerances& tolerances, bool hits_alone)
@@ -62,7 +62,7 @@ class Judge {
   }
 
   // Looks into the pixels that differ, some hundreds at a time, spread over the picture: those of each gate
-  // until that has failed, whatever else is found.
+  // until that has failed, independent of other findings.
   void explain(const Reference& around) {
     const size_t parts = of_outcome(Outcome::unexamined, true).size() / examined_at_once + 1;
     for (size_t part = 0; part < parts; ++part) {

@@ -1,4 +1,4 @@
-// Derives the place of a fault from the executors that diverge and the value at which they do.
+// Derives the origin of a fault from the executors that diverge and the value at which they do.
 #include <fmt/format.h>
 
 #include <algorithm>

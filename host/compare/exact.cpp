@@ -101,7 +101,7 @@ ExactComparison compare_exactly(const Frame& value, const Frame& other) {
       const Vec3 color = color_at(value.color, x, y), other_color = color_at(other.color, x, y);
       const Counts counts = counts_at(value, x, y), other_counts = counts_at(other, x, y);
 
-      // Count what differs.
+      // Count the differing values.
       const size_t pixel = size_t(y) * size_t(value.area.width) + size_t(x);
       const auto samples = samples_at(value, pixel), other_samples = samples_at(other, pixel);
       const bool samples_differ = !std::ranges::equal(samples, other_samples, same_sample);

@@ -81,7 +81,7 @@ bool bounds_hold(std::span<const Neighbour> neighbours, const Counts& counts, bo
 }
 
 bool bounds_hold(std::span<const Neighbour> neighbours, const FirstHit& value, const Tolerances& tolerances) {
-  // Gather what is known of the primitive that was hit.
+  // Gather the known facts of the primitive that was hit.
   Bounds<1> t, cosine;
   Bounds<2> uv;
   Bounds<3> position, normal, normal_geometric;
@@ -106,7 +106,7 @@ bool bounds_hold(std::span<const Neighbour> neighbours, const FirstHit& value, c
   if (!found) return false;
 
   if (value.primitive < 0) return std::isinf(value.t) && value.t > 0;
-  // Towards a rim all run like a square root: they may lie as far beyond the last place as the places are
+  // Towards a rim all run like a square root: they may lie as far beyond the last point as the points are
   // apart.
   const double beyond = silhouette ? 1 : 0;
   return t.hold(glm::dvec1(value.t), tolerance, beyond) && position.hold(value.position, tolerance, beyond) &&

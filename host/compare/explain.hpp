@@ -1,5 +1,5 @@
-// Why a pixel may differ from the reference: the reference itself jumps there. It is rendered again at places
-// up to 0.004 pixels away, and a value within what those say is explained.
+// A pixel may differ from the reference where the reference itself jumps. It is rendered again at points up
+// to 0.004 pixels away, and a value within the range of those is explained.
 #pragma once
 
 #include <functional>
@@ -20,7 +20,7 @@ struct Neighbour {
     Counts counts{0.0};
   };
   std::vector<Sample> samples = {{}};
-  // The same number of variants of each sample, one after the other: rays start as far off surfaces, and
+  // The same number of variants of each sample, one after the other. Rays start as far off surfaces, and
   // displaced sideways as far, as float32 may put them, or take the darkest or the brightest texel that near.
   // May be empty.
   std::vector<Sample> rounded;
@@ -45,7 +45,7 @@ struct PathReference {
   int variants = 1;
   std::function<double(Pixel pixel)> rounding;  // Neighbour's
   std::function<std::string(uint32_t event)> describe;
-  // Samples of the same number gather the same photons within this of what they show; 0: none do.
+  // Samples of the same number gather the same photons within this of their points; 0: none do.
   double shared = 0;
 };
 

@@ -1,4 +1,4 @@
-// One executor's answer for one picture: what is compared.
+// One executor's answer for one picture, as it is compared.
 #pragma once
 
 #include <cstdint>

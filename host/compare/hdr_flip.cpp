@@ -11,7 +11,7 @@ namespace eyeray::engine::compare {
 
 namespace {
 
-// (k0 x² + k1 x) / (k3 x² + k4 x + k5): Narkowicz's fit of ACES, which takes 0.6 of what it is given.
+// (k0 x² + k1 x) / (k3 x² + k4 x + k5): Narkowicz's fit of ACES, which takes 0.6 of its input.
 constexpr double k0 = 0.36 * 2.51, k1 = 0.6 * 0.03, k3 = 0.36 * 2.43, k4 = 0.6 * 0.59, k5 = 0.14;
 constexpr double shown = 0.85;  // the paper's t
 

@@ -10,7 +10,7 @@
 
 namespace eyeray::engine::compare {
 
-// Differences are of linear values, a pixel's that of its worst channel, unless said otherwise.
+// Differences are of linear values, a pixel's that of its worst channel, unless stated otherwise.
 struct Metrics {
   double rmse = 0;          // over all channels
   double psnr = 0;          // dB against a peak of 1; infinite for equal pictures

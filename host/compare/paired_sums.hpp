@@ -1,5 +1,5 @@
-// Tests whether the difference between two pictures of the same random numbers is chance, by sums over tiles
-// and over the whole picture.
+// Tests whether the difference between two pictures of the same random numbers may be chance, by sums over
+// tiles and over the whole picture.
 #pragma once
 
 #include "host/compare/frame.hpp"

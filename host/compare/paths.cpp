@@ -14,8 +14,8 @@ namespace {
 constexpr size_t examined_at_once = 256;  // so that failures are reported soon
 constexpr int usual_angles = 16;
 constexpr int many_angles = 256;
-// Unexplained samples are looked at again at so many angles where they are so few, or such a share of what
-// does not match: where mirrors see each other, any number of them needs that.
+// Unexplained samples are examined again at so many angles where they are so few, or such a share of those
+// that do not match. Where mirrors see each other, any number of them needs that.
 constexpr size_t few = 32, few_of = 64;
 // One in so many samples is examined once more: a thin mirror multiplies a rounding error by a thousand, and
 // a path may hit several.

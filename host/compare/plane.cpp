@@ -20,7 +20,7 @@ Kernel gaussian(double sigma, int radius) {
 
 namespace {
 
-// Two places, as GCC and Clang have them in a register.
+// Two numbers, as GCC and Clang have them in a register.
 using Pair = double __attribute__((vector_size(16)));
 
 Pair load(const double* from) {

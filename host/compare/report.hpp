@@ -53,24 +53,24 @@ struct GoldenResult {
   Tally colors;              // the golden picture's, as if the executor's were the reference
   std::optional<Metrics> metrics;
   std::vector<std::string> changed;  // changed inputs of the golden picture: "scene hash", "executor"
-  bool updated = false;              // whether the executor's picture has taken its place since
+  bool updated = false;              // whether the executor's picture has replaced it since
   std::string refused;               // why it has not, though asked for
 
   bool passes() const { return updated || (incomparable.empty() && colors.passes()); }
 };
 
-// Gate D for photons: those that go another way than the reference's, or the same way to other places, which
+// Gate D for photons: those that go another way than the reference's, or the same way to other points, which
 // all executors then leave out. Of each the reference has to know by its own rounding.
 struct PhotonTally {
   int64_t sent = 0;
   int64_t diverged = 0;
   int64_t aside = 0;
   int64_t unexplained = 0;  // of both
-  std::string worst;        // the first of these, and what it does
+  std::string worst;        // the first of these, and its effect
   int depth = 0;            // the scene's max_depth
 
-  // All of them are explained, and no picture shows them: so that pictures show most of what there is, 4 %,
-  // and more where photons may go far. Half of them are aimed at glass and mirrors, where they part.
+  // All of them are explained, and no picture shows them. Pictures must show most of the photons: 4 % may
+  // diverge, more where photons may go far. Half of all are aimed at glass and mirrors, where they diverge.
   int64_t may_diverge() const;
   // Curved surfaces and grazing angles multiply rounding, and displace photons by that much: a tenth of them
   // may be displaced.
@@ -88,7 +88,7 @@ struct Report {
   std::vector<std::string> changed_shaders;  // files that take the place of eyeray's own and differ from them
   bool twin_has_changed_shaders = false;     // as the gpu does
   int width = 0, height = 0;                 // of the whole picture
-  Rect area;                                 // what was compared
+  Rect area;                                 // the compared area
   int samples = 1;
   std::vector<Participant> participants;
   std::vector<ExactResult> exact;
@@ -110,15 +110,15 @@ struct Report {
   bool passes() const { return failures().empty(); }
   // True if all gates pass except gate G, which compares with an earlier picture of the scene.
   bool own_gates_pass() const;
-  // "passed", "failed", or "skipped", of what may stay unverified and did.
+  // "passed", "failed", or "skipped", if it may stay unverified and did.
   std::string_view verdict() const;
-  // A sentence that says where to look for the fault: the first value that differs, and on whose side. Empty
+  // A sentence on where to look for the fault: the first value that differs, and on whose side. Empty
   // if nothing indicates it.
   std::string diagnosis() const;
   // The largest of all gates' counts.
   int64_t count(int64_t (*of)(const Tally&)) const;
   // Twice the share of pixels that are explained and count against the cap, of the gate that has most,
-  // rounded up to 1e-5: what the scene is to be allowed. Nothing where more than the cap fails.
+  // rounded up to 1e-5: the allowance that the scene needs. Nothing where more than the cap fails.
   std::optional<double> healthy_allowance() const;
   // The pixel to examine: the worst of the first gate that fails. Empty if all gates pass.
   std::optional<Pixel> pixel_to_look_at() const;

@@ -54,7 +54,7 @@ std::string cell(std::string_view text) {
 }  // namespace
 
 std::string to_row(const Report& report, size_t width) {
-  // The name is padded by hand: fmt counts bytes of what is no UTF-8.
+  // The name is padded by hand: fmt counts bytes of text that is no UTF-8.
   const std::string name = log_line(report.scene);
   const std::string start = fmt::format("{:<7} {}{}", report.verdict(), name,
                                         std::string(width - std::min(width, name.size()), ' '));

@@ -143,7 +143,7 @@ void add(std::string& text, const Report& report, const GoldenResult& result) {
 }
 
 // True if gate A found every bit of this executor equal to the first one's, so that there is nothing new to
-// say.
+// report.
 bool same_as_first(const Report& report, const ReferenceResult& result) {
   return std::any_of(report.exact.begin(), report.exact.end(), [&](const ExactResult& exact) {
     return exact.value == report.against_reference[0].value && exact.other == result.value &&

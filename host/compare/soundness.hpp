@@ -1,4 +1,4 @@
-// Values that are wrong whatever they are compared with. The raw floats are checked, before anything else.
+// Values that are wrong in any comparison. The raw floats are checked, before anything else.
 #pragma once
 
 #include "host/compare/frame.hpp"

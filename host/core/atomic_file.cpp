@@ -130,7 +130,7 @@ void AtomicFile::commit() {
     unfinished.drop(part_);
   }
 
-  // Make the rename itself durable; file systems that cannot sync a folder say EINVAL.
+  // Make the rename itself durable; file systems that cannot sync a folder return EINVAL.
   const Descriptor folder(folder_of(path_), O_RDONLY | O_DIRECTORY);
   if (!folder.valid() || (::fsync(folder.get()) != 0 && errno != EINVAL))
     fail("sync the folder of", named_, errno);

@@ -10,7 +10,7 @@
 namespace eyeray::engine {
 
 // A file that grows as PATH.part.PID beside `path`, so that the rename stays within one file system, and
-// takes its place at commit(). Without that the part file goes with its scope, and what stood at `path` is
+// takes its place at commit(). Without that the part file goes with its scope, and a file at `path` is
 // untouched. Where `path` is a symbolic link, the file that it points to is replaced, or made. A file that is
 // replaced keeps its mode; a new one gets `mode`, less the umask. Every failure is an Error (file_io) that
 // gives the reason, and `path` as the caller wrote it.
@@ -21,10 +21,10 @@ class AtomicFile {
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  // After what was written last.
+  // After the bytes written last.
   void write(std::span<const std::byte> bytes);
   void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
-  // At `offset` from the file's start; places never written read as 0.
+  // At `offset` from the file's start; bytes never written read as 0.
   void write_at(uint64_t offset, std::span<const std::byte> bytes);
   // Reads bytes that were written at `offset`.
   void read_at(uint64_t offset, std::span<std::byte> bytes) const;

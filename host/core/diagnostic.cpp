@@ -123,7 +123,7 @@ void show_source_line(Diagnostic& diagnostic, std::string_view line, int first_c
 std::string format_diagnostic(const Diagnostic& diagnostic) {
   const SourcePosition& at = diagnostic.position;
 
-  // Say where, what kind, what.
+  // Write the position, the kind, the message.
   std::string text = at.file;
   if (at.line > 0) text += fmt::format(":{}", at.line);
   if (at.line > 0 && at.column > 0) text += fmt::format(":{}", at.column);

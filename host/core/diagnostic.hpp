@@ -10,7 +10,7 @@
 
 namespace eyeray::engine {
 
-// A place in a text; line and column count from 1, 0 where unknown.
+// A position in a text; line and column count from 1, 0 where unknown.
 struct SourcePosition {
   std::string file;
   int line = 0;
@@ -42,7 +42,7 @@ std::string printable(std::string_view text);
 // newline.
 std::string format_diagnostic(const Diagnostic& diagnostic);
 
-// Everything wrong with an input, thrown in one go; what() is all diagnostics, a line or more each.
+// Everything wrong with an input, thrown in one go; `what()` is all diagnostics, a line or more each.
 class InputError : public Error {
  public:
   explicit InputError(std::vector<Diagnostic> diagnostics);

@@ -1,4 +1,4 @@
-// Collects what is wrong with the files of one scene, so that everything is reported in one go.
+// Collects the faults of the files of one scene, so that everything is reported in one go.
 #pragma once
 
 #include <deque>
@@ -18,14 +18,14 @@ class DiagnosticLog {
   // Keeps the text that positions in `file` point into, for as long as the log lives.
   std::string_view add_source(std::string file, std::string text);
 
-  // Adds a diagnostic; the same one at the same place counts once. A position in a file that was not added
+  // Adds a diagnostic; the same one at the same position counts once. A position in a file that was not added
   // (an override) loses its line and column; one without a file is in the first.
   void error(SourcePosition position, std::string message);
   void warning(SourcePosition position, std::string message);
 
-  // While it lives, the messages of the log begin with what they are about, as `subject` says it, unless that
-  // is
-  // "". The innermost counts.
+  // While it lives, the messages of the log begin with their subject, as `subject` returns it,
+  // unless that is "".
+  // The innermost counts.
   class About {
    public:
     About(DiagnosticLog& log, std::function<std::string()> subject)
@@ -39,8 +39,8 @@ class DiagnosticLog {
     std::function<std::string()> outer_;
   };
 
-  // Some statement could not be parsed and was skipped: what seems to be missing may stand there, so nothing
-  // is reported as missing.
+  // Some statement could not be parsed and was skipped: a part that seems to be missing may stand there, so
+  // nothing is reported as missing.
   void set_damaged() { damaged_ = true; }
   bool damaged() const { return damaged_; }
 

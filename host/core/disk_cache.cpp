@@ -81,7 +81,7 @@ void DiskCache::store(std::string_view name, std::string_view bytes) const {
 }
 
 void DiskCache::drop_old_entries() const {
-  // Other processes may be doing the same: whatever has gone meanwhile is no fault.
+  // Other processes may be doing the same: a file that has gone meanwhile is no fault.
   std::error_code failed;
   std::vector<std::pair<std::filesystem::file_time_type, std::filesystem::path>> entries;
   for (std::filesystem::directory_iterator entry(folder_, failed), end; !failed && entry != end;

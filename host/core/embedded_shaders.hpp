@@ -10,7 +10,7 @@ namespace eyeray::engine {
 std::span<const EmbeddedFile> embedded_shaders();
 
 // The files that shaders need to be compiled as C++, beside the standard library: the program's own files,
-// GLM's, and what CMake writes. Names are paths below a folder that has them under "shaders".
+// GLM's, and those that CMake writes. Names are paths below a folder that has them under "shaders".
 std::span<const EmbeddedFile> twin_sources();
 
 }  // namespace eyeray::engine

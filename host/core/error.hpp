@@ -23,7 +23,7 @@ enum class ExitCode : int {
   interrupted = 130,
 };
 
-// A fault with the exit code it leads to. what() is one sentence: what failed, why, what to do.
+// A fault with the exit code it leads to. `what()` is one sentence: the failure, the reason, what to do.
 class Error : public std::runtime_error {
  public:
   Error(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}

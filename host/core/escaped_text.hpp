@@ -7,7 +7,7 @@
 
 namespace eyeray::engine {
 
-// The text of an element or attribute of XML. Line breaks stay; what XML cannot hold becomes a question mark.
+// The text of an element or attribute of XML. Line breaks stay; characters not in XML become a question mark.
 std::string xml_text(std::string_view text);
 
 // A string of TOML, in quotes. Bytes that are no UTF-8 stay, and no reader of TOML accepts them.

@@ -69,7 +69,7 @@ std::string read_input_file(const std::filesystem::path& file, std::string_view 
                            most_bytes >> 20));
   }
 
-  // Read to the end, whatever the size says: files of /proc say 0.
+  // Read to the end, whatever the size: files of /proc report 0.
   std::string text(std::min(std::max(static_cast<size_t>(status.st_size), least_piece), most_bytes) + 1,
                    '\0');
   for (size_t done = 0;;) {

@@ -1,4 +1,4 @@
-// Before shader files that a .cpp compiles for itself alone: what they define stays in it. May be included
+// Before shader files that a .cpp compiles for itself alone: their definitions stay in it. May be included
 // again.
 #undef SHADER_BEGIN
 #undef SHADER_END

@@ -9,7 +9,7 @@ namespace eyeray::engine {
 bool address_space_left(size_t bytes);
 
 // From now on a std::bad_alloc that nobody catches, and a crash with hardly any memory left, is a message and
-// exit code 3. Any other crash stays what it is. Needs the watch of core/termination.
+// exit code 3. Other crashes stay as they are. Needs the watch of core/termination.
 void report_memory_shortage();
 
 }  // namespace eyeray::engine

@@ -11,7 +11,7 @@ std::string option_text(std::string_view name);
 // With its value: "--backend twin", "`backend` twin".
 std::string option_text(std::string_view name, std::string_view value);
 
-// From now on the library's callers read what this process says.
+// From now on the library's callers read this process's messages.
 void speak_to_library();
 
 }  // namespace eyeray::engine

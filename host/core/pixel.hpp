@@ -18,7 +18,7 @@ struct PixelSample {
   uint32_t reflected = 0;
   uint32_t refracted = 0;
   uint32_t total_reflections = 0;  // hits whose refracted ray would have been followed, had there been one
-  uint32_t trail = 1;              // a fingerprint of what a random path decided (docs/gates.md); else 1
+  uint32_t trail = 1;              // a fingerprint of a random path's decisions (docs/gates.md); else 1
   bool cut_off = false;            // whether `max_depth` ended its path; of those that walk at random
 };
 
@@ -58,10 +58,10 @@ struct FirstHit {
   int32_t primitive = -1;  // index, see Scene::primitive_count; −1 where nothing is hit
   int32_t material = -1;   // index in Scene::materials
   uint32_t flags = 0;      // SampleFlag bits; 0 when nothing went wrong
-  // The largest coordinate, relative to the eye, that t was computed from, over the cosine of incidence: what
-  // the rounding of coordinates moves t by is in proportion to it. Known to the reference; 0 elsewhere.
+  // The largest coordinate, relative to the eye, that t was computed from, over the cosine of incidence: the
+  // shift of t by the rounding of coordinates is in proportion to it. Known to the reference; 0 elsewhere.
   double t_scale = 0;
-  SearchCost cost{};  // the search's own, whatever is hit: gates do not compare it
+  SearchCost cost{};  // the search's own, not the hit's: gates do not compare it
 };
 
 }  // namespace eyeray::engine

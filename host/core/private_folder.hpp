@@ -11,7 +11,7 @@ namespace eyeray::engine {
 bool is_private_folder(const std::filesystem::path& folder);
 bool is_private_file(const std::filesystem::path& file);
 
-// Why what is at the path is no private folder, to go on from "it is not used: "; "" if it is one, or nothing
+// The reason why the path is no private folder, to go on from "it is not used: "; "" if it is one, or nothing
 // is there.
 std::string why_not_private(const std::filesystem::path& folder);
 

@@ -50,7 +50,7 @@ struct Pipe {
   }
 };
 
-// Appends what can be read; closes at the end of the stream.
+// Appends the readable bytes; closes at the end of the stream.
 void drain(int& fd, std::string& text) {
   char buffer[65536];
   const ssize_t count = ::read(fd, buffer, sizeof buffer);
@@ -112,7 +112,7 @@ void Process::send_signal(int number) {
   if (!code_) ::kill(pid_, number);
 }
 
-// Takes in what arrives within `seconds`; false when nothing did.
+// Takes in the output within `seconds`; false when nothing did.
 bool Process::receive(double seconds) {
   pollfd polled[2] = {{out_fd_, POLLIN, 0},
                       {err_fd_, POLLIN, 0}};  // a closed one is −1, which poll passes over
@@ -122,7 +122,7 @@ bool Process::receive(double seconds) {
   return true;
 }
 
-// Takes in what arrives within `seconds`, or notices the end.
+// Takes in the output within `seconds`, or notices the end.
 void Process::listen(double seconds) {
   // With both streams closed only the end is left to wait for, and nothing announces it.
   const bool open = out_fd_ >= 0 || err_fd_ >= 0;

@@ -25,7 +25,7 @@ class Process {
 
   // Listens until the program has ended; false when `seconds` pass before.
   bool wait(double seconds);
-  // Listens until `text` stands in what was written on standard error after position `from` of it; false when
+  // Listens until `text` stands in the output on standard error after position `from` of it; false when
   // `seconds` pass or the program ends before.
   bool wait_for_error_text(const std::string& text, double seconds, size_t from = 0);
   void send_signal(int number);
@@ -57,7 +57,7 @@ class Process {
 
 // The words that this process was called by, after the path of its program.
 std::vector<std::string> own_command();
-// Puts the program in its own place, called by the same words. Error (file_io) where the system refuses.
+// Puts the program in place of itself, called by the same words. Error (file_io) where the system refuses.
 [[noreturn]] void restart(const Environment& environment);
 
 struct ProcessResult {

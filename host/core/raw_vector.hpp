@@ -1,4 +1,4 @@
-// Vectors for what grows with the scene and is written by all cores: they are not filled before.
+// Vectors for data that grows with the scene and is written by all cores: they are not filled before.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace eyeray::engine {
 
-// Leaves uninitialised what is made without a value.
+// Leaves elements that are made without a value uninitialised.
 template <typename T>
 struct RawAllocator : std::allocator<T> {
   static_assert(std::is_trivially_copyable_v<T>);

@@ -1,5 +1,5 @@
-// The rays of one sample of a pixel, and the values that were looked at along them: what `eyeray probe`
-// compares.
+// The rays of one sample of a pixel, and the values that were recorded along them: `eyeray probe` compares
+// these.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace eyeray::engine {
 
-// `pixel`: no ray; what does not belong to one belongs to it.
+// `pixel`: no ray; values that belong to no ray belong to it.
 enum class RayKind : uint32_t { pixel, eye, reflected, refracted, shadow };
 
 struct ProbedValue {
@@ -40,13 +40,13 @@ struct RayTree {
   uint64_t lost = 0;                   // values and rays beyond RayRecorder::most
 };
 
-// Makes the tree of what is shown to it, in order of time.
+// Makes the tree of the events that it gets, in order of time.
 class RayRecorder {
  public:
   // Rays and values that are kept.
   static constexpr uint32_t most = 1 << 17;
 
-  // From here on values belong to a new ray: a reflected or refracted one is that of the last ray with one
+  // From here on values belong to a new ray. A reflected or refracted one is that of the last ray with one
   // reflection or refraction less than `depth`, a shadow ray that of the last with as many.
   void ray(RayKind kind, uint32_t number, uint32_t depth);
   // From here on they belong to the last ray of `depth` again, beyond every depth to the pixel.

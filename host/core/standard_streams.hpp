@@ -8,7 +8,7 @@
 
 namespace eyeray::engine {
 
-// Makes the standard streams what a program can rely on, whatever it was started with; to be called first.
+// Makes the standard streams safe to rely on, however the program was started; to be called first.
 //
 // Words that standard error does not take are lost, which is never a fault: it may be closed, a full disk, or
 // a pipe whose reader has gone. A pipe on standard output may lose its reader as well, who wanted no more;

@@ -77,7 +77,7 @@ bool can_write(int file) {
   return ::poll(&polled, 1, 0) == 1 && (polled.revents & POLLOUT);
 }
 
-// Other threads may be anywhere, and hold whatever they like: nothing here waits for them.
+// Other threads may be anywhere, and hold any lock: nothing here waits for them.
 [[noreturn]] void end(const std::function<void(const Error&)>& report, const Error& error) {
   if (can_write(STDOUT_FILENO) && can_write(STDERR_FILENO) && ::ftrylockfile(stdout) == 0 &&
       ::ftrylockfile(stderr) == 0) {

@@ -1,7 +1,7 @@
 // The program's end before its time: a signal, or a driver that does not come back.
 //
 // Long work calls interrupted() between its pieces, and ends by itself. Code that cannot call it is left
-// where it is: a watching thread ends the process a third of a second after it was asked to end.
+// where it is: a watching thread ends the process a third of a second after the request to end.
 #pragma once
 
 #include <atomic>
@@ -11,23 +11,23 @@
 
 namespace eyeray::engine {
 
-// Starts the watch; main calls it, once, and so does a forked child that is to have one. SIGINT, SIGTERM and
-// SIGHUP (unless that is ignored, as under nohup) then end the process from whatever state it is in,
-// UnfinishedFiles removed; a second one does so even while something is saved. Signals within a tenth of a
-// second are one: timeout(1) sends its signal to the process and then to the group. The watching thread calls
-// `report` with the reason, if standard output and error take it.
+// Starts the watch; main calls it, once, as does a forked child that is to have one. SIGINT, SIGTERM and
+// SIGHUP (unless that is ignored, as under nohup) then end the process from any state, with UnfinishedFiles
+// removed; a second one does so even while something is saved. Signals within a tenth of a second are one:
+// timeout(1) sends its signal to the process and then to the group. The watching thread calls `report` with
+// the reason, if standard output and error take it.
 void watch_for_termination(std::function<void(const Error&)> report);
 
 // From now on a signal ends the process without a word: who sent it knows.
 void end_silently();
 
-// True if a signal has asked the process to end. Safe from any thread.
+// True if a signal has requested the process's end. Safe from any thread.
 bool signalled();
 
-// True if a signal, or a program that uses eyeray as a library, has asked to stop. Safe from any thread.
+// True if a signal, or a program that uses eyeray as a library, has requested a stop. Safe from any thread.
 bool interrupted();
 
-// While one is alive, interrupted() asks `stop` too. One at a time; `stop` must outlive it.
+// While one is alive, interrupted() queries `stop` too. One at a time; `stop` must outlive it.
 class Interruptible {
  public:
   explicit Interruptible(const std::atomic<bool>& stop);
@@ -36,7 +36,7 @@ class Interruptible {
   Interruptible& operator=(const Interruptible&) = delete;
 };
 
-// Error (interrupted) if one has. For what may compute for ever, of which nothing is worth saving: a pixel.
+// Error (interrupted) if one has. For work that may never end, of which nothing is worth saving: a pixel.
 inline void stop_if_interrupted() {
   if (interrupted()) throw Error(ExitCode::interrupted, "interrupted");
 }
@@ -50,7 +50,7 @@ Error out_of_memory();
 // Ends the process with that, from any thread and any signal handler.
 [[noreturn]] void end_for_want_of_memory() noexcept;
 
-// While one is alive there is something to lose: the thread asks interrupted(), saves, and ends in its own
+// While one is alive there is something to lose: the thread queries interrupted(), saves, and ends in its own
 // time.
 class Saving {
  public:

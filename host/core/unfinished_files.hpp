@@ -17,7 +17,7 @@ class UnfinishedFiles {
   std::unique_lock<std::timed_mutex> lock_;
 };
 
-// Removes all of them, folders with what is in them; from then on nobody can make another, as the process is
+// Removes all of them, folders with their contents; from then on nobody can make another, as the process is
 // about to end. Gives up where another thread holds the list for longer than a moment.
 void remove_unfinished_files();
 

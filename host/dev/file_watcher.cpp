@@ -46,7 +46,7 @@ void FileWatcher::watch(const WatchList& list) {
   }
   for (const fs::path& folder : list.folders) add_tree(fs::absolute(folder).lexically_normal());
 
-  // Drop what nobody asks for any more.
+  // Drop watches that nobody asks for any more.
   for (const auto& [id, interest] : before) {
     if (!interests_.contains(id)) inotify_rm_watch(fd_, id);
   }

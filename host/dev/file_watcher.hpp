@@ -28,14 +28,14 @@ class FileWatcher {
   FileWatcher(const FileWatcher&) = delete;
   FileWatcher& operator=(const FileWatcher&) = delete;
 
-  // Replaces what is watched. A change between two calls is not lost.
+  // Replaces the watch list. A change between two calls is not lost.
   void watch(const WatchList& list);
   // To poll for reading.
   int descriptor() const { return fd_; }
-  // The names of what changed, once the saving is over: after 10 ms of silence; 200 ms after a file has
+  // The names of changed files, once the saving is over: after 10 ms of silence; 200 ms after a file has
   // vanished, since many editors put it back. Empty before. Never waits.
   std::set<std::string> take_changes();
-  // When to ask again though nothing can be read, in seconds; nothing where nothing has changed.
+  // When to call again though nothing can be read, in seconds; nothing where nothing has changed.
   std::optional<double> settles_in() const;
   // Waits for changes; empty when interrupted() came true.
   std::set<std::string> wait();

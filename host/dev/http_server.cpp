@@ -279,8 +279,8 @@ void HttpServer::Loop::publish(std::string text) {
   wake();
 }
 
-// True if both addresses, or 127.0.0.1 on a machine without IPv6, have the port free; else errno says why
-// not.
+// True if both addresses, or 127.0.0.1 on a machine without IPv6, have the port free; else errno has the
+// reason.
 bool HttpServer::Loop::listen(int port) {
   std::vector<int> sockets;
   for (const int family : {AF_INET, AF_INET6}) {

@@ -16,8 +16,8 @@ struct Message {
 };
 
 // One end of a pair of sockets. A message is two little-endian uint32, the sizes of the JSON text and of the
-// bytes, and then these. The other end may be a process whose memory a shader has overwritten: what is no
-// message closes the socket.
+// bytes, and then these. The other end may be a process whose memory a shader has overwritten: bytes that are
+// no message close the socket.
 class MessageSocket {
  public:
   MessageSocket() = default;  // closed

@@ -1,4 +1,4 @@
-// In the worker: renders what it is asked, and sends the picture while it grows.
+// In the worker: renders as requested, and sends the picture while it grows.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@
 namespace eyeray::engine::dev {
 
 // Answers messages until the socket is closed. A newer message ends the work on an older one: at once between
-// two bands of rows, else when what was begun is done.
+// two bands of rows, else when the work begun is done.
 //
 //   {"do": "render", "revision": 7, "generation": 12, "defines": ["camera.eye=[0,1,5]"], "views": ["gpu"]}
 //     "tunables": {"shapes/sphere.glsl:WIDTH": [0.5]}, the values chosen for constants of shaders
@@ -25,19 +25,19 @@ namespace eyeray::engine::dev {
 //     with "shaders_changed" the kernel of a scene without sliders is its own, which compiles in half the
 //     time, else one that does for other values too;
 //     with "previews" the twin paints "gpu" while a kernel compiles
-//   {"do": "probe", "x": 3, "y": 4}: of what was rendered last
+//   {"do": "probe", "x": 3, "y": 4}: in the last picture
 //
 // It sends, each with "event", and with the request's generation:
-//   "stage"   what it does now: "load", "compile" or "render"
-//   "scene"   what was loaded: "width", "height", "samples", "files" that were read, "camera", and
+//   "stage"   its present work: "load", "compile" or "render"
+//   "scene"   facts of the loaded scene: "width", "height", "samples", "files" that were read, "camera", and
 //             "scene_tunables", as below
-//   "tunables"  what moves in the shaders, each with "id", "owner", "name", "type", "low", "high",
+//   "tunables"  adjustable constants of the shaders, each with "id", "owner", "name", "type", "low", "high",
 //             "written", "value"
 //   "rows"    see Board::put_rows; "preview": whether the twin made them; "processor_seconds"
 //   "done"    a view is complete, whether it is the "last": "device", "seconds", "stages", "rays",
 //             "samples", "doubts" (sentences), "files", "processor_seconds": all threads' since the request
 //   "failed"  "code", "message", "diagnostics"
-//   "probed"  what probe::to_json says, as "findings", and its "text"; or "message" where it failed
+//   "probed"  the result of probe::to_json, as "findings", and its "text"; or "message" where it failed
 class RenderServer {
  public:
   struct Options {
@@ -87,7 +87,7 @@ class RenderServer {
   std::shared_ptr<executors::Tunables> tunables_;
   bool previews_ = false;
   std::shared_ptr<const Scene> scene_;
-  // Executors of this revision, by what they count.
+  // Executors of this revision, by the values they count.
   std::map<std::pair<executors::Backend, film::Needs>, std::unique_ptr<executors::Executor>> executors_;
   int64_t made_of_ = -1;  // revision
   std::future<std::unique_ptr<executors::Executor>> being_made_;

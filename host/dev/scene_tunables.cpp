@@ -25,7 +25,7 @@ std::vector<std::string> numbers_in(const std::string& text) {
   return numbers;
 }
 
-// The type and value of what stands at a key, where the control moves such things.
+// The type and value of the text at a key, where the control moves such things.
 bool read_value(const std::string& control, const std::string& text, SceneTunable& tunable) {
   const std::vector<std::string> numbers = numbers_in(text);
   if (control == "checkbox") {
@@ -57,7 +57,7 @@ Parts parts_of(const std::string& key) {
   return std::regex_match(key, match, form) ? Parts{match[1], match[2], match[3]} : Parts{"", "", key};
 }
 
-// Without what says only how it is computed.
+// Without the parts that state only how it is computed.
 std::string property_name(const std::string& path) {
   std::string name;
   std::istringstream words(path);

@@ -1,4 +1,4 @@
-// Values of a scene that a person moves while looking at the picture:
+// Values of a scene that a person moves while viewing the picture:
 //
 //   radius = 1.25                 # @slider 0.1 3
 //   diffuse = [0.8, 0.3, 0.15]    # @color
@@ -14,7 +14,7 @@ namespace eyeray::engine::dev {
 
 struct SceneTunable {
   std::string key;  // as -D takes it: "material.2.diffuse.formula.parameters.size"
-  // For people: whose it is, by its `name`, its `file`'s or its kind, "bricks", "sphere 2", and what,
+  // For people: whose it is, by its `name`, its `file`'s or its kind, "bricks", "sphere 2", and its own,
   // "diffuse size".
   std::string owner, name;
   std::string type;  // "float", "int", "bool" or "vec3"

@@ -29,7 +29,7 @@ std::string SourceFiles::hash_of(const std::filesystem::path& file) {
   try {
     return ContentHash().add(read_file(file)).hex();
   } catch (const Error&) {
-    return "";  // unreadable: whoever renders says so
+    return "";  // unreadable: the renderer reports it
   }
 }
 

@@ -23,7 +23,7 @@ class SourceFiles {
   // True if there is such a file.
   bool any_unknown() const;
 
-  // Those whose bytes are others than at the last call: saving what was there counts for nothing.
+  // Those whose bytes are others than at the last call: saving the same bytes counts for nothing.
   std::set<std::filesystem::path> changed();
   // The changed files where no notifications arrive, on network file systems for instance. To be called about
   // every second. A file counts once it has not changed between two calls.
@@ -38,7 +38,7 @@ class SourceFiles {
   };
   struct State {
     Stamp stamp, last_look;
-    Stamp unknown;  // of what counted as changed without a look
+    Stamp unknown;  // of a file that counted as changed without a check
     std::string hash;
   };
   static Stamp stamp_of(const std::filesystem::path& file);

@@ -127,7 +127,7 @@ void Supervisor::begin_revision() {
 void Supervisor::request() {
   watch();
   ++generation_;
-  probing_ = false;  // an answer would be of an older request: it is asked again
+  probing_ = false;  // an answer would be of an older request: it is requested again
   result_.reset();
   board_.update([&](Json& status) {
     status["state"] = "loading";
@@ -165,7 +165,7 @@ void Supervisor::take_messages() {
   while (worker_.running()) {
     const std::optional<Message> message = worker_.socket().receive(0);
     if (message) {
-      // A shader may have written over what the worker says.
+      // A shader may have written over the worker's message.
       try {
         if (message->json.value("generation", int64_t{-1}) != generation_) continue;  // of an older request
         heard_ = true;

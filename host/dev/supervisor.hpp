@@ -1,4 +1,4 @@
-// eyeray dev: watches files, has a worker render them, shows the picture and what is wrong, and outlives all
+// eyeray dev: watches files, has a worker render them, shows the picture and the faults, and outlives all
 // of it.
 #pragma once
 
@@ -23,9 +23,9 @@ struct SupervisorOptions {
   std::filesystem::path scene;          // watched from the start
   std::filesystem::path shader_folder;  // likewise; empty: none
   std::string view = "gpu";             // shown at first
-  double timeout_seconds = 20;          // of a worker that says nothing
+  double timeout_seconds = 20;          // of a worker that sends nothing
   std::optional<int> port;              // of the page; none: no page
-  bool once = false;                    // end with the first picture, or with what is wrong
+  bool once = false;                    // end with the first picture, or with the faults
 };
 
 class Supervisor {
@@ -36,8 +36,8 @@ class Supervisor {
   using Report = std::function<void(const Json&)>;
   Supervisor(SupervisorOptions options, Report report);
 
-  // Shows the page and asks for the first picture. Then, again and again: waits a little for whatever comes,
-  // and does what it asks for.
+  // Shows the page and asks for the first picture. Then, again and again: waits a little for any event, and
+  // does the work that it asks for.
   void begin();
   void step();
   // Both, until interrupted() comes true or, with `once`, the first picture is there. Then: the exit code.
@@ -73,7 +73,7 @@ class Supervisor {
 
   int64_t revision_ = 0;         // of files and defines
   int64_t generation_ = 0;       // of requests
-  int64_t edit_ = 0;             // of what pictures show: files, defines and values of shaders
+  int64_t edit_ = 0;             // of the pictures' sources: files, defines and values of shaders
   bool busy_ = false;            // the worker has not answered the last request
   bool heard_ = false;           // it has begun with it
   bool shaders_changed_ = true;  // since the last picture

@@ -13,7 +13,7 @@ namespace eyeray::engine::dev {
 // The supervisor's hand on it.
 class Worker {
  public:
-  // The program and its arguments; what start() appends is the descriptor of the worker's socket.
+  // The program and its arguments; start() appends the descriptor of the worker's socket.
   explicit Worker(std::vector<std::string> command) : command_(std::move(command)) {}
   ~Worker() { kill(); }
   Worker(const Worker&) = delete;
@@ -25,7 +25,7 @@ class Worker {
   MessageSocket& socket() { return socket_; }
   // True if a debugger is attached to it, and may hold it for as long as a person thinks.
   bool debugged() const;
-  // Ends it, whatever it does: soon, and with its unfinished files gone. How it ended, for people: "signal 11
+  // Ends it in any state: soon, and with its unfinished files gone. How it ended, for people: "signal 11
   // (Segmentation fault)"; a process that ends by itself does so before it is killed.
   std::string kill();
 

@@ -33,8 +33,8 @@ struct Probed {
 struct ExecutorFacts {
   // For people: "gpu: llvmpipe (LLVM 15.0.6, 256 bits), driver …", "twin: 2 threads".
   std::string description;
-  // The properties of the device that decide bits, as found by its self-test: if they are equal, so are the
-  // samples of the same program. A device whose arithmetic is not exact is named with its driver.
+  // The properties of the device that decide bits, as found by its self-test: if they are equal, the samples
+  // of the same program are equal. A device whose arithmetic is not exact is named with its driver.
   std::string arithmetic = "of the program itself";
   // The device that it is on, for executors to come (GpuOptions::open_device); null of a CPU's.
   std::shared_ptr<OpenDevice> device;
@@ -49,14 +49,14 @@ class Executor {
  public:
   virtual ~Executor() = default;
 
-  // Sample `index` of every pixel of `grid`, row by row; out.size() = grid.pixels(). `auxiliaries`: what a
-  // denoiser asks of the same samples, as many or none; only where paths walk at random
+  // Sample `index` of every pixel of `grid`, row by row; out.size() = grid.pixels(). `auxiliaries`: a
+  // denoiser's needs of the same samples, as many or none; only where paths walk at random
   // (scene/integrator.hpp). Returns false when interrupted, and both are then undefined.
   virtual bool sample(const Grid& grid, uint32_t index, std::span<PixelSample> out,
                       std::span<AuxiliarySample> auxiliaries = {}) = 0;
   // The first hit of the ray through the centre of every pixel of `tile`. out.size() = tile.pixels().
   virtual void first_hits(const Rect& tile, std::span<FirstHit> out) = 0;
-  // Sample `index` of one pixel, and what is to be seen along its rays. Positions are the shaders', relative
+  // Sample `index` of one pixel, and the values along its rays. Positions are the shaders', relative
   // to the eye, but the reference's. Only where ExecutorOptions::ray_kinds.
   virtual Probed probe(int x, int y, uint32_t index) = 0;
   // Writes the hit of each ray, and returns the seconds that tracing alone took: by the device's clock where

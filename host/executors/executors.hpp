@@ -6,7 +6,7 @@
 
 namespace eyeray::engine::executors {
 
-// The twin can say what its samples decided, too.
+// The twin can report its samples' decisions, too.
 class Twin : public Executor {
  public:
   // The decisions of that sample's random path, event by event (shaders/integrators/trail.glsl). May be

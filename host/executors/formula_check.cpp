@@ -32,7 +32,7 @@ struct Steepest {
   Vec3 at{0.0};
 };
 
-// Differences over short steps at random points; those that are steeper than any before are looked at more
+// Differences over short steps at random points; those that are steeper than any before are examined more
 // closely. Fewer points where each takes long.
 Steepest steepest(const FormulaUse& use) {
   constexpr int points = 20000;

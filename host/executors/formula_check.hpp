@@ -8,11 +8,11 @@
 
 namespace eyeray::engine::executors {
 
-// InputError, at the place in the user's text, where a formula has no Lipschitz constant and cannot be
+// InputError, at the position in the user's text, where a formula has no Lipschitz constant and cannot be
 // bounded by affine forms. No device is needed.
 void check_formulas(const Scene& scene);
 
-// Warnings, at the shapes, where samples say that a formula is steeper than its Lipschitz constant; always
+// Warnings, at the shapes, where samples show that a formula is steeper than its Lipschitz constant; always
 // the same samples. Error (timed_out) where one does not end.
 std::vector<Diagnostic> doubt_lipschitz_constants(const Scene& scene);
 

@@ -88,7 +88,7 @@ class GpuExecutor final : public Executor {
     });
   }
 
-  // By the loop, whatever makes the picture: so has the wavefront the same bits.
+  // By the loop, also for a wavefront's picture, which has the same bits.
   Probed probe(int x, int y, uint32_t index) override {
     CHECK(options_.ray_kinds);
     const std::string entry = "kernels/render.comp.glsl";
@@ -131,7 +131,7 @@ class GpuExecutor final : public Executor {
     return fmt::format("not exact, {}, on {}, {}", text, device_.info().name, device_.info().driver_version);
   }
 
-  // By the loop, whatever makes the picture.
+  // By the loop, also for a wavefront's picture.
   bool sample_auxiliaries(const Grid& grid, uint32_t index, std::span<AuxiliarySample> out) {
     if (!auxiliary_kernel_)
       auxiliary_kernel_ = kernels_->make("kernels/render.comp.glsl", "#define AUXILIARY\n");

@@ -1,4 +1,4 @@
-// Rays asked on a device, by the kernels that suit them.
+// Rays traced on a device, by the kernels that suit them.
 #pragma once
 
 #include <memory>

@@ -17,7 +17,7 @@ uint64_t trace_iterations(const records::PackedScene& scene, bool unrolled) {
 }
 
 uint32_t loop_budget_of(const records::PackedScene& scene, std::string_view driver) {
-  // One ray with its shadow rays must fit whatever came before it. In a BVH it makes far fewer iterations
+  // One ray with its shadow rays must fit after any earlier ones. In a BVH it makes far fewer iterations
   // than there are primitives; where it does not, the shader sees that the driver stopped it.
   const uint64_t one_ray =
       (trace_iterations(scene, false) + 1) * (scene.lights.size() + 1 + (scene.panes ? MOST_PANES : 0));

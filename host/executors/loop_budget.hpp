@@ -16,7 +16,7 @@ uint64_t trace_iterations(const records::PackedScene& scene, bool unrolled);
 // more than it grants.
 uint32_t loop_budget_of(const records::PackedScene& scene, std::string_view driver);
 
-// Error (no_device), which names the driver, where the flags of a ray say that it ended loops all the same.
+// Error (no_device), which names the driver, where the flags of a ray show that it ended loops all the same.
 void check_traced(uint32_t flags, std::string_view driver);
 
 }  // namespace eyeray::engine::executors

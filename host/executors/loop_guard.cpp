@@ -61,7 +61,7 @@ size_t skip_space(std::string_view code, size_t at) {
   return std::min(code.find_first_not_of(" \t\r\n", at), code.size());
 }
 
-// Calls visit(begin, end) for each function, and for whatever else stands outside of braces up to one.
+// Calls visit(begin, end) for each function, and for all else that stands outside of braces up to one.
 template <typename Visit>
 void for_each_function(std::string_view code, const Visit& visit) {
   for (size_t begin = 0; begin < code.size();) {

@@ -1,4 +1,4 @@
-// A device that is open, what was found out about it, and the kernels that were built on it: executors that
+// A device that is open, the facts found about it, and the kernels that were built on it: executors that
 // come one after the other share it, and start at once.
 #pragma once
 
@@ -19,8 +19,8 @@ gpu::DeviceOptions device_options(const GpuOptions& options, bool wide_vectors);
 
 class OpenDevice {
  public:
-  // Opens what the options select, and tests it. The time goes to `times`. `wide_vectors`: as the picture
-  // wants them.
+  // Opens the device that the options select, and tests it. The time goes to `times`. `wide_vectors`: as the
+  // picture needs them.
   OpenDevice(const GpuOptions& options, bool wide_vectors, StageTimes& times);
 
   gpu::Device& device() { return device_; }

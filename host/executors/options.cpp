@@ -5,7 +5,7 @@
 namespace eyeray::engine::executors {
 
 bool repay_kernels(int64_t samples) {
-  // From there on, what a second of compiling saves is more than a second.
+  // From there on, a second of compiling saves more than a second.
   return samples >= 1 << 24;
 }
 

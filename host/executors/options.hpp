@@ -24,7 +24,7 @@ struct GpuOptions {
   bool wide_vectors = true;                 // where the picture wants them (trace_plan.hpp)
   ProfileOptions profile;
   bool fast_math = false;              // let the driver contract and re-associate
-  bool validate_spirv = false;         // what a kernel was compiled to, before the driver gets it
+  bool validate_spirv = false;         // a kernel's SPIR-V, before the driver gets it
   bool constants = true;               // compile the primitives of a small scene into the kernel
   bool formula_numbers = false;        // kernels load the numbers of formulas, and suit others too
   bool optimise = true;                // give the driver an optimised kernel
@@ -33,14 +33,14 @@ struct GpuOptions {
 
 struct TwinOptions {
   bool compile = false;    // compile ExecutorOptions::shader_folder's files as C++ (twin_module.hpp)
-  std::string sanitizers;  // of what is compiled, as -fsanitize takes them
+  std::string sanitizers;  // of compiled modules, as -fsanitize takes them
 };
 
 struct ExecutorOptions {
   std::filesystem::path shader_folder;  // laid over the embedded shaders, file by file; empty: none
   pack::PackOptions pack;               // of which the reference takes `acceleration` alone
-  bool ray_kinds = false;               // count reflected and refracted rays; the GPU does so only if asked
-  bool search_cost = false;  // fill FirstHit::cost; the GPU does so only if asked, the reference never
+  bool ray_kinds = false;               // count reflected and refracted rays; the GPU does so on request
+  bool search_cost = false;  // fill FirstHit::cost; the GPU does so on request, the reference never
   LeftOutPhotons left_out;   // photons that bring no light
   GpuOptions gpu;
   TwinOptions twin;
@@ -49,8 +49,8 @@ struct ExecutorOptions {
 // True if so many samples repay kernels that have the scene inside, where kernels without it would do for
 // the next scene too.
 bool repay_kernels(int64_t samples);
-// For scenes that come one after the other and differ in what moved, each a picture of so many samples:
-// their BVHs are refitted where that will do, and they share kernels where samples do not repay others.
+// For scenes that come one after the other and differ by motion, each a picture of so many samples. Their
+// BVHs are refitted where that will do, and they share kernels where samples do not repay others.
 ExecutorOptions for_frames(ExecutorOptions options, int64_t samples);
 
 }  // namespace eyeray::engine::executors

@@ -20,7 +20,7 @@ uint64_t room_on(const gpu::DeviceInfo& device, size_t record, int buffers) {
   return std::min(device.limits.storage_range, device.limits.heap / uint64_t(buffers)) / record;
 }
 
-// Error (no_device) where what becomes of the photons has no room.
+// Error (no_device) where the results of the photons have no room.
 size_t bytes_of_results(const gpu::DeviceInfo& device, uint32_t photons) {
   if (const uint64_t room = room_on(device, sizeof(shader::PhotonResult), 1); photons > room)
     throw Error(ExitCode::no_device,

@@ -22,7 +22,7 @@ class PhotonKernel {
   // Makes those of sample `index` the ones that are gathered, unless they are. Returns false when
   // interrupted.
   bool send_out(uint32_t index, std::span<const uint32_t> left_out);
-  // Gives the kernel what there is.
+  // Gives the kernel the buffers.
   void bind(gpu::Kernel& kernel) const;
   // SampleFlags of the photons that were emitted last.
   uint32_t flags() const { return flags_; }

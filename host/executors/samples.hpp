@@ -7,7 +7,7 @@
 
 namespace eyeray::engine::executors {
 
-// Error (timed_out) where the flags say that a formula's loops did not end; so do the three below.
+// Error (timed_out) where the flags show that a formula's loops did not end. The three below do as well.
 void check_ended(uint32_t flags);
 
 // `ray_kinds`: whether the kernel counted them (records.h, SampleResult).
@@ -29,7 +29,7 @@ inline PixelSample to_sample(const shader::SampleResult& result, bool ray_kinds)
 
 AuxiliarySample to_auxiliary(const shader::AuxiliaryResult& result);
 
-// A ray of the shaders' world, and what it hits.
+// A ray of the shaders' world, and its hit.
 shader::QueryRay to_query_ray(const Query& ray, const Vec3& eye);
 QueryHit to_query_hit(const shader::QueryHit& result);
 

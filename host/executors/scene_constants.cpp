@@ -13,7 +13,7 @@
 namespace eyeray::engine::executors {
 namespace {
 
-// Above this many records of a kind the code outgrows what it saves, and its compilation what a frame saves.
+// Above this many records of a kind the code outgrows its savings, and its compilation those of a frame.
 constexpr size_t most_records = 24;
 constexpr size_t most_vertices_of_primitive = 4;
 

@@ -14,7 +14,7 @@ bool few_shading_records(const records::PackedScene& scene);
 bool few_primitives(const records::PackedScene& scene);
 
 // Everything but geometry and texels as constants, and the list of materials that materials/material.glsl
-// unrolls. Not of images: each of them is far more code than what chooses between them.
+// unrolls. Not of images: each of them is far more code than the choice between them.
 std::string shading_as_constants(const records::PackedScene& scene, const std::set<uint32_t>& materials_used);
 
 // The values that are the same for all pixels, as a constant.

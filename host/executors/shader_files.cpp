@@ -43,7 +43,7 @@ std::vector<Line> code_lines(std::string_view text) {
   return lines;
 }
 
-// The buffers' layout is compiled into the program: other records would be read as what they are not.
+// The buffers' layout is compiled into the program: other records would be read wrongly.
 void check_records(const std::filesystem::path& folder, std::string_view shared) {
   const std::filesystem::path file = folder / shared;
   std::error_code error;

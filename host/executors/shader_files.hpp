@@ -14,7 +14,7 @@ namespace eyeray::engine::executors {
 class ShaderFiles {
  public:
   // `folder`: laid over the embedded shaders, file by file; empty: none. Error (file_io) when it is not a
-  // folder; InputError where its records.h says something else than the one that the program was compiled
+  // folder; InputError where its records.h differs from the one that the program was compiled
   // with.
   ShaderFiles(std::filesystem::path folder, std::string scene_glsl);
 
@@ -27,7 +27,7 @@ class ShaderFiles {
   std::string shown(const std::string& name) const;
   // True if any text came from the folder. If none did, an error of compilation is a fault of eyeray itself.
   bool gave_users() const { return gave_users_; }
-  // The paths in the folder that were looked for, there or not: what a watcher watches.
+  // The paths in the folder that were looked for, there or not: for a watcher.
   const std::set<std::filesystem::path>& looked_for() const { return looked_for_; }
 
  private:

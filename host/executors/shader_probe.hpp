@@ -1,4 +1,4 @@
-// PROBE in shaders: how a kernel is made that records, and what its records mean.
+// PROBE in shaders: how a kernel is made that records, and the meaning of its records.
 #pragma once
 
 #include <map>

@@ -141,7 +141,7 @@ std::string defines(const records::PackedScene& scene, const Used& used, const S
   return text;
 }
 
-// Most textures of a material are constants, whatever others are: what asks for them is then hardly any code.
+// Most textures of a material are constants, though others are not: code that samples them is then short.
 std::string textures_of_materials(const records::PackedScene& scene, const std::set<uint32_t>& materials) {
   std::string text = "#define TEXTURES_OF(name, X) TEXTURES_OF_##name(X)\n";
   for (const auto& [name, texture] : rows::material_textures) {
@@ -155,7 +155,7 @@ std::string textures_of_materials(const records::PackedScene& scene, const std::
   return text;
 }
 
-// The shaders' registries, with what is used alone.
+// The shaders' registries, with the used entries alone.
 std::string registries(const records::PackedScene& scene, const Used& used) {
   std::set<uint32_t> texture_kinds, light_kinds, emitter_kinds;
   for (const shader::Texture& texture : scene.textures) texture_kinds.insert(texture.kind);

@@ -1,4 +1,4 @@
-// Made for one scene: the text of scene.glsl, with which the entries compile only what the scene has.
+// Made for one scene: the text of scene.glsl, with which the entries compile only the scene's features.
 #pragma once
 
 #include <string>

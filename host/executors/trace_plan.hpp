@@ -14,7 +14,7 @@ struct TracePlan {
   Rays bounced = Rays::lanes;  // later bounces of a wavefront
 };
 
-// `asked`: what people chose themselves, which is done wherever the scene allows it. `subgroup_size`: lanes.
+// `asked`: people's own choices, which hold wherever the scene allows them. `subgroup_size`: lanes.
 TracePlan plan_tracing(const Profile& profile, const ProfileOptions& asked, const ImageSettings& image,
                        const records::PackedScene& scene, uint32_t subgroup_size);
 

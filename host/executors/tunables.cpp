@@ -9,7 +9,7 @@
 namespace eyeray::engine::executors {
 namespace {
 
-// 1: what stands before it, 2: type, 3: name, 4: value, 5: comment, 6: kind of control, 7: its numbers.
+// 1: the text before it, 2: type, 3: name, 4: value, 5: comment, 6: kind of control, 7: its numbers.
 const std::regex declaration(
     R"(^(\s*)const\s+(float|int|bool|vec3)\s+(\w+)\s*=\s*(.*?);(\s*//\s*@(slider|color|checkbox)\b\s*(.*))$)");
 

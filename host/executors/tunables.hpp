@@ -1,4 +1,4 @@
-// Constants of shaders that a person moves while looking at the picture:
+// Constants of shaders that a person moves while viewing the picture:
 //
 //   const float WIDTH = 0.5f;              // @slider 0 1
 //   const int COUNT = 3;                   // @slider 1 16
@@ -45,7 +45,7 @@ class Tunables {
 
   // All that were seen since begin().
   const std::vector<Tunable>& found() const { return found_; }
-  // Values by id; where nothing is chosen, what is written counts. Returns whether that changes anything.
+  // Values by id; where nothing is chosen, the written value counts. Returns whether that changes anything.
   bool choose(std::map<std::string, Tunable::Value> values);
   // The number of the choice: executors compare it before they sample.
   uint64_t choice() const { return choice_; }

@@ -49,7 +49,7 @@ bool has_sources(const fs::path& folder) {
   return whole;
 }
 
-// The program's own part of what is compiled, below `folder`: once for each version, and whole.
+// The program's own part of the sources, below `folder`: once for each version, and whole.
 fs::path write_sources(const fs::path& folder) {
   ContentHash hash;
   for_each_source([&](const fs::path& name, std::string_view text) { hash.add(name.string()).add(text); });
@@ -124,7 +124,7 @@ void write_copy(const fs::path& copy, const fs::path& file, std::string_view tex
   if (!stream.flush()) throw Error(ExitCode::file_io, "cannot write {}", copy.string());
 }
 
-// The newest stay, of modules and of what they are made of.
+// The newest stay, of modules and of their sources.
 void drop_old(const fs::path& folder) {
   std::error_code failed;
   std::vector<std::pair<fs::file_time_type, fs::path>> modules, sources;

@@ -23,7 +23,7 @@ class TwinModule {
   TwinModule& operator=(const TwinModule&) = delete;
 
   const twin::Functions& functions() const { return *functions_; }
-  // "g++": what made it.
+  // "g++": its compiler.
   const std::string& compiler() const { return compiler_; }
   // Counts the loops of `folder`.
   const LoopGuard& loops() const { return loops_; }

@@ -18,7 +18,7 @@ class UploadedScene {
 
   // Error (no_device) where the device has too little memory for it and those before.
   void add(const SceneBuffer& source);
-  // Gives the kernel what there is so far.
+  // Gives the kernel the buffers so far.
   void bind(gpu::Kernel& kernel) const;
   // Bytes that geometry and the BVHs over it take.
   uint64_t geometry_bytes() const { return geometry_bytes_; }

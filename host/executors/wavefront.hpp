@@ -1,6 +1,6 @@
 // Pictures by wavefronts: all pixels of a tile a bounce at a time, each step a kernel. Camera rays and their
-// shadow rays, which are coherent, are traced in packets; the rays of a later bounce as the profile says; and
-// every bounce is shaded by kernels/wavefront.comp.glsl, which lists the pixels whose paths go on.
+// shadow rays, which are coherent, are traced in packets; the rays of a later bounce as the profile sets.
+// Every bounce is shaded by kernels/wavefront.comp.glsl, which lists the pixels whose paths go on.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// What straight-line code computes, as text in the common subset of GLSL and C++.
+// The steps of straight-line code, as text in the common subset of GLSL and C++.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ std::string bound_text(const StraightLine& line, std::string_view name, LoadedNu
 // vec4 NAME(vec3 p): the function's gradient and, in w, its value; needs shaders/math/dual.glsl.
 std::string gradient_text(const StraightLine& line, std::string_view name, LoadedNumbers* numbers = nullptr);
 
-// How far the constant, as a float, may be from what was meant.
+// The greatest distance of the constant, as a float, from its meant value.
 float constant_error(const Step& step);
 
 }  // namespace eyeray::engine::expression

@@ -93,8 +93,8 @@ class Expression {
 using StraightLine = std::vector<Step>;
 StraightLine straight_line(const Expression& expression, Term result);
 
-// What `op` gives for float64 operands; truths are 0 and 1. A scale's factor and a power's exponent is y. For
-// the expression's own constants, and for tests.
+// The result of `op` for float64 operands; truths are 0 and 1. A scale's factor and a power's exponent is y.
+// For the expression's own constants, and for tests.
 double compute(Op op, double x, double y, double z);
 
 }  // namespace eyeray::engine::expression

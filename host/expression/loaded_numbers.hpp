@@ -11,7 +11,7 @@ namespace eyeray::engine::expression {
 class LoadedNumbers {
  public:
   // Adds a number, and returns GLSL that loads it from `uint formula_numbers[]`. Each use of a number is
-  // added by itself, so that the text does not tell which of them are equal.
+  // added by itself, so that the text does not show which of them are equal.
   std::string add_uint(uint32_t value) {
     words_.push_back(value);
     return "formula_numbers[" + std::to_string(words_.size() - 1) + "]";
@@ -19,7 +19,7 @@ class LoadedNumbers {
   std::string add_float(uint32_t bits) { return "uintBitsToFloat(" + add_uint(bits) + ")"; }
   std::string add_float(float value) { return add_float(__builtin_bit_cast(uint32_t, value)); }
 
-  // What the buffer holds.
+  // The buffer's contents.
   const std::vector<uint32_t>& words() const { return words_; }
 
  private:

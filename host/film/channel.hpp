@@ -86,7 +86,7 @@ bool any_needs(const Channels& channels, Needs what);
 Channels channels_of(const Scene& scene, Channels wanted);
 
 // The components of its layer of an .exr: "normal.X" and so on; no more than it has, and fewer where its last
-// says nothing.
+// means nothing.
 std::vector<std::string> layer_components(Channel channel);
 // NAME.CHANNEL.ENDING for an output NAME.….
 std::filesystem::path channel_file(std::filesystem::path output, Channel channel, std::string_view ending);

@@ -50,7 +50,7 @@ struct LegendTally {
 // Writes NAME.json for a picture NAME.png; Error (file_io) when it cannot be written. Its name.
 std::filesystem::path write_legend(const LegendTally& tally, const std::filesystem::path& picture);
 
-// Takes first hits, and lists what they hit, each with its pixels.
+// Takes first hits, and lists the primitives, each with its pixels.
 class Legend {
  public:
   explicit Legend(std::unique_ptr<LegendEntries> entries);

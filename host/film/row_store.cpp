@@ -14,7 +14,7 @@
 namespace eyeray::engine::film {
 namespace {
 
-// The images that hold what is stored of a pixel, in this order.
+// The images that hold the stored values of a pixel, in this order.
 template <typename AnyRows>
 auto stored_images(AnyRows& rows) {
   std::vector images{&rows.color};

@@ -20,11 +20,11 @@ class RowStore {
   RowStore& operator=(const RowStore&) = delete;
 
   // Rows [first, first + count) of a picture that is `width` wide. Read all from 0 on before appending: that
-  // is where appending goes on, and whatever stands behind them is dropped.
+  // is where appending goes on, and all that stands behind them is dropped.
   Rows read(int first, int count, int width, const Channels& channels);
   // Without a read before it, begins the file anew.
   void append(const Rows& rows);
-  // Makes the device keep what was appended.
+  // Makes the device keep the appended rows.
   void sync();
   // The checksum of all bytes read or appended.
   uint32_t checksum() const { return checksum_; }

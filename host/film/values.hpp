@@ -1,4 +1,4 @@
-// The values of some channels as a picture is rendered, and what their ids stand for.
+// The values of some channels as a picture is rendered, and the meaning of their ids.
 #pragma once
 
 #include <functional>

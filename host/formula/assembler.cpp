@@ -43,7 +43,7 @@ class Assembler {
  private:
   using Code = Machine::Code;
 
-  // Places in one of the files.
+  // Positions in one of the files.
   struct Slots {
     std::vector<uint32_t> at;
     bool in_a_row = false;
@@ -79,7 +79,7 @@ class Assembler {
     return frame;
   }
 
-  // Writes down what the function does with `arguments`. Where the difference cannot be observed, a parameter
+  // Writes down the function's steps with `arguments`. Where the difference cannot be observed, a parameter
   // is its argument; else it is copied, and back.
   void call(Frame& frame, const std::vector<Slots>& arguments) {
     std::vector<std::pair<Slots, Slots>> back;  // to, from
@@ -102,7 +102,7 @@ class Assembler {
       if (parameter.written) back.push_back({arguments[i], own});
     }
     write(frame, frame.function.body);
-    // The last way back leads to what comes next anyway.
+    // The last way back leads to the next code anyway.
     if (!frame.returns.empty() && frame.returns.back() + 1 == machine_.code_.size()) {
       machine_.code_.pop_back();
       frame.returns.pop_back();
@@ -161,7 +161,7 @@ class Assembler {
     machine_.code_.push_back(code);
     return machine_.code_.size() - 1;
   }
-  // Makes the jump at `at` lead to what comes next.
+  // Makes the jump at `at` lead to the next code.
   void land(size_t at) { machine_.code_[at].to = uint32_t(machine_.code_.size()); }
 
   void write(Frame& frame, const ir::Block& block) {
@@ -194,7 +194,7 @@ class Assembler {
         break;
       }
       case Op::clamp_index:
-        // The length is a constant, and says what is in range.
+        // The length is a constant, and bounds the indices.
         code.length = program_.constants[size_t(~instruction.from[1])].bits;
         [[fallthrough]];
       default:

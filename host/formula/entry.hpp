@@ -11,7 +11,7 @@ enum class FormulaKind {
   camera,   // `vec3 direction(vec2 place, vec2 lens)`; it may have `vec3 origin(vec2 place, vec2 lens)` too
 };
 
-// The function TYPE NAME(PARAMETER …) as executors ask it, and the parameters that it is written with.
+// The function TYPE NAME(PARAMETER …) as executors call it, and the parameters that it is written with.
 struct Entry {
   std::string_view type, name, parameter, written;
 };

@@ -65,7 +65,7 @@ class Folding {
   }
 
  private:
-  // Follows main, which begins with the values of what stands outside of functions, as far as constants say
+  // Follows main, which begins with the values of variables outside of functions, as far as constants decide
   // which way it takes. There may be branches, as for ?:, and no loops.
   void initialise(const Function& main) {
     uint32_t label = main.blocks[0].label, from = 0;
@@ -135,7 +135,7 @@ class Folding {
     return once;
   }
 
-  // True if nothing is left to do for it: its result is made a constant, or is a place in one.
+  // True if nothing is left to do for it: its result is made a constant, or is a position in one.
   bool replace(const Instruction& instruction) {
     if (is_access(instruction.op)) {
       return find_part(instruction);

@@ -50,7 +50,7 @@ std::string call(const Entry& entry, int number) {
                      std::string_view("xyzw").substr(0, size_t(entry.parameter.back() - '0')));
 }
 
-// A camera's functions of two vectors as those of one that executors ask.
+// A camera's functions of two vectors as those of one that executors call.
 std::string as_asked(FormulaKind kind, bool has_other) {
   if (kind != FormulaKind::camera) return "";
   const auto of_both = [](const Entry& entry) {
@@ -91,8 +91,8 @@ std::vector<uint32_t> spirv_of(FormulaKind kind, bool has_other, const std::stri
   return gpu::compile_shader(source, "", gpu::Lines::kept).spirv;
 }
 
-// InputError for what glslang finds wrong with the text as it was written. The module is of the text as it is
-// spelled for us alone: glslang folds constants in float64 and by its own rules.
+// InputError for the faults that glslang finds in the text as it was written. The module is of the text as it
+// is spelled for us alone: glslang folds constants in float64 and by its own rules.
 Module module_of(FormulaKind kind, const Text& text, const std::vector<FormulaParameter>& parameters) {
   (void)spirv_of(kind, text.has_other, constants(parameters, "const"), text.glsl());
   std::string before = constants(parameters, "");
@@ -102,7 +102,7 @@ Module module_of(FormulaKind kind, const Text& text, const std::vector<FormulaPa
   return module;
 }
 
-// A place in the text as one in the file that it stands in.
+// A position in the text as one in the file that it stands in.
 Diagnostic located(const FormulaText& text, int line, int column, std::string message) {
   Diagnostic diagnostic;
   diagnostic.message = std::move(message);

@@ -1,7 +1,7 @@
-// A function that a user has written in GLSL: a surface's, of a point, a colour's, of its place on a surface,
-// or a camera's, of a place in the picture. Its text is a stranger's: it is judged, compiled by glslang, and
-// forgotten. What its SPIR-V says, with nothing undefined left (formula/ir.hpp), is what every executor runs.
-// docs/formulas.md says which GLSL, docs/security.md what a stranger can do with it.
+// A function that a user has written in GLSL: a surface's, of a point, a colour's, of its point on a surface,
+// or a camera's, of a point in the picture. Its text is a stranger's: it is judged, compiled by glslang, and
+// forgotten. Every executor runs its SPIR-V's program, with nothing undefined left (formula/ir.hpp).
+// docs/formulas.md lists the GLSL, docs/security.md a stranger's powers with it.
 #pragma once
 
 #include <array>
@@ -20,8 +20,8 @@ namespace eyeray::engine::formula {
 struct Compiled;
 struct Text;
 
-// The text as a person wrote it, and where: `start` is the place of its first character. Without a line (0)
-// nobody knows.
+// The text as a person wrote it, and where: `start` is the position of its first character. Without a line
+// (0) nobody knows.
 struct FormulaText {
   std::string text;
   SourcePosition start;
@@ -36,7 +36,7 @@ struct FormulaParameter {
 
 class Formula {
  public:
-  // InputError with every fault, at its place. `title`: for messages, "the formula of [[implicit]] at
+  // InputError with every fault, at its position. `title`: for messages, "the formula of [[implicit]] at
   // scene.toml:12".
   Formula(FormulaText text, std::vector<FormulaParameter> parameters, std::string title,
           FormulaKind kind = FormulaKind::surface);
@@ -52,7 +52,7 @@ class Formula {
   // True if the text has the function that it may have beside (other_entry_of): a surface's gradient, a
   // camera's origin.
   bool has_other() const;
-  // Instructions, with functions written where they are called: what a kernel's compiler has to do with it.
+  // Instructions, with functions written where they are called: a kernel's compiler has these.
   double instructions() const;
 
   // The formula as GLSL for kernels that have shaders/math/formula.glsl: the required function, for instance
@@ -62,12 +62,12 @@ class Formula {
   std::string kernel(const std::string& name, expression::LoadedNumbers* numbers = nullptr) const;
   bool loops() const;
 
-  // f as straight-line code, of which bounds and derivatives are made. InputError, at the place in the text,
-  // for code without such a form: loops whose number of iterations depends on p without a bound, indices and
-  // whole numbers computed from p.
+  // f as straight-line code, of which bounds and derivatives are made. InputError, at the position in the
+  // text, for code without such a form: loops whose number of iterations depends on p without a bound,
+  // indices and whole numbers computed from p.
   const expression::StraightLine& straight_line() const;
 
-  // A surface's, in float32, to the bit what kernels compute, and in float64. Error (timed_out) if the loops
+  // A surface's, in float32, to the bit as kernels compute it, and in float64. Error (timed_out) if the loops
   // take more iterations than FORMULA_TURNS of math/formula.glsl. Thread-safe. `turns`, if given, grows by
   // the number of iterations.
   float value(const std::array<float, 3>& p) const;

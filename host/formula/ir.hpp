@@ -1,10 +1,10 @@
-// A formula as a program over single numbers: what its SPIR-V says, with nothing undefined left. Every
+// A formula as a program over single numbers: as its SPIR-V states it, with nothing undefined left. Every
 // executor runs this, in its own arithmetic: the interpreter in float32 and float64, kernels as GLSL. Private
 // to this layer.
 //
 // Whole numbers wrap around, shifts take the last five bits of their distance, x / 0 = x % 0 = 0, indices are
-// clamped into their arrays, conversions of what no whole number holds give the least int or 0u, and what is
-// read before it is written is 0.
+// clamped into their arrays, conversions of a value that no whole number holds give the least int or 0u. A
+// variable that is read before it is written is 0.
 #pragma once
 
 #include <array>
@@ -124,7 +124,7 @@ struct Place {
 struct Statement;
 using Block = std::vector<Statement>;
 
-// Arguments are copied in, and those that the function writes to copied back; so is the result.
+// Arguments are copied in, and those that the function writes to copied back, like the result.
 struct Call {
   uint32_t function;
   std::vector<Place> arguments;

@@ -223,7 +223,7 @@ class Writer {
     const ir::Constant& known = program_.constants[size_t(~operand)];
     return constant(known.type, known.bits);
   }
-  // Compilers keep an array in registers where they know its places.
+  // Compilers keep an array in registers where they know its indices.
   std::string place(ir::Operand operand) const {
     if (operand >= 0) return fmt::format("r{}", operand);
     return literal(ir::Type::whole, program_.constants[size_t(~operand)].bits);
@@ -237,7 +237,7 @@ class Writer {
                                uint32_t(program_.tables[size_t(~id)].bits.size())};
   }
 
-  // void NAMEi(parameters, results): what is no parameter is a variable of the function.
+  // void NAMEi(parameters, results): the rest are variables of the function.
   void write_function(size_t number) {
     function_ = &program_.functions[number];
     std::vector<std::string> parameters;

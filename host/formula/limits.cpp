@@ -167,7 +167,7 @@ std::optional<uint32_t> Measure::known_turns(const ir::Loop& loop, const ir::Blo
   return uint32_t(turns);
 }
 
-// Sizes are sums that double with each call: no number of them overflows a double that is looked at here.
+// Sizes are sums that double with each call: no number of them overflows a double that occurs here.
 std::string too_much(std::string_view what, double found, double most) {
   return found <= most
              ? ""

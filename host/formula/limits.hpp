@@ -8,7 +8,7 @@
 
 namespace eyeray::engine::formula {
 
-// A function with the functions that it calls written in their places.
+// A function with the functions that it calls written in place of the calls.
 struct Size {
   double instructions = 0;
   double branches = 0;  // and loops

@@ -1,4 +1,4 @@
-// Functions as a whole: what is known of their values beforehand, and the ways from block to block.
+// Functions as a whole: the values known beforehand, and the ways from block to block.
 #include "host/formula/lowering.hpp"
 
 #include <algorithm>
@@ -60,7 +60,7 @@ ir::Function FunctionLowering::run() {
     if (module_.held.contains(global.result) && accesses_.contains(global.result))
       lower_constant_variable(global, out_.body);
 
-  // Parameters: what glslang passes by pointer is the variable itself.
+  // Parameters: one that glslang passes by pointer is the variable itself.
   for (const uint32_t id : function_.parameters) {
     const Type& type = module_.type_of(id);
     const bool by_pointer = type.op == spv::OpTypePointer;
@@ -98,7 +98,7 @@ void FunctionLowering::look_ahead() {
   note_accesses();
 }
 
-// Backwards, since what only arranges is used for as long as its result is.
+// Backwards, since an instruction that only arranges is used for as long as its result is.
 void FunctionLowering::count_uses(size_t b) {
   const std::vector<Instruction>& all = function_.blocks[b].instructions;
   for (size_t i = all.size(); i-- > 0;) {

@@ -11,10 +11,10 @@
 namespace eyeray::engine::formula {
 
 // The program whose functions are the module's of these names, as Module::named takes them;
-// the latter may be missing. InputError, with the line, for what formulas cannot be made of.
+// the latter may be missing. InputError, with the line, for code that formulas cannot have.
 ir::Program lower(const Module& module, std::string_view value, std::string_view other);
 
-// One function without parameters, whose result is what the instruction gives of constants.
+// One function without parameters, whose result is that of the instruction on constants.
 ir::Program lower(const Module& module, const Instruction& instruction);
 
 // One function's.
@@ -53,7 +53,7 @@ class FunctionLowering {
     std::map<size_t, std::set<size_t>> writes{};  // by block
     size_t first_block = 0;
     bool first_is_store = false;
-    bool is_indexed = false;  // by what is not known beforehand
+    bool is_indexed = false;  // by an index that is not known beforehand
     size_t stores = 0;        // of all of it
     size_t part_writes = 0;
   };
@@ -114,7 +114,7 @@ class FunctionLowering {
   std::map<uint32_t, std::vector<std::pair<uint32_t, uint32_t>>> phis_;  // by the block left: result, value
   std::vector<LoopLabels> loops_;
   std::set<uint32_t> computed_;  // values each of whose numbers has its own instruction
-  size_t block_ = 0, at_ = 0;    // what is lowered now
+  size_t block_ = 0, at_ = 0;    // the instruction that is lowered now
 };
 
 }  // namespace eyeray::engine::formula

@@ -206,7 +206,7 @@ bool FunctionLowering::lower_function(const Instruction& instruction, ir::Block&
     return v.numbers.size() == 1 ? apply(out, Op::absolute, v.numbers[0])
                                  : apply(out, Op::sqrt, sum_of_products(out, v, v));
   };
-  // The lesser or greater of two whole numbers, as the comparison says.
+  // The lesser or greater of two whole numbers, as the comparison decides.
   const auto lesser = [&](Op less, ir::Operand x, ir::Operand y, bool greater) {
     return apply(out, Op::select, greater ? apply(out, less, x, y) : apply(out, less, y, x), y, x);
   };

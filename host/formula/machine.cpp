@@ -90,7 +90,7 @@ uint32_t clamp_index(uint32_t i, uint32_t length) {
 
 }  // namespace
 
-// A thread's numbers for one machine; the constants stand in their places already.
+// A thread's numbers for one machine; the constants are in position already.
 template <typename T>
 struct Machine::Files {
   uint64_t machine = 0;

@@ -43,8 +43,8 @@ class Machine {
     clear_real,
     copy_real
   };
-  // Numbers are named by their place in the file of floats or in that of whole numbers and truths. An array
-  // is `length` of them from `array` on.
+  // Numbers are named by their position in the file of floats or in that of whole numbers and truths. An
+  // array is `length` of them from `array` on.
   struct Code {
     uint16_t op;
     uint32_t to = 0;

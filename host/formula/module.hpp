@@ -18,7 +18,7 @@ namespace eyeray::engine::formula {
 struct Type {
   spv::Op op = spv::OpTypeVoid;
   uint32_t size = 0;              // numbers; of a pointer 0
-  std::vector<uint32_t> members;  // types; of a pointer what it points to
+  std::vector<uint32_t> members;  // types; of a pointer its target's
   bool is_signed = false;
 
   uint32_t member_offset(const std::map<uint32_t, Type>& types, uint32_t index) const;

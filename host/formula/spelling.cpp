@@ -9,7 +9,7 @@ namespace eyeray::engine::formula {
 
 namespace {
 
-// The tokens, each spelled as `spell` says, on the lines of the text.
+// The tokens, each spelled as `spell` returns it, on the lines of the text.
 template <typename Spell>
 std::string line_by_line(const std::vector<Token>& tokens, const Spell& spell) {
   std::string result;

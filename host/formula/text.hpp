@@ -1,5 +1,5 @@
-// The text of a formula before any compiler sees it: its tokens, judged by what may be said and by how much
-// of it. Private to this layer.
+// The text of a formula before any compiler sees it: its tokens, judged by the allowed words and by their
+// number. Private to this layer.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace eyeray::engine::formula {
 
-// Before every name of a user's in what the compiler is given, so that none is one of GLSL's.
+// Before every name of a user's in the compiler's text, so that none is one of GLSL's.
 inline constexpr std::string_view user_prefix = "user_";
 
 struct Text {
@@ -49,9 +49,9 @@ struct Text {
   }
 };
 
-// Adds to `faults` what is wrong with the text, each at its place. Without faults a compiler may see it: it
-// is of at most 64 KiB, nests at most 64 deep, chains at most 500 operators, has only words that formulas
-// know, and defines what one of its kind must.
+// Adds the text's faults to `faults`, each at its position. Without faults a compiler may see it: it has at
+// most 64 KiB, nests at most 64 deep, chains at most 500 operators, has only words that formulas know, and
+// defines the functions that its kind must.
 Text read_text(std::string_view text, FormulaKind kind, std::vector<Fault>& faults);
 
 }  // namespace eyeray::engine::formula

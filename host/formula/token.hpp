@@ -19,7 +19,7 @@ struct Token {
   bool is(std::string_view what) const { return text == what; }
 };
 
-// Comments are left out. What no token begins with is a fault, and so is the preprocessor.
+// Comments are left out. A character that begins no token is a fault, as is the preprocessor.
 std::vector<Token> tokenize(std::string_view text, std::vector<Fault>& faults);
 
 }  // namespace eyeray::engine::formula

@@ -33,8 +33,8 @@ struct ClassicSurface {
                           shine_7 = 101.1483608391674;
 };
 
-// The TOML of picture, camera and lights: 512 × 512 pixels, the field of view that reaches 45° from the
-// middle of the first to that of the last, and lights as bright as the package suggests.
+// The TOML of picture, camera and lights: 512 × 512 pixels; a field of view that reaches 45° from the middle
+// of the first to that of the last; lights as bright as the package suggests.
 std::string classic_stage(const ClassicView& view);
 std::string classic_material(const ClassicSurface& surface);
 // A flat surface of four corners, as two triangles.

@@ -34,7 +34,7 @@ class PlyFile final : public MeshSink {
   AtomicFile file_;
   std::string comment_;
   std::vector<std::byte> buffer_;
-  uint64_t bytes_ = 0;  // written before what is in the buffer
+  uint64_t bytes_ = 0;  // written before the buffer's bytes
   uint64_t vertices_ = 0;
   uint64_t triangles_ = 0;
   uint64_t vertices_left_ = 0;

@@ -19,7 +19,7 @@ constexpr int rows_at_once = 64;
 // Rows of heights, made in parallel.
 class Rows {
  public:
-  // `count` rows from `first` on, and one more on either side: what the normals of these need.
+  // `count` rows from `first` on, and one more on either side: the normals of these need them.
   Rows(const TerrainOptions& options, int first, int count)
       : grid_(options.grid), first_(first - 1), heights_(size_t(count + 2)) {
     parallel_for(0, count + 2, [&](int i) {

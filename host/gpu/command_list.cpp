@@ -48,7 +48,7 @@ RunTime CommandList::run() {
 }
 
 RunTime CommandList::run(double timeout_seconds) {
-  // Let the host see what the kernels wrote.
+  // Let the host see the kernels' writes.
   record_barrier(context_->commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                  VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
   if (context_->timestamps)

@@ -20,7 +20,7 @@ struct RunTime {
   double seconds = 0;
   bool device_clock =
       false;  // from the device's timestamps; otherwise the host's clock, submission and wait included
-  double compile_seconds = 0;  // before it, for what the driver compiles at a kernel's first dispatch
+  double compile_seconds = 0;  // before it, for the driver's compiling at a kernel's first dispatch
 };
 
 // One list at a time a device.

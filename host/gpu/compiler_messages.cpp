@@ -91,7 +91,7 @@ std::string locate_row(SourcePosition& position, std::string_view token, const S
   return user;
 }
 
-// Returns what is to be said beside the message.
+// Returns the text to print beside the message.
 std::string locate(Diagnostic& diagnostic, std::string_view message, const ShaderSource& source) {
   const auto file = source.files.find(diagnostic.position.file);
   if (file == source.files.end()) return "";

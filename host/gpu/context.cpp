@@ -125,7 +125,7 @@ void Context::submit_and_wait(std::string_view what, double timeout_seconds) {
   const VkResult submitted = vkQueueSubmit(queue, 1, &submit, fence);
   if (submitted != VK_SUCCESS) abandon(failure(submitted, what));
 
-  // Wait in slices, to see Ctrl-C; then the device has a moment to finish what it is at. A process that goes
+  // Wait in slices, to see Ctrl-C; then the device has a moment to finish its work. A process that goes
   // on wants its device back, and waits.
   constexpr uint64_t slice = 20'000'000;
   constexpr double grace = 0.15;

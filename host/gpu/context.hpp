@@ -21,11 +21,11 @@ struct Context {
 
   // Starts the one command buffer anew.
   void begin();
-  // Gives up what was recorded since, if it was not submitted.
+  // Gives up the commands recorded since, if they were not submitted.
   void cancel() noexcept;
   // Ends it, submits it and waits until the device is done. Error (timed_out) after the time-out,
-  // (interrupted) when the user asked to stop and the device did not finish soon, (no_device) when the driver
-  // fails. From the submission on, the context is then abandoned.
+  // (interrupted) when the user requested a stop and the device did not finish soon, (no_device) when the
+  // driver fails. From the submission on, the context is then abandoned.
   void submit_and_wait(std::string_view what, double timeout_seconds);
   void submit_and_wait(std::string_view what) { submit_and_wait(what, options.timeout_seconds); }
   // The error that `what` took longer than the time-out.

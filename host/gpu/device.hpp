@@ -50,8 +50,8 @@ struct DeviceInfo {
   FloatModes float_modes;
 };
 
-// Every device of every driver, in the order of their indices. Error (no_device) that says what to install
-// when there is no Vulkan loader, no driver or no device.
+// Every device of every driver, in the order of their indices. Error (no_device) that names the packages to
+// install when there is no Vulkan loader, no driver or no device.
 std::vector<DeviceInfo> list_devices();
 
 struct DeviceOptions {

@@ -19,8 +19,8 @@ struct ValidationLog {
 
 class Instance {
  public:
-  // Error (no_device) that says what to install when there is no loader, no driver or no validation layer.
-  // Drivers that take longer than the time-out end the process (core/termination.hpp), as in
+  // Error (no_device) that names the packages to install when there is no loader, no driver or no validation
+  // layer. Drivers that take longer than the time-out end the process (core/termination.hpp), as in
   // physical_devices().
   explicit Instance(const DeviceOptions& options);
   ~Instance();

@@ -1,4 +1,4 @@
-// From GLSL to what a kernel is made of: compiled, with the float policy, optimised, and remembered.
+// From GLSL to a kernel's SPIR-V: compiled, with the float policy, optimised, and remembered.
 #pragma once
 
 #include <optional>
@@ -14,12 +14,12 @@ struct KernelOptions {
   std::optional<FloatModes> strict = {};  // the float policy, with these modes; none: --fast-math
   bool optimise = true;                   // spirv_optimiser.hpp
   bool flatten = false;                   // the same; only where `optimise`
-  bool validate = false;                  // what was made by SPIRV-Tools' validator, as spirv-val does
+  bool validate = false;                  // the result by SPIRV-Tools' validator, as spirv-val does
 };
 
-// Error (bad_input) where the result is not valid. Else: compile_shader and what `options` say, or what these
-// made of the same text and preamble before. A shader with warnings is compiled every time, so that they are
-// seen every time.
+// Error (bad_input) where the result is not valid. Else: the result of compile_shader and `options`, or the
+// earlier result of the same text and preamble. A shader with warnings is compiled every time, so that
+// they are seen every time.
 CompiledShader compile_kernel(const ShaderSource& source, std::string_view preamble,
                               const KernelOptions& options, const DiskCache& cache);
 

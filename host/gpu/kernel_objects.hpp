@@ -23,7 +23,7 @@ struct Kernel::Objects {
   Objects(const Objects&) = delete;
   Objects& operator=(const Objects&) = delete;
 
-  // The texels of a buffer at `binding`, in place of what was bound there before.
+  // The texels of a buffer at `binding`, in place of those bound there before.
   VkBufferView make_view(uint32_t binding, VkBuffer buffer, VkDeviceSize offset, VkDeviceSize bytes) {
     auto info = gpu::make<VkBufferViewCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO);
     info.buffer = buffer;

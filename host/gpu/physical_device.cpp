@@ -104,7 +104,7 @@ DeviceInfo describe(VkPhysicalDevice device, int index) {
     if (memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT)
       info.limits.heap = std::max<uint64_t>(info.limits.heap, memory.memoryHeaps[i].size);
 
-  // Say everything that is missing, not only the first thing.
+  // List everything that is missing, not only the first thing.
   if (properties.apiVersion >= VK_API_VERSION_1_1)
     describe_version_1_1(device, properties.apiVersion, info);
   else

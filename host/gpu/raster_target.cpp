@@ -145,7 +145,7 @@ void RasterTarget::create_attachment(size_t index) {
   check(vkCreateImageView(context_->device, &view, nullptr, &attachment.view), "view an image");
 }
 
-// Goes on with what is there, so that one picture may be drawn by several submissions.
+// Goes on with the present contents, so that one picture may be drawn by several submissions.
 void RasterTarget::create_pass() {
   VkAttachmentDescription descriptions[2] = {};
   VkAttachmentReference references[2] = {};

@@ -15,7 +15,7 @@ namespace eyeray::engine::gpu {
 // it, or has a depth outside of 0 … 1, is clipped.
 struct RasterVertex {
   float x = 0, y = 0;
-  float depth = 0;  // the greater, the nearer; 0 is as far as what is not drawn
+  float depth = 0;  // the greater, the nearer; 0 is as far as undrawn pixels
   uint32_t id = 0;  // of the triangle's first vertex it counts
 };
 
@@ -42,7 +42,7 @@ class Rasterizer {
   // The number of triangles to draw at once.
   static constexpr size_t batch = size_t{1} << 16;
 
-  // Draws triangles, three vertices each, beside and behind what was drawn before. Both sides are seen.
+  // Draws triangles, three vertices each, beside and behind those drawn before. Both sides are seen.
   void draw(std::span<const RasterVertex> vertices);
   RasterPicture read();
 

@@ -21,8 +21,8 @@ bool is_function_of_values(uint32_t function) {
   return function <= GLSLstd450FMix && function != GLSLstd450Modf;
 }
 
-// True if it may be computed where nobody asks for it. An integer division by zero may not, and neither may a
-// load from who knows where.
+// True if it may be computed where nobody asks for it. An integer division by zero may not, nor a load from
+// who knows where.
 bool is_harmless(const Instruction& instruction) {
   const spv::Op opcode = opcode_of(instruction);
   switch (opcode) {
@@ -63,7 +63,7 @@ class Types {
     return found == components_.end() ? 0 : found->second;
   }
 
-  // A condition for so many components; what makes it goes to `before`.
+  // A condition for so many components; its instructions go to `before`.
   uint32_t condition(uint32_t scalar, uint32_t components, std::vector<Instruction>& before) {
     if (components == 1) return scalar;
     const uint32_t all = module_.new_id();
@@ -163,7 +163,7 @@ class Flattener {
     return label;
   }
 
-  // True if the arm is nothing but what may be computed in any case, and then the end of the selection.
+  // True if the arm has only instructions that are always harmless, and then the end of the selection.
   bool is_harmless_arm(uint32_t label, uint32_t end) {
     if (label == end) return true;
     const std::vector<Instruction>& body = at(label).body;
@@ -189,7 +189,7 @@ class Flattener {
     if (yes == no || edges_[end] != 2 || !is_harmless_arm(yes, end) || !is_harmless_arm(no, end))
       return false;
 
-    // Choose what the phis choose.
+    // Choose as the phis choose.
     std::vector<Instruction>& rest = at(end).body;
     const auto phis_end =
         std::ranges::find_if(rest, [](const auto& i) { return opcode_of(i) != spv::OpPhi; });
@@ -204,7 +204,7 @@ class Flattener {
                                             value_from(*phi, no == end ? head.label : no)}));
     }
 
-    // Into the head: both arms, what is chosen, and if no other construct ends there what follows.
+    // Into the head: both arms, the selects, and if no other construct ends there the rest.
     head.body.resize(head.body.size() - 2);
     for (const uint32_t arm : {yes, no}) {
       if (arm == end) continue;
@@ -230,7 +230,7 @@ class Flattener {
   std::unordered_map<uint32_t, size_t> places_;    // of labels
   std::unordered_map<uint32_t, int> edges_;        // into a block
   std::unordered_map<uint32_t, int> merges_;       // how many constructs end or go on at it
-  std::unordered_map<uint32_t, uint32_t> joined_;  // what became a part of which block
+  std::unordered_map<uint32_t, uint32_t> joined_;  // the block that each became a part of
 };
 
 }  // namespace

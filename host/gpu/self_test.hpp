@@ -1,4 +1,4 @@
-// Known answers, asked of a device before it renders: drivers that compute wrong exist, and say VK_SUCCESS.
+// Known answers, computed by a device before it renders: some drivers compute wrong, and return VK_SUCCESS.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@ namespace eyeray::engine::gpu {
 // Measured facts about a device's arithmetic.
 struct DeviceFacts {
   uint32_t loop_iterations = 0;  // made of 100 000 asked for
-  bool loop_cap = false;  // the driver ends loops early and says nothing (Mesa 22.3: after 65 535 iterations)
+  bool loop_cap = false;  // the driver ends loops early, with no error (Mesa 22.3: after 65 535 iterations)
   bool denormals_kept = false;    // not flushed to zero
   bool infinities_kept = false;   // 1 / 0 = ∞
-  bool exact_arithmetic = false;  // + − × ÷ √ round as IEEE 754 says, and a·b + c rounds twice
+  bool exact_arithmetic = false;  // + − × ÷ √ round as IEEE 754 has it, and a·b + c rounds twice
   double seconds = 0;             // that all this took
 };
 

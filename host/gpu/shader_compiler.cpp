@@ -32,7 +32,7 @@ class Includer : public glslang::TShader::Includer {
     if (file == source_.files.end() || depth > deepest) return nullptr;
     return keep(file->first, file->second);
   }
-  // glslang asks here when includeLocal had no answer, and for #include <path>: so this says what is wrong.
+  // glslang calls this when includeLocal had no answer, and for #include <path>: so it reports the fault.
   IncludeResult* includeSystem(const char* path, const char*, size_t depth) override {
     reasons_.push_back(std::make_unique<std::string>(why_not(path, depth)));
     return keep("", *reasons_.back());
@@ -57,7 +57,7 @@ class Includer : public glslang::TShader::Includer {
   std::vector<std::unique_ptr<std::string>> reasons_;
 };
 
-// Throws what the log holds, or that there was no more to say.
+// Throws the log's errors, or that glslang gave no reason.
 [[noreturn]] void fail(std::string_view log, const ShaderSource& source) {
   std::vector<Diagnostic> diagnostics = parse_compiler_messages(log, source);
   const bool explained = std::any_of(diagnostics.begin(), diagnostics.end(),

@@ -40,7 +40,7 @@ struct SpirvModule {
   uint32_t new_id() { return header[3]++; }
 };
 
-// Error (bad_input) for what is not SPIR-V.
+// Error (bad_input) for words that are not SPIR-V.
 SpirvModule read_spirv(std::span<const uint32_t> spirv);
 
 std::vector<uint32_t> write_spirv(const SpirvModule& module);

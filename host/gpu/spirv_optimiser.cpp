@@ -14,7 +14,7 @@
 namespace eyeray::engine::gpu {
 namespace {
 
-// Chosen for what they save lavapipe and cost themselves (docs/performance.md). Not among them: ssa-rewrite,
+// Chosen by their savings for lavapipe and their own cost (docs/performance.md). Not among them: ssa-rewrite,
 // with which the driver is faster still and some kernels are slower, and common subexpressions, which gain
 // nothing.
 constexpr const char* within_functions[] = {

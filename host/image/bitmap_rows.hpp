@@ -1,4 +1,4 @@
-// Pictures in TGA and BMP files, for coded_image.cpp. Our own, since stb_image takes what a file lacks for
+// Pictures in TGA and BMP files, for coded_image.cpp. Our own, since stb_image takes missing bytes for
 // zeros.
 #pragma once
 
@@ -31,8 +31,8 @@ bool is_bmp(std::string_view bytes);
 BitmapSize bmp_size(std::string_view bytes);
 
 // Decode to `pixels`, the top row first: red, green, blue and alpha, 8 bits each, 255 where the file has no
-// alpha. There are as many as the size says. Return what is wrong, as in "it ends early", or "". `warnings`
-// gets a clause for each field that changes what the numbers mean and is not honoured, as in "its colours are
+// alpha. There are as many as the size has. Return the fault, as in "it ends early", or "". `warnings`
+// gets a clause for each field that changes the numbers' meaning and is not honoured, as in "its colours are
 // …".
 std::string read_tga(std::string_view bytes, std::span<std::array<uint8_t, 4>> pixels,
                      std::vector<std::string>& warnings);

@@ -86,7 +86,7 @@ std::array<uint32_t, 4> masks_of(std::string_view bytes, const Header& header) {
   return masks;
 }
 
-// The fields that say what colours mean.
+// The fields that define the colours.
 void note_colors(std::string_view bytes, const Header& header, std::vector<std::string>& warnings) {
   if (header.size == core_header) return;
   const uint32_t across = number_at(bytes, file_header + 24, 4), down = number_at(bytes, file_header + 28, 4);

@@ -34,7 +34,7 @@ struct Free {
   void operator()(stbi_uc* pixels) const { stbi_image_free(pixels); }
 };
 
-// A format, and what is needed of it before memory is taken for its pixels.
+// A format, and the facts of it needed before memory is taken for its pixels.
 enum class Format { png, jpeg, bmp, tga, other };
 
 Format format_of(std::string_view bytes) {
@@ -71,7 +71,7 @@ std::optional<BitmapSize> size_of(std::string_view bytes, Format format) {
   return BitmapSize{width, height};
 }
 
-// To four channels; returns what is wrong, or "".
+// To four channels; returns the fault, or "".
 std::string read_jpeg(std::string_view bytes, std::span<std::array<uint8_t, 4>> pixels) {
   int width = 0, height = 0, channels = 0;
   const std::unique_ptr<stbi_uc, Free> codes(
@@ -127,7 +127,7 @@ CodedImage decode_coded_image(std::span<const std::byte> bytes, const std::strin
         clauses = png_color_fields(text);
         return damaged(read_png_rows(bytes, image.pixels));
       case Format::jpeg:
-        // stb_image since 2.28 decodes what is there.
+        // stb_image since 2.28 decodes a file that is cut off.
         if (!has_jpeg_end(text)) return std::string("it ends early");
         clauses = jpeg_color_fields(text);
         return damaged(read_jpeg(text, image.pixels));

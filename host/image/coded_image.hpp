@@ -1,4 +1,4 @@
-// Pictures as the 8-bit codes that their files hold: what textures are made of.
+// Pictures as the 8-bit codes that their files hold: for textures.
 #pragma once
 
 #include <array>
@@ -35,11 +35,11 @@ struct PixelBudget {
 };
 
 // Decodes a PNG, a JPEG, a BMP or a TGA, distinguished by their first bytes. Grey becomes equal red, green
-// and blue, of 16 bits the upper 8 are kept, and what has no alpha gets 255; a JPEG is turned as its EXIF
-// orientation says. `warnings` gets a sentence for each field of the header that changes the meaning of the
-// codes and is not honoured. Error (file_io) that says "cannot read NAME: why" for all else, a file that ends
-// early included. The header is believed only as far as a file of that length can go, so that memory is
-// bounded by the file's size; and no more is decoded than is taken from the budget.
+// and blue, of 16 bits the upper 8 are kept, and pictures without alpha get 255; a JPEG is turned by its EXIF
+// orientation. `warnings` gets a sentence for each field of the header that changes the meaning of the codes
+// and is not honoured. Error (file_io) with "cannot read NAME: why" for all else, a file that ends early
+// included. The header is believed only as far as a file of that length can go, so that memory is bounded by
+// the file's size; and no more is decoded than is taken from the budget.
 CodedImage decode_coded_image(std::span<const std::byte> bytes, const std::string& name, PixelBudget& budget,
                               std::vector<std::string>& warnings);
 

@@ -30,7 +30,7 @@ bool is_srgb_profile(std::string_view profile) {
       [&](std::string_view name) { return profile.find(name) != std::string_view::npos; });
 }
 
-// The profile in an iCCP chunk: a name, a zero, the method 0, then what zlib made of it; as much as can be
+// The profile in an iCCP chunk: a name, a zero, the method 0, then zlib's data; as much as can be
 // read.
 std::string inflated(std::string_view chunk) {
   constexpr size_t most = size_t{1} << 22;

@@ -1,4 +1,4 @@
-// The fields of a PNG's or a JPEG's header that say what its codes and pixels mean, beyond those that are
+// The fields of a PNG's or a JPEG's header that define its codes and pixels, beyond those that are
 // honoured: codes are sRGB, pixels are squares.
 #pragma once
 
@@ -8,8 +8,8 @@
 
 namespace eyeray::engine::image {
 
-// A clause for each such field that says otherwise, as in "its gamma (gAMA) of 1 is not honoured: …". Fields
-// that cannot be read say nothing. Sources: PNG Specification, Third Edition, 2025, 11.3 and 4.3 (cICP before
+// A clause for each such field that differs, as in "its gamma (gAMA) of 1 is not honoured: …". Fields that
+// cannot be read count as absent. Sources: PNG Specification, Third Edition, 2025, 11.3 and 4.3 (cICP before
 // iCCP before sRGB before gAMA and cHRM); ICC.1:2022, Annex B.4 (profiles in JPEG).
 std::vector<std::string> png_color_fields(std::string_view bytes);
 std::vector<std::string> jpeg_color_fields(std::string_view bytes);

@@ -108,7 +108,7 @@ class ExrReader {
            near(given.white, usual.white);
   }
 
-  // The data window's pixels, moved to their places in the display window.
+  // The data window's pixels, moved to their positions in the display window.
   Image in_display_window(Image data, const Imf::Header& header) const {
     const Imath::Box2i from = header.dataWindow(), to = header.displayWindow();
     if (from == to) return data;
@@ -216,7 +216,7 @@ class ExrReader {
 // The value of `read` for the file's reader.
 template <typename Read>
 auto with_reader(std::string_view bytes, const std::string& name, const Read& read) {
-  // Before the library takes memory for what a header promises.
+  // Before the library takes memory for a header's promises.
   static const bool limited = [] {
     Imf::Header::setMaxImageSize(65536, 65536);
     Imf::Header::setMaxTileSize(65536, 65536);

@@ -17,7 +17,7 @@ namespace eyeray::engine::image {
 
 namespace {
 
-// The library writes its table of offsets in a destructor and drops what goes wrong there: it is kept here.
+// The library writes its table of offsets in a destructor and drops any error there: it is kept here.
 class FileStream final : public Imf::OStream {
  public:
   explicit FileStream(AtomicFile& file) : Imf::OStream("picture"), file_(file) {}

@@ -6,7 +6,7 @@
 namespace eyeray::engine::image {
 
 // True if every attribute of every header has the size that its type has, and fits in the file. The library
-// believes each, takes memory for what it claims, and reads on from where it ends.
+// believes each, takes memory for its claim, and reads on from where it ends.
 bool exr_header_sound(std::string_view bytes);
 
 }  // namespace eyeray::engine::image

@@ -1,4 +1,4 @@
-// Pictures of data, for people: what an AOV's .png shows.
+// Pictures of data, for people: the .png of an AOV.
 #pragma once
 
 #include <limits>

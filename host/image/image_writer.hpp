@@ -17,7 +17,7 @@ class RowEncoder;
 
 class ImageWriter {
  public:
-  // Begins a file of the format that the ending of `path` asks for (image/image_file.hpp), beside its place.
+  // Begins a file of the format that the ending of `path` asks for (image/image_file.hpp), beside that path.
   // Size as image_size_allowed, 1 or 3 channels; Error (bad_input) for an unknown ending, Error (file_io)
   // here and below when it cannot be written.
   ImageWriter(const std::filesystem::path& path, int width, int height, int channels);

@@ -18,13 +18,13 @@ namespace eyeray::engine::image {
 namespace {
 
 // Measured on the pictures of docs/: zlib's search for more than runs takes twice the time for files 4 %
-// smaller; on 3840 × 2160 pixels with noise, four times the time for files that are no smaller.
+// smaller. On 3840 × 2160 pixels with noise it takes four times the time for files that are no smaller.
 constexpr int filters = PNG_FILTER_SUB | PNG_FILTER_UP;
 constexpr int strategy = Z_RLE;
 constexpr size_t flushed_bytes = 1 << 20;
 
-// libpng is C and may not be unwound through: its callbacks keep what is written in memory, and whatever goes
-// wrong comes back as false.
+// libpng is C and may not be unwound through: its callbacks keep the written bytes in memory, and a failure
+// comes back as false.
 class PngStream {
  public:
   PngStream() : png_(png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, fail, nullptr)) {

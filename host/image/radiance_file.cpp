@@ -49,7 +49,7 @@ class Reader {
   }
 
  private:
-  // Pixels one by one. A pixel of 1, 1, 1 repeats the one before as often as its last byte says; several such
+  // Pixels one by one. A pixel of 1, 1, 1 repeats the one before by its last byte's count; several such
   // make one number, the lowest byte first. (Nobody else writes 1, 1, 1: colours are scaled to 128 and more.)
   void plain_row(std::vector<Rgbe>& pixels) {
     int shift = 0;
@@ -75,7 +75,7 @@ class Reader {
     rest_.remove_prefix(1);
     return value;
   }
-  // One channel of a row: n > 128 says "the next byte n − 128 times", n in 1 … 128 "the next n bytes".
+  // One channel of a row: n > 128 is "the next byte n − 128 times", n in 1 … 128 "the next n bytes".
   void runs(std::vector<Rgbe>& pixels, size_t channel) {
     for (size_t x = 0; x < pixels.size();) {
       const unsigned char code = byte();
@@ -147,7 +147,7 @@ class RadianceEncoder final : public RowEncoder {
       for (const Rgbe& pixel : row_) bytes_.append(reinterpret_cast<const char*>(pixel.data()), 4);
     }
   }
-  // One channel, as Reader::runs takes it: runs of equal bytes, and what lies between them.
+  // One channel, as Reader::runs takes it: runs of equal bytes, and the bytes between them.
   void append_runs(size_t channel) {
     constexpr size_t shortest_run = 4, longest_run = 127, longest_between = 128;
     const auto equal_from = [&](size_t x, size_t most) {

@@ -12,7 +12,7 @@ namespace eyeray::engine::image {
 
 // A 3-channel picture, top row first; flat rows, and both run-length encodings. The pixels are divided by the
 // product of all EXPOSUREs and COLORCORRs, which gives the light. PRIMARIES and PIXASPECT that are not the
-// usual ones are warnings; what other lines of the header say does not change the numbers. Strict: Error
+// usual ones are warnings; other lines of the header do not change the numbers. Strict: Error
 // (file_io), with `name` in it, for anything else, and for a byte too few or too many.
 // Source: Ward: Radiance File Formats, "Picture File Format".
 Image decode_radiance(std::string_view bytes, const std::string& name, std::vector<std::string>& warnings);

@@ -151,7 +151,7 @@ class TgaReader {
   std::string_view bytes_;
   Header header_;
   uint64_t map_ = 0;  // where the palette begins
-  uint64_t at_ = 0;   // what is read next
+  uint64_t at_ = 0;   // the next byte to read
   bool has_alpha_ = false;
 };
 

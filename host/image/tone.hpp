@@ -1,4 +1,4 @@
-// From the light of a picture to what a screen shows of it: for .png, whose colours end at 1.
+// From the light of a picture to its look on a screen: for .png, whose colours end at 1.
 #pragma once
 
 #include <string_view>
@@ -16,8 +16,8 @@ struct Tone {
   ToneCurve curve = ToneCurve::none;
 };
 
-// A picture of 3 channels, still linear, as a .png is to show it. `neutral` keeps what is below 0.76, and
-// squeezes what is brighter below 1, towards white: Khronos PBR Neutral Tone Mapper, 2024.
+// A picture of 3 channels, still linear, as a .png is to show it. `neutral` keeps values below 0.76, and
+// squeezes brighter ones below 1, towards white: Khronos PBR Neutral Tone Mapper, 2024.
 Image toned(const Image& image, const Tone& tone);
 
 }  // namespace eyeray::engine::image

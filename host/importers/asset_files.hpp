@@ -14,7 +14,7 @@ namespace eyeray::engine::importers {
 
 class AssetFiles {
  public:
-  // For what was read from memory: every asset is refused.
+  // For a file in memory: every asset is refused.
   AssetFiles() = default;
   // Names are relative to the folder of `file`; where else than in its tree they may lie.
   AssetFiles(const std::filesystem::path& file, std::span<const std::filesystem::path> allowed_folders);

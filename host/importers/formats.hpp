@@ -9,7 +9,7 @@
 
 namespace eyeray::engine::importers {
 
-// A mesh file in memory, and what it is to be read by.
+// A mesh file in memory, and the means to read it.
 struct MeshFile {
   std::string name;  // for messages
   std::string bytes;
@@ -19,7 +19,7 @@ struct MeshFile {
   Playing playing;
 };
 
-// Each fills all but `files`. InputError for what is wrong in the file, Error for what it refers to.
+// Each fills all but `files`. InputError for a fault in the file, Error for one in files it refers to.
 ImportedScene import_obj(MeshFile& file);
 ImportedScene import_ply(MeshFile& file);
 ImportedScene import_gltf(MeshFile& file);  // .gltf and .glb, distinguished by their first bytes

@@ -1,5 +1,5 @@
 // glTF 2.0, .gltf and .glb: the nodes of its scene as instances, lights and a camera. The JSON is read by
-// nlohmann/json and checked here value by value: tinygltf 2.7 reads beyond the end of a .glb whose last chunk
+// nlohmann/json and checked here value by value. tinygltf 2.7 reads beyond the end of a .glb whose last chunk
 // is too long, throws at an empty buffer, and takes a bufferView's range on trust.
 // Source: Khronos Group: glTF 2.0 Specification (2.0.1); KHR_lights_punctual.
 #include <algorithm>
@@ -30,7 +30,7 @@ std::set<std::string> as_set(const std::vector<std::string>& names) {
   return {names.begin(), names.end()};
 }
 
-// A mesh and what stands in a scene may be multiplied by each other.
+// A mesh and objects in a scene may be multiplied by each other.
 constexpr size_t most_instances = size_t{1} << 20;
 
 class GltfReader {

@@ -189,7 +189,7 @@ class AnimationReader {
   GltfLeftOut& left_out_;
   GltfBreaches& breaches_;
   std::map<size_t, std::vector<double>> times_;                // by accessor
-  std::map<std::pair<size_t, std::string>, KeyCurve> curves_;  // by node and what moves of it
+  std::map<std::pair<size_t, std::string>, KeyCurve> curves_;  // by node and its moving property
 };
 
 }  // namespace

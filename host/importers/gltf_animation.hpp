@@ -1,4 +1,4 @@
-// The animations of a glTF file: what one of them makes of the file's nodes at a moment. Private to the
+// The animations of a glTF file: the file's nodes as one of them has them at a moment. Private to the
 // importers. Source: Khronos Group: glTF 2.0 Specification (2.0.1), 3.11 and appendix C.
 #pragma once
 
@@ -28,8 +28,8 @@ struct GltfMotion {
   PlayedAnimation played;
 };
 
-// InputError, with the place, for times that do not increase, and for outputs that are not as many as the
-// times, not finite, or of a type that they cannot be of.
+// InputError, with the position, for times that do not increase, and for outputs that are not as many as the
+// times, not finite, or of a wrong type.
 GltfMotion motion_at(const GltfObject& document, size_t animation, const Playing& playing,
                      GltfBuffers& buffers, GltfLeftOut& left_out, GltfBreaches& breaches);
 

@@ -77,7 +77,7 @@ void GltfBreaches::check_attribute(std::string_view name, size_t index) {
   if (rule == std::end(rules)) return;
   const GltfObject accessor = document_.element("accessors", index);
   const uint64_t component = accessor.count("componentType", 0);
-  if (bytes_of(component) == 0) return;  // whoever reads it says so
+  if (bytes_of(component) == 0) return;  // the reader reports it
   const bool is_normalized = accessor.flag("normalized");
   const Types type = is_normalized ? normalized(component) : plain(component);
   if (type & (quantization_declared_ ? rule->core | rule->quantized : rule->core)) return;

@@ -1,4 +1,4 @@
-// Rules of glTF that a file breaks though it is clear what it means. Private to the importers.
+// Rules of glTF that a file breaks though its meaning is clear. Private to the importers.
 #pragma once
 
 #include <set>
@@ -16,8 +16,8 @@ class GltfBreaches {
  public:
   explicit GltfBreaches(const GltfObject& document);
 
-  // `kind` is a plural with what is made of it, such as "rotations that are not of unit length, normalised".
-  // The same place counts once, as long as the kind has at most 65536 places.
+  // `kind` is a plural with its treatment, such as "rotations that are not of unit length, normalised".
+  // The same position counts once, as long as the kind has at most 65536.
   void add(std::string_view kind, const std::string& place);
   // "rotations that are not of unit length, normalised: 3, the first nodes[1].rotation".
   void report(std::vector<std::string>& warnings) const;

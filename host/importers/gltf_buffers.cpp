@@ -101,7 +101,7 @@ std::string_view GltfBuffers::buffer(size_t index) {
   return bytes.substr(0, length);
 }
 
-// `source` is a bufferView, or what is coded in one.
+// `source` is a bufferView, or the coding in one.
 std::string_view GltfBuffers::range(const GltfObject& source) {
   const auto owner = source.index("buffer", buffers_.size());
   if (!owner) source.fail("has no buffer");
@@ -139,7 +139,7 @@ void GltfBuffers::supply(std::map<size_t, std::string> elements) {
   supplied_ = std::move(elements);
 }
 
-// `owner` is an accessor, or what is sparse in one.
+// `owner` is an accessor, or the sparse part of one.
 GltfBuffers::Elements GltfBuffers::elements(const GltfObject& owner, std::optional<size_t> index,
                                             size_t components, uint64_t type, uint64_t count) {
   const size_t size = components * bytes_of(type);
@@ -171,7 +171,7 @@ void GltfBuffers::check_layout(const GltfObject& owner, size_t index, size_t com
 template <typename T>
 void GltfBuffers::check_range(const GltfObject& accessor, const std::vector<T>& all, size_t components) {
   if (all.empty() || !(accessor.has("min") || accessor.has("max"))) return;
-  double unit = 1;  // of what is said, in the data's terms
+  double unit = 1;  // of the stated min and max, in the data's terms
   if (accessor.flag("normalized")) {
     visit_component(accessor.count("componentType", 0), [&](auto zero) {
       if constexpr (std::is_integral_v<decltype(zero)>)
@@ -226,7 +226,7 @@ std::vector<T> GltfBuffers::read(size_t index, std::string_view type, size_t com
   std::vector<T> all(count, T(0));
   for (uint64_t i = 0; base && i < count; ++i) copy(*base, i, all[i]);
 
-  // Lay what is sparse over it.
+  // Lay the sparse values over it.
   if (const auto sparse = accessor.object("sparse")) {
     const uint64_t changes = sparse->count("count", 0);
     if (changes == 0 || changes > count)

@@ -33,10 +33,10 @@ class GltfBuffers {
   // The bytes of a bufferView, decoded where they are coded (gltf_meshopt.hpp).
   std::string_view view(size_t index);
 
-  // From now on the elements of these accessors are what is given here, packed, of the accessor's own type
+  // From now on the elements of these accessors are those given here, packed, of the accessor's own type
   // and count; those of all other accessors are their bufferViews' again.
   void supply(std::map<size_t, std::string> elements);
-  // Counts elements that are read, which what is short may name without end. InputError, of `owner`, where
+  // Counts elements that are read, which a short file may name without end. InputError, of `owner`, where
   // they are more than a file of this size can mean …
   void claim(const GltfObject& owner, uint64_t elements);
   // … but so many more where some of it is coded.

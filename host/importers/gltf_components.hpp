@@ -44,7 +44,7 @@ constexpr size_t bytes_of(uint64_t component) {
   return known ? visit_component(component, [](auto zero) { return sizeof zero; }) : 0;
 }
 
-// 0 for what a vertex does not have: matrices, and types that there are not.
+// 0 for types that a vertex does not have: matrices, and unknown ones.
 constexpr size_t components_of(std::string_view type) {
   if (type == "SCALAR") return 1;
   if (type == "VEC2") return 2;

@@ -1,4 +1,4 @@
-// The .glb container, and the URIs that bring what it lacks.
+// The .glb container, and the URIs that bring the rest.
 #include <array>
 #include <cstring>
 
@@ -60,7 +60,7 @@ GltfContainer open_gltf(std::string_view bytes, const std::string& file) {
   if (bytes.size() < 12) throw malformed(file, "the file ends too early");
   if (word(bytes, 4) != 2) throw malformed(file, fmt::format("it must be glTF 2, not {}", word(bytes, 4)));
 
-  // Cut the chunks: JSON first, then perhaps binary data; what else follows means nothing to us.
+  // Cut the chunks: JSON first, then perhaps binary data; further chunks mean nothing to us.
   std::optional<std::string_view> json;
   std::optional<std::string_view> binary;
   std::vector<std::string> breaches;

@@ -132,7 +132,7 @@ std::optional<std::vector<uint32_t>> GltfDraco::open(const GltfObject& primitive
   }
   buffers_.supply(std::move(elements));
 
-  // Read the corners; whether there are such vertices is asked where they are used.
+  // Read the corners; whether there are such vertices is checked where they are used.
   std::vector<uint32_t> corners;
   corners.reserve(size_t{3} * mesh.num_faces());
   for (draco::FaceIndex face(0); face < mesh.num_faces(); ++face)

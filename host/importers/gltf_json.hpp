@@ -12,7 +12,7 @@
 
 namespace eyeray::engine::importers {
 
-// An object of the document, and where it is. Whatever is wrong with it is an InputError with that place. The
+// An object of the document, and where it is. Any fault of it is an InputError with that position. The
 // document and the file's name must outlive it.
 class GltfObject {
  public:
@@ -57,7 +57,7 @@ class GltfObject {
 // The names of all extensions that objects of the document have, but for those in `extras`.
 std::set<std::string> extensions_of_objects(const nlohmann::json& document);
 
-// InputError for what is no JSON, is nested absurdly deep, has more than 2^24 values, or is no glTF 2.
+// InputError for text that is no JSON, is nested absurdly deep, has more than 2^24 values, or is no glTF 2.
 nlohmann::json parse_gltf_json(std::string_view text, const std::string& file);
 
 }  // namespace eyeray::engine::importers

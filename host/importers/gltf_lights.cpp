@@ -9,7 +9,7 @@ namespace eyeray::engine::importers {
 
 namespace {
 
-// The lights of glTF shine on surfaces that scatter 1/π of what arrives; ours scatter all of it.
+// The lights of glTF shine on surfaces that scatter 1/π of the arriving light; ours scatter all of it.
 constexpr double unit_of_light = 1 / std::numbers::pi;
 constexpr double quarter_turn = std::numbers::pi / 2;
 // Least width of the border of a spot light's cone, in radians; lights/spot.cpp wants a little less.

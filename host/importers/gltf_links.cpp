@@ -98,7 +98,7 @@ class Tree {
   size_t next_ = 0;
 };
 
-// What the elements of an accessor are.
+// The meaning of an accessor's elements.
 struct Role {
   static constexpr unsigned attribute = 1, corner = 2, other = 4;
   static constexpr unsigned any = attribute | corner | other;

@@ -70,7 +70,7 @@ Vec3 GltfMaterials::absorption(const GltfObject& material) {
   return -glm::log(glm::max(Vec3(color[0], color[1], color[2]), Vec3(1e-6))) / distance;
 }
 
-// `stand_in` for what transmits most of its light: glass.
+// `stand_in` for a surface that transmits most of its light: glass.
 std::unique_ptr<Material> GltfMaterials::principled(const GltfObject& source, const Surface& surface,
                                                     std::unique_ptr<Material> stand_in) {
   materials::PrincipledValues values;

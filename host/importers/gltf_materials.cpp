@@ -29,7 +29,7 @@ Vec3 share(const std::vector<double>& rgb) {
 // Brighter than any screen.
 constexpr double most_emission = 1e6;
 
-// What came before metallic-roughness; of it we take what scatters.
+// The predecessor of metallic-roughness; we take its scattering part.
 constexpr const char* specular_glossiness = "KHR_materials_pbrSpecularGlossiness";
 
 // Those that a material which is unlit, or has the extension above, cannot have.
@@ -44,7 +44,7 @@ Vec2 mean_green_blue(const ImageTexture& image) {
   return sum / (255.0 * static_cast<double>(std::max<size_t>(1, image.texels.size())));
 }
 
-// What samplers say, in the numbers of the specification.
+// The values of samplers, in the numbers of the specification.
 constexpr uint64_t nearest = 9728, linear = 9729;
 constexpr uint64_t repeat = 10497, clamp_to_edge = 33071, mirrored_repeat = 33648;
 
@@ -242,7 +242,7 @@ std::unique_ptr<Material> GltfMaterials::material(size_t index) {
     const double exponent = std::clamp(2 / std::max(1e-4, std::pow(s.roughness, 4)) - 2, 1.0, 10000.0);
     const Vec3 lobe = glm::mix(Vec3(0.04), s.base, s.metalness) * ((exponent + 2) / 8);
     const materials::Highlight highlight{textures::make_constant(glm::min(lobe, Vec3(1))), exponent, true};
-    // Only what a metal mirrors has the colour of its picture.
+    // Only a metal's reflection has the colour of its picture.
     const TexturePtr reflectance =
         textured(mirrors ? mirrored : Vec3(0), mirrors && s.metalness > 0.5 ? s.image : nullptr);
     const TexturePtr diffuse = textured(s.base * (1 - s.metalness * smooth), s.image);
@@ -303,7 +303,7 @@ std::optional<GltfObject> GltfMaterials::base_texture(const GltfObject& material
   return old ? old->object("diffuseTexture") : std::nullopt;
 }
 
-// That of the base colour first: an alpha takes the first uv.
+// The base colour's first: an alpha takes the first uv.
 std::vector<GltfObject> GltfMaterials::textures_of(const GltfObject& material) {
   std::vector<GltfObject> textures;
   const auto add = [&](const std::optional<GltfObject>& texture) {

@@ -27,7 +27,7 @@ class GltfMeshes {
   const std::vector<Part>& parts(size_t index);
   std::vector<Part> posed_parts(size_t index, const GltfPose& pose);
 
-  // All meshes so far, with warnings of what was wrong in them.
+  // All meshes so far, with warnings of their faults.
   std::vector<Mesh> take(std::vector<std::string>& warnings);
 
  private:

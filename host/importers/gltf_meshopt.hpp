@@ -11,11 +11,11 @@
 namespace eyeray::engine::importers {
 
 // The extension's object of a bufferView, by either of its names; nothing where it is not coded. The coded
-// bytes are where the object's buffer, byteOffset and byteLength say.
+// bytes are where the object's buffer, byteOffset and byteLength point.
 std::optional<GltfObject> meshopt_coding(const GltfObject& view);
 
 // The bytes of the bufferView, of which there are no more than 64 a coded byte. InputError where `coded` is
-// damaged, too short for what `coding` says, or that is against the specification.
+// damaged, too short for `coding`, or that is against the specification.
 std::string decode_meshopt(const GltfObject& view, const GltfObject& coding, std::string_view coded);
 
 }  // namespace eyeray::engine::importers

@@ -188,7 +188,7 @@ constexpr Property sampler[] = {one_of("magFilter", "9728 9729"),
                                 one_of("wrapS", "33071 33648 10497"), one_of("wrapT", "33071 33648 10497")};
 constexpr Property image[] = {text("uri"), text("mimeType"), index("bufferView", "bufferViews")};
 
-// Nodes, and what stands at them.
+// Nodes, and the objects at them.
 constexpr Property perspective[] = {number("aspectRatio"), number("yfov"), number("zfar"), number("znear")};
 constexpr Property orthographic[] = {number("xmag"), number("ymag"), number("zfar"), number("znear")};
 constexpr Property camera[] = {text("type"), object("perspective", perspective),
@@ -328,7 +328,7 @@ class PropertyCheck {
     if (length == 0) return empty(here);
     if (length < row.least || length > row.most) out_of_range(here);
     for (size_t i = 0; i < value.size(); ++i) {
-      if (row.type == Type::number && value[i].is_number()) continue;  // most lists, without their places
+      if (row.type == Type::number && value[i].is_number()) continue;  // most lists, without their positions
       check_single(value[i], fmt::format("{}[{}]", here, i), row);
     }
     if (row.type != Type::index && row.type != Type::text) return;

@@ -11,10 +11,10 @@ namespace eyeray::engine::importers {
 // True if the extension is read, or changes no picture.
 bool is_known_extension(std::string_view name);
 
-// Adds a breach for each property that does not fit the table of properties: one that glTF does not define
-// there, one that is required and missing, and a value of another type, length, range or list. The whole
-// document is checked, shown or not; what a reader refuses or warns of by itself has no range in the table.
-// `extras` and the objects of unknown extensions may hold whatever they like.
+// Adds a breach for each property that does not fit the table of properties. That is one that glTF does not
+// define there, one that is missing though required, and a value of another type, length, range or list. The
+// whole document is checked, shown or not; a property that a reader itself refuses or warns of has no range
+// in the table. `extras` and the objects of unknown extensions may hold anything.
 void check_properties(const nlohmann::json& document, GltfBreaches& breaches);
 
 }  // namespace eyeray::engine::importers

@@ -29,7 +29,7 @@ struct Playing {
 
 struct ImportOptions {
   // For a file without normals: the greatest angle, in degrees, between faces that are shaded as one smooth
-  // surface; 0: flat. Absent: 40 for OBJ and PLY; 0 for glTF, whose specification says so.
+  // surface; 0: flat. Absent: 40 for OBJ and PLY; 0 for glTF, by its specification.
   std::optional<double> smooth = {};
   // Folders, beside the file's own folder tree, that may contain the files it names (materials, buffers,
   // pictures).
@@ -60,17 +60,17 @@ struct ImportedScene {
   std::optional<ImportedCamera> camera;
   std::vector<std::string> animations;  // their names, of glTF; "" where one has none
   std::optional<PlayedAnimation> played;
-  std::vector<std::string> warnings;         // what was left out, once each, with counts
+  std::vector<std::string> warnings;         // the features left out, once each, with counts
   std::vector<std::filesystem::path> files;  // every file read, this one first
 };
 
 // True if the name ends as those of mesh files do, in any case: .obj .ply .gltf .glb.
 bool is_mesh_file(const std::filesystem::path& file);
 
-// Reads a mesh file by its ending, and what it refers to. Error (file_io) when a file cannot be read,
-// InputError, with the place where there is one, when what it holds is wrong, or nothing of it could be seen;
-// of an animation there may be nothing to see at its moment. The memory it takes is bounded by the size of
-// the files.
+// Reads a mesh file by its ending, and the files it refers to. Error (file_io) when a file cannot be read,
+// InputError, with the position where there is one, when its contents are wrong, or nothing of it could be
+// seen. Of an animation there may be nothing to see at its moment. The memory it takes is bounded by the size
+// of the files.
 ImportedScene import_file(const std::filesystem::path& file, const ImportOptions& options = {});
 
 // Imports from memory, for tests. `name` stands in messages, and its ending gives the format of `bytes`.

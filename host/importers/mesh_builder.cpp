@@ -81,7 +81,7 @@ MeshBuilder::MeshBuilder(VertexPool& pool, MeshCounts& counts) : pool_(pool), co
   mesh_.resize(pool.positions.size(), 0);
 }
 
-// Unit normals; 0 for what has to be left out.
+// Unit normals; 0 for faces to leave out.
 std::vector<Vec3> MeshBuilder::face_normals(const RawTriangles& raw) {
   std::vector<Vec3> normals(raw.positions.size());
   const auto corners = [&](size_t face) {

@@ -1,4 +1,4 @@
-// From what a file says to a Mesh that keeps the promises of scene/mesh.hpp. Private to the importers.
+// From a file's contents to a Mesh that keeps the promises of scene/mesh.hpp. Private to the importers.
 #pragma once
 
 #include <array>
@@ -40,7 +40,7 @@ struct VertexPool {
   std::vector<Vec2> second_uv;  // one a position, or none
 };
 
-// Within 0 to 1; 0 for what is not a number.
+// Within 0 to 1; 0 for NaN.
 Vec3 sound_color(const Vec3& rgb);
 // From values that are shown as they are, which is how PLY and OBJ have colours.
 Vec3 color_from_display(const Vec3& rgb);
@@ -61,7 +61,7 @@ class MeshBuilder {
   // `pool` is changed: its normals are made unit, those that have no direction 0.
   MeshBuilder(VertexPool& pool, MeshCounts& counts);
 
-  // Leaves out what no ray can hit; gives each corner whose normal is wrong that of its face. Where there
+  // Leaves out unhittable triangles; gives each corner whose normal is wrong that of its face. Where there
   // are no normals and `smooth` (degrees) is above 0, makes them. Vertices that no face has are dropped.
   Mesh build(const RawTriangles& raw, double smooth);
 

@@ -1,6 +1,6 @@
 // Wavefront OBJ: polygons, one mesh a material. The statements of geometry are read here, those of materials
-// by tinyobjloader, which reads `nan`, `1,5` and any other number that is none as 0 and does not say where.
-// Source: Wavefront: Advanced Visualizer Manual, appendix B1.
+// by tinyobjloader, which reads `nan`, `1,5` and any other number that is none as 0 and does not report
+// where. Source: Wavefront: Advanced Visualizer Manual, appendix B1.
 #include <array>
 #include <charconv>
 #include <cstdlib>
@@ -110,7 +110,7 @@ class ObjReader {
   std::string_view text_;
   size_t begin_ = 0;  // of the line
   size_t end_ = 0;    // where its line break is
-  size_t at_ = 0;     // what comes next
+  size_t at_ = 0;     // the next character
   size_t part_ = no_part;
   static constexpr size_t no_part = std::numeric_limits<size_t>::max();
   std::map<std::string, size_t, std::less<>> part_of_material_;
@@ -144,7 +144,7 @@ void ObjReader::read_statement() {
   } else if (takes("curv") || takes("surf")) {
     curves = true;
   }
-  // Groups, names, smoothing groups and what programs invent change nothing here.
+  // Groups, names, smoothing groups and programs' own statements change nothing here.
 }
 
 void ObjReader::read_vertex() {

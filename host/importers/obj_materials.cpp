@@ -106,7 +106,7 @@ std::optional<AlphaMask> mask(double dissolve, const std::shared_ptr<const Image
                    .blends = counts || std::ranges::any_of(picture->texels, between)};
 }
 
-// The options that place a map on the surface.
+// The options that position a map on the surface.
 ObjUv uv_of(const tinyobj::texture_option_t& options) {
   return {{options.scale[0], options.scale[1]}, {options.origin_offset[0], options.origin_offset[1]}};
 }
@@ -178,7 +178,7 @@ void ObjMaterials::parse(std::string text) {
     if (source.name.empty() || indices_.contains(source.name)) continue;
     indices_[source.name] = static_cast<int>(materials.size());
 
-    // Load its pictures. A vertex has one uv: the first picture's options place them all.
+    // Load its pictures. A vertex has one uv: the first picture's options apply to all.
     std::optional<ObjUv> uv;
     const auto load = [&](const std::string& name, const tinyobj::texture_option_t& options, MapUse use) {
       if (name.empty()) return std::shared_ptr<const ImageTexture>();

@@ -1,4 +1,4 @@
-// PLY: vertices with whatever properties, and polygons or strips of triangles.
+// PLY: vertices with any properties, and polygons or strips of triangles.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -259,7 +259,7 @@ uint64_t PlyReader<Values>::read_length(const PlyProperty& property) {
   return static_cast<uint64_t>(length);
 }
 
-// no_index for −1; whether it is that of a vertex is asked once all are known.
+// no_index for −1; whether it is that of a vertex is checked once all are known.
 template <typename Values>
 uint32_t PlyReader<Values>::read_index(PlyType type) {
   const double index = values_.next(type);
@@ -290,7 +290,7 @@ void PlyReader<Values>::read_strip(uint64_t count, PlyType type) {
   }
 }
 
-// Makes a material of each picture that the file names, if it has uv for it and faces say which they show.
+// Makes a material of each picture that the file names, if it has uv for it and faces name the one they show.
 // Returns for each the index of its material, or −1.
 std::vector<int> show_pictures(const PlyHeader& header, MeshFile& file, size_t shown, bool has_uv,
                                ImportedScene& scene) {

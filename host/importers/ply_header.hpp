@@ -26,7 +26,7 @@ struct PlyElement {
   uint64_t count = 0;
   std::vector<PlyProperty> properties;
 
-  // The least bytes that one of them takes in a file: whatever the count says, no more fit.
+  // The least bytes that one of them takes in a file: whatever the count, no more fit.
   size_t least_bytes(PlyFormat format) const;
   bool has_lists() const;
 };

@@ -30,7 +30,7 @@ const std::vector<std::array<uint32_t, 3>>& Triangulator::cut(std::span<const Ve
   };
   if (n == 3) return fan(), triangles_;
 
-  // Lay it flat along the main axis of its normal; what has no normal will be left out whatever the cut.
+  // Lay it flat along the main axis of its normal; one without a normal will be left out in any case.
   const Vec3 normal = vector_area(corners);
   const Vec3 size = glm::abs(normal);
   const int z = size.x > size.y && size.x > size.z ? 0 : size.y > size.z ? 1 : 2;

@@ -24,7 +24,7 @@ uint64_t hash(const Vec3& p) {
   return sum;
 }
 
-// The number of each vertex's point: vertices at the same place have the same.
+// The number of each vertex's point: vertices at the same position have the same.
 std::pair<std::vector<uint32_t>, uint32_t> weld(const std::vector<Vec3>& positions) {
   std::vector<uint32_t> points(positions.size());
   std::vector<uint32_t> table(std::bit_ceil(2 * positions.size() + 1),
@@ -118,7 +118,7 @@ void Smoother::measure_angles() {
   });
 }
 
-// Numbers the surfaces around a point, and says how many there are.
+// Numbers the surfaces around a point, and returns their number.
 uint32_t Smoother::join(uint32_t point) {
   const std::span<const uint32_t> corners = around(point);
   const auto count = static_cast<uint32_t>(corners.size());
@@ -142,7 +142,7 @@ uint32_t Smoother::join(uint32_t point) {
   }
   std::ranges::sort(edges, {}, [](const Edge& edge) { return std::pair(edge.end, edge.corner); });
 
-  // Join what hits under a small angle.
+  // Join the faces that adjoin at a small angle.
   const auto root = [&](uint32_t i) {
     while (parents[i] != i) i = parents[i] = parents[parents[i]];
     return i;

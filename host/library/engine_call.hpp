@@ -29,10 +29,10 @@ class InsideCall {
   bool before_;
 };
 
-// Runs `work`, alone in this process: the engine's device, signals and time-outs are the process's. Whatever
-// it throws of the engine's becomes a v0::Error; what a user's callback throws goes through. `stop`, where
-// there is one, ends the wait for other calls and the work: v0::Error (cancelled). v0::Error (bad_input)
-// inside another call, as from its `progress`.
+// Runs `work`, alone in this process: the engine's device, signals and time-outs are the process's. Any
+// engine's exception becomes a v0::Error; an exception of a user's callback goes through. `stop`, where there
+// is one, ends the wait for other calls and the work: v0::Error (cancelled). v0::Error (bad_input) inside
+// another call, as from its `progress`.
 void call_engine(const std::function<void()>& work, const std::atomic<bool>* stop = nullptr);
 
 // Makes a call that returns a result.

@@ -1,4 +1,4 @@
-// The renderer of the library, and what its calls share.
+// The renderer of the library, and the state its calls share.
 #include "host/library/renderer.hpp"
 
 #include <unistd.h>

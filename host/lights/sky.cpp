@@ -45,7 +45,7 @@ double to_ground(double radius, double cosine) {
   return root < 0 || cosine >= 0 ? -1 : -radius * cosine - std::sqrt(root);
 }
 
-// A function of two numbers in [0, 1], tabled at even places and bilinear between.
+// A function of two numbers in [0, 1], tabled at even steps and bilinear between.
 class Table {
  public:
   template <typename Function>

@@ -16,9 +16,9 @@ std::span<const reading::Key> animation_keys();
 std::span<const reading::Key> track_keys();
 extern const std::string_view track_manual;
 
-// Takes [animation] and every [[track]] out of the tree, puts the value that each track has at the frame that
-// is shown where it belongs, as -D does, and returns what the scene keeps of them. What is wrong goes to the
-// log: with a value, at the keyframe before it.
+// Takes [animation] and every [[track]] out of the tree, and puts each track's value at the frame shown where
+// it belongs, as -D does. Returns the scene's part of them. Faults go to the log: with a value, at the
+// keyframe before it.
 Animation apply_animation(toml::table& root, DiagnosticLog& log);
 
 // The moment that is shown.

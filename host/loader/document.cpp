@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 constexpr size_t deepest_include = 16;
 
-// Lays `over` upon `below`: its keys win, and it says where the table is.
+// Lays `over` upon `below`: its keys win, and it sets the table's position.
 void merge_settings(toml::table& over, toml::table& below) {
   for (auto&& [key, node] : below) {
     if (!over.contains(key.str())) over.insert_or_assign(key, std::move(node));
@@ -49,7 +49,7 @@ void merge(toml::table& root, toml::table& file, DiagnosticLog& log) {
       continue;
     }
 
-    // A list of tables. One that lacks its second brackets is read on, for what else is wrong in it.
+    // A list of tables. One that lacks its second brackets is read on, for other faults in it.
     if (!known) known = &root.insert_or_assign(key, toml::array()).first->second;
     if (node.is_table()) {
       log.error(at, fmt::format("write {}, in double brackets: a scene can have many", section->title));
@@ -77,7 +77,7 @@ class Includer {
   Includer(Document& document, const AllowedFolders& folders, DiagnosticLog& log)
       : document_(document), folders_(folders), log_(log) {}
 
-  // Merges what `file` includes, then the file itself.
+  // Merges the includes of `file`, then the file itself.
   void add(const fs::path& file, std::string text) {
     std::error_code error;
     chain_.push_back(fs::weakly_canonical(file, error));

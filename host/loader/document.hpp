@@ -1,4 +1,4 @@
-// A scene's files laid over each other: the scene itself, and what it includes. Private to the loader.
+// A scene's files laid over each other: the scene itself, and the files it includes. Private to the loader.
 #pragma once
 
 #include <toml++/toml.h>

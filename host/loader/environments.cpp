@@ -14,7 +14,7 @@ using reading::Key, reading::KeyType;
 namespace {
 
 constexpr double brightest = 1e15;
-// 16 bytes each on the device, and what stands for one must be an index.
+// 16 bytes each on the device, and the number of one must be an index.
 constexpr int64_t most_texels = int64_t{1} << 26;
 
 constexpr std::string_view image_manual =

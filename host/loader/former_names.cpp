@@ -18,7 +18,7 @@ void rename_in(toml::node& node) {
   }
 }
 
-// Appends what stood under the former name where both were written.
+// Appends the value of the former name where both were written.
 void rename(toml::table& table, toml::table::iterator it, std::string_view today) {
   toml::array* both = table[today].as_array();
   toml::array* more = it->second.as_array();

@@ -13,7 +13,7 @@ namespace eyeray::engine::loader {
 class FormulaFiles final : public reading::FormulaSource {
  public:
   // Names in `scene` or in one of the other `sources`, which it includes, are relative to the folder of the
-  // file that they stand in; names that stand in no file (an override) are relative to the scene's.
+  // file that they stand in. Names that stand in no file (an override) are relative to the scene's.
   FormulaFiles(const AllowedFolders& folders, std::vector<std::filesystem::path> sources, DiagnosticLog& log)
       : folders_(folders), sources_(std::move(sources)), log_(log) {}
 

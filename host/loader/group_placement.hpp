@@ -12,7 +12,7 @@ class GroupPlacer {
   GroupPlacer(Scene& scene, const MeshPlacer& meshes) : scene_(scene), meshes_(meshes) {}
 
   // Takes a group into the scene; its index there. `stretch`: the worst condition of the maps
-  // from what is in it to its space.
+  // from its members to its space.
   int keep(Group group, double stretch);
 
   // True if all shapes of the group can surely stand there. If not, each must be checked.

@@ -109,7 +109,7 @@ void GroupPlan::enter_names(const toml::table& root) {
   }
 }
 
-// Finds what the node holds.
+// Finds the node's members.
 void GroupPlan::link(Node& node) {
   for (const std::string_view name : placed_names()) {
     const Section& section = *find_section(name);
@@ -149,7 +149,7 @@ void GroupPlan::link_instances(Node& node, const toml::table& table) {
     for (const toml::node& name : *names) add(name, 1);
 }
 
-// Adds up what the groups below come to.
+// Adds up the totals of the groups below.
 void GroupPlan::visit(Node& node, std::vector<std::string_view>& chain) {
   if (node.visit == Node::Visit::done) return;
   chain.push_back(node.name);

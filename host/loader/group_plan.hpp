@@ -18,7 +18,7 @@ namespace eyeray::engine::loader {
 
 class GroupPlan {
  public:
-  // Goes by the tables' outlines: what is wrong within them is for others to say. Groups that hold themselves
+  // Goes by the tables' outlines: faults within them are for others to report. Groups that hold themselves
   // or come to more than any memory holds are errors here.
   GroupPlan(const toml::table& root, GroupStorage storage, DiagnosticLog& log);
 
@@ -54,7 +54,7 @@ class GroupPlan {
     bool bounded = true;  // all of it
     int height = 0;       // of groups in groups
     enum class Visit { none, begun, done } visit = Visit::none;
-    double shown = 0;  // in the world, not counting where it is a part of what is instanced
+    double shown = 0;  // in the world, not counting where it is a part of an instance
     bool instanced = false;
     bool idle = false;
   };

@@ -15,7 +15,7 @@ namespace eyeray::engine::loader {
 class ImageFiles final : public reading::ImageSource {
  public:
   // Names in `scene` or in one of the other `sources`, which it includes, are relative to the folder of the
-  // file that they stand in; names that stand in no file (an override) are relative to the scene's.
+  // file that they stand in. Names that stand in no file (an override) are relative to the scene's.
   ImageFiles(const AllowedFolders& folders, std::vector<std::filesystem::path> sources,
              image::PixelBudget& budget, DiagnosticLog& log)
       : folders_(folders), sources_(std::move(sources)), budget_(budget), log_(log) {}

@@ -10,7 +10,7 @@
 
 namespace eyeray::engine::loader {
 
-// The interpolation of a value from one keyframe to the next: it stays until then; it is linear; or it
+// The interpolation of a value from one keyframe to the next. It stays until then; it is linear; or it
 // follows cubics whose slope at a keyframe is that between its neighbours (Catmull and Rom: A Class of Local
 // Interpolating Splines, 1974), for frames that need not be evenly apart.
 enum class Curve { step, linear, smooth };

@@ -76,7 +76,7 @@ std::string scene_manual() {
       "This page is generated from the keys by which eyeray checks scenes (`host/loader/manual.cpp`). A test "
       "compares the page with them. [scene-file.md](scene-file.md) is the introduction.\n\n";
 
-  // The tables, then what their types and values add.
+  // The tables, then the additions of their types and values.
   for (const Section& section : sections()) {
     text += fmt::format("## `{}`\n\n", section.title);
     if (section.shape) {

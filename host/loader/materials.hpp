@@ -19,12 +19,12 @@ class Materials {
 
   // Errors are in the log, here and below.
   void add(const Section& section, const toml::table& table);
-  // The index in Scene::materials of what the table's `material` names; after an error 0.
+  // The index in Scene::materials of the table's `material`; after an error 0.
   int find(reading::TableReader& shape);
   // The index in Scene::materials of one that emits this radiance, in front or on both sides, and reflects
   // nothing.
   int emitter(const Vec3& radiance, bool in_front);
-  // Says where a scene that is otherwise whole has too many of them, or some that nothing is made of.
+  // Reports where a scene that is otherwise whole has too many of them, or some that are unused.
   void check() const;
 
  private:

@@ -1,4 +1,4 @@
-// [medium]: what is around all shapes, and its extent.
+// [medium]: the medium around all shapes, and its extent.
 #pragma once
 
 #include "host/core/diagnostic_log.hpp"

@@ -10,7 +10,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// "bunny.obj:12:3: message", without what a list of diagnostics has around it.
+// "bunny.obj:12:3: message", without the frame of a list of diagnostics.
 std::string one_sentence(const InputError& error) {
   const Diagnostic& first = error.diagnostics().front();
   const SourcePosition& at = first.position;

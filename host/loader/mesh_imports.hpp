@@ -19,9 +19,9 @@ inline constexpr const char* no_animation = "none";
 
 class MeshImports {
  public:
-  // Names in one of `sources` (the scene, first, and what it includes) are relative to the folder of the file
-  // that they stand in; names that stand in no file (an override) are relative to the scene's. `trees`: where
-  // what the mesh files name may lie.
+  // Names in one of `sources` (the scene, first, and its includes) are relative to the folder of the file
+  // that they stand in. Names that stand in no file (an override) are relative to the scene's. `trees`:
+  // folders for the files that mesh files name.
   MeshImports(const AllowedFolders& folders, std::vector<std::filesystem::path> trees,
               std::vector<std::filesystem::path> sources, image::PixelBudget& budget)
       : folders_(&folders), trees_(std::move(trees)), sources_(std::move(sources)), budget_(budget) {}
@@ -32,7 +32,7 @@ class MeshImports {
     importers::ImportedScene* scene;
     bool fresh;  // this is the first time that it is asked for
   };
-  // The moment that animated files are shown at, in seconds; 0 until it is said.
+  // The moment that animated files are shown at, in seconds; 0 until it is set.
   void show(double seconds) { seconds_ = seconds; }
 
   // The contents of the file that the file `from` names. The pointer stays valid. The moment in `playing` is

@@ -1,4 +1,4 @@
-// Instances of what mesh files hold, put into a scene. Private to the loader.
+// Instances of mesh files' contents, put into a scene. Private to the loader.
 #pragma once
 
 #include <map>

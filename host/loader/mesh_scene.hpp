@@ -10,7 +10,7 @@
 namespace eyeray::engine::loader {
 
 // The tables that a person would write to view the file: [[mesh]], and the file's camera and lights if it has
-// them; else a camera that frames `framed`, three quarters from the front with y up, a light over its left
+// them. Else a camera that frames `framed`, three quarters from the front with y up, a light over its left
 // shoulder, and some ambient light. `around`: there will be an [environment], which takes the place of the
 // background and of those lights.
 toml::table mesh_scene(const std::filesystem::path& file, const importers::ImportedScene& import,

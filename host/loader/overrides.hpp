@@ -12,7 +12,7 @@
 
 namespace eyeray::engine::loader {
 
-// Puts each value at its place in the tree, as if it stood in the file; it is checked with all others later.
+// Puts each value at its key in the tree, as if it stood in the file; it is checked with all others later.
 void apply_overrides(toml::table& root, std::span<const Override> overrides, DiagnosticLog& log);
 
 // Applies a value that keyframes have made, as TOML. `at`: the position of `target`, the key. `value_at`: the

@@ -12,7 +12,7 @@
 namespace eyeray::engine::loader {
 namespace {
 
-// In float32 a place is in one of so many cells along an axis (shaders/integrators/photon_cells.glsl).
+// In float32 a point is in one of so many cells along an axis (shaders/integrators/photon_cells.glsl).
 constexpr double most_cells = 1 << 22;
 // A sample that gathers more takes seconds.
 constexpr double most_gathered = 1 << 20;

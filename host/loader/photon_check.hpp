@@ -9,8 +9,8 @@
 
 namespace eyeray::engine::loader {
 
-// Makes a background that shines an environment, which photons can come from, and says what is wrong.
-// `render`: the scene's own table; `lights`: where each of its lights stands.
+// Makes a background that shines an environment, which photons can come from, and reports faults. `render`:
+// the scene's own table; `lights`: where each of its lights stands.
 void prepare_for_photons(Scene& scene, reading::TableReader& render, std::span<const SourcePosition> lights,
                          DiagnosticLog& log);
 

@@ -32,7 +32,7 @@ namespace eyeray::engine::loader {
 
 namespace {
 
-// Each light is a turn of a loop and a shadow ray at every hit. A driver that ends loops after 65 535 turns
+// Each light is an iteration and a shadow ray at every hit. A driver that ends loops after 65 535 turns
 // has room for so many where a scene has 24 shapes and no BVH, too (docs/lavapipe.md).
 constexpr size_t most_lights = 2048;
 
@@ -227,7 +227,7 @@ void Builder::add_table(const Section& section, const toml::table& table, const 
   });
 }
 
-// All of a group, apart from the scene; what it is called there goes before the names in it.
+// All of a group, apart from the scene; its name there goes before the names in it.
 Group Builder::build_group(const toml::table& table, const Mat4& to_world) {
   Group group;
   Group* const outer = std::exchange(building_, &group);
@@ -244,7 +244,7 @@ void Builder::add_group(reading::TableReader& reader, const toml::table& table, 
     Group group = build_group(table, Mat4(1.0));
     entry->second = group_placer_.keep(std::move(group), worst_condition_);
   }
-  // Whether a scene is legal does not depend on what is instanced: where it may not be, read the group as it
+  // The legality of a scene does not depend on its instances: where it may not be legal, read the group as it
   // stands there.
   if (!group_placer_.surely_fits(entry->second, placing.to_world)) build_group(table, placing.to_world);
   group_placer_.place(entry->second, placing.to_world, reader.position(), placing.name);
@@ -370,7 +370,7 @@ void Builder::add_mesh(reading::TableReader& reader, const Placing& placing) {
   }
 }
 
-// Warns of what is legal but hardly meant.
+// Warns of legal scenes that are hardly meant.
 void Builder::check_whole(reading::TableReader& render) {
   const bool empty = scene_.shapes.empty() && scene_.instances.empty() && scene_.group_instances.empty();
   if (empty && !tried_shapes_) log_.warning({}, "the scene has no shapes: only background will be seen");

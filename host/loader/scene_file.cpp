@@ -46,7 +46,7 @@ Scene finish(Document document, const fs::path& file, std::span<const Override> 
   return scene;
 }
 
-// The moment that the overrides say; what is wrong with them is said later.
+// The moment that the overrides set; their faults are reported later.
 double asked_seconds(std::span<const Override> overrides) {
   std::vector<Override> about;
   std::ranges::copy_if(overrides, std::back_inserter(about),
@@ -63,7 +63,7 @@ Document read_mesh(const fs::path& file, std::span<const Override> overrides, Me
   log.add_source(file.string(), "");
   meshes.show(asked_seconds(overrides));
   const MeshImports::Loaded loaded = meshes.load_alone(file);
-  // The camera of a film stands still: what it frames is the file at rest.
+  // The camera of a film stands still: it frames the file at rest.
   std::optional<importers::ImportedScene> rest;
   if (loaded.scene->played && !loaded.scene->camera) {
     try {

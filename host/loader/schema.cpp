@@ -68,7 +68,7 @@ Json reference_to(std::string_view definition) {
   return {{"$ref", fmt::format("#/$defs/{}", definition)}};
 }
 
-// Definitions of what many keys take.
+// Definitions of values that many keys take.
 constexpr std::string_view texture_definition = "texture", transform_definition = "transform";
 
 Json texture_schema() {
@@ -202,8 +202,8 @@ Json kinds_schema(const Section& section, std::span<const Type* const> types) {
   return {{"oneOf", std::move(alternatives)}};
 }
 
-// The schema of a shape or mesh in the world, or in a group: unlike a CSG object's part it needs what its
-// table requires beside the definition.
+// The schema of a shape or mesh in the world, or in a group: unlike a CSG object's part it needs the keys
+// that its table requires beside the definition.
 Json world_ray(const Section& section) {
   Json schema = reference_to(section.name);
   if (section.shape && !section.is_combined())

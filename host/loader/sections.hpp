@@ -35,7 +35,7 @@ struct Section {
   std::string_view doc;
   std::span<const reading::Key> keys;        // of every such table …
   const shapes::ShapeType* shape = nullptr;  // … and where set, the shape's own
-  std::string_view manual = {};              // what the manual adds to `doc`; Markdown
+  std::string_view manual = {};              // the manual's addition to `doc`; Markdown
 
   bool many() const { return title.starts_with("[["); }
   // True if it stands in the world: such tables may have a batch, and may stand in a group.
@@ -59,10 +59,10 @@ std::span<const std::string_view> placed_names();
 // The keys that all shapes in a CSG object share, as CSG objects do: a part without a material takes that of
 // the object around it.
 std::span<const reading::Key> part_keys();
-// The table in a CSG object's of what is taken away.
+// The table in a CSG object's of the parts taken away.
 inline constexpr std::string_view minus_key = "minus";
 
-// The key that lists the files to include, and the one that holds the batch of what is placed.
+// The key that lists the files to include, and the one that holds the batch of placements.
 inline constexpr std::string_view include_key = "include";
 inline constexpr std::string_view batch_key = "batch";
 

@@ -73,7 +73,7 @@ bool parses(std::string_view text) {
   }
 }
 
-// The whole text as statements; what stands before the first belongs to none.
+// The whole text as statements; text before the first belongs to none.
 std::vector<Statement> split(std::string_view text) {
   std::vector<Statement> all;
   std::vector<std::string> header;
@@ -141,7 +141,7 @@ std::optional<Excess> find_excess(std::string_view text, TreeBudget& budget) {
 
   int line = 1;
   size_t line_begin = 0;
-  int parts = 1;  // of what may be a key
+  int parts = 1;  // of a possible key
   int depth = 0;  // of brackets
   bool blank = true, header = false;
   for (size_t i = 0; i < text.size(); ++i) {

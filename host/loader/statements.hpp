@@ -25,14 +25,14 @@ struct Statement {
 // no end.
 Statement statement_at(std::string_view text, int line);
 
-// Overwrites the statement with spaces, so that no other changes its place.
+// Overwrites the statement with spaces, so that no other moves.
 void blank(std::string& text, const Statement& statement);
 
 // More parts than any key of a scene has. A tree as deep as keys can be long would overflow the stack.
 inline constexpr int most_key_parts = 16;
 
-// About how much a tree of the files of one scene may take, in units of 80 bytes: what the largest scene does
-// that eyeray generates, 256 MiB of numbers in lists.
+// About how much a tree of the files of one scene may take, in units of 80 bytes: as the largest scene that
+// eyeray generates, 256 MiB of numbers in lists.
 struct TreeBudget {
   size_t left = size_t{1} << 25;
 };
@@ -43,7 +43,7 @@ struct Excess {
   int column = 0;
   std::string message;
 };
-// The first key with more parts than that, or the place from which on the tree would exceed the budget, of
+// The first key with more parts than that, or the position from which on the tree would exceed the budget, of
 // which the text is taken.
 std::optional<Excess> find_excess(std::string_view text, TreeBudget& budget);
 

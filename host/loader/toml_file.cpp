@@ -72,7 +72,7 @@ void report(const toml::parse_error& error, const std::string& text, const State
       std::string_view(text).substr(statement.begin, statement.end - statement.begin);
   std::string message = explain_syntax(error.description(), line);
 
-  // Name both places of what is given twice.
+  // Name both positions of a key given twice.
   if (message.starts_with(redefinition)) {
     if (const auto first = first_definition(text, statement)) {
       const std::string what =
@@ -108,7 +108,7 @@ std::string read_scene_text(const std::filesystem::path& file) {
 }
 
 std::string explain_syntax(std::string_view description, std::string_view statement) {
-  // Swap the parts of "Error while parsing WHERE: WHAT".
+  // Swap the parts of "Error while parsing WHERE: REASON".
   constexpr std::string_view prefix = "Error while parsing ";
   std::string where;
   std::string what(description);
@@ -119,7 +119,7 @@ std::string explain_syntax(std::string_view description, std::string_view statem
   }
   if (what.find("invalid utf-8") != std::string::npos) return "the text from here on is not UTF-8";
 
-  // Say what to do where it is known.
+  // Add what to do where it is known.
   const auto says = [&](std::string_view part) { return what.find(part) != std::string::npos; };
   const std::string_view line = statement.substr(0, statement.find('\n'));
   if (where == "table header" && line.find("[[") != std::string_view::npos &&
@@ -140,7 +140,7 @@ std::string explain_syntax(std::string_view description, std::string_view statem
 
 toml::table parse_toml(std::string_view original, const std::string& name, TreeBudget& budget,
                        DiagnosticLog& log) {
-  // Refuse what would make the tree deeper than a stack can follow, or larger than memory should be.
+  // Refuse text that would make the tree deeper than a stack can follow, or larger than memory should be.
   if (const auto excess = find_excess(original, budget)) {
     log.error({name, excess->line, excess->column}, excess->message);
     log.set_damaged();

@@ -17,7 +17,7 @@ namespace eyeray::engine::loader {
 std::string read_scene_text(const std::filesystem::path& file);
 
 // The tree of `text`, whose positions bear `name`. A statement with a syntax error is reported and left out,
-// and the log marked as damaged; so is a text for which the budget has too little left.
+// and the log marked as damaged, and also a text for which the budget has too little left.
 toml::table parse_toml(std::string_view text, const std::string& name, TreeBudget& budget,
                        DiagnosticLog& log);
 

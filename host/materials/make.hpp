@@ -33,7 +33,7 @@ struct DielectricValues {
   Vec3 absorption{0.0};
   Vec3 scattering{0.0};
   double anisotropy = 0;
-  std::optional<double> shadow = {};  // absent: what Fresnel lets through at normal incidence
+  std::optional<double> shadow = {};  // absent: Fresnel's transmittance at normal incidence
   Highlight highlight = {};
 };
 std::unique_ptr<Material> make_dielectric(const DielectricValues& values);
@@ -68,7 +68,7 @@ struct PrincipledValues {
   TexturePtr coat_roughness = textures::make_constant(Vec3(0));
   TexturePtr emission = textures::make_constant(Vec3(0));
 };
-// `stand_in`: what Whitted's pictures show; null: one that is made of the values.
+// `stand_in`: for Whitted's pictures; null: one that is made of the values.
 std::unique_ptr<Material> make_principled(const PrincipledValues& values,
                                           std::unique_ptr<Material> stand_in = nullptr);
 

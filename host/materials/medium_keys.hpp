@@ -1,4 +1,4 @@
-// The keys that every medium has, whatever it fills.
+// The keys that every medium has, in a shape or around all shapes.
 #pragma once
 
 #include "host/materials/registry.hpp"

@@ -1,11 +1,11 @@
-// The mean over the half sphere, by cosine, of what is known at places by √cosine.
+// The mean over the half sphere, by cosine, of a function known at steps of √cosine.
 #pragma once
 
 #include <cmath>
 
 namespace eyeray::engine::optics {
 
-// 2 ∫ E(μ) μ dμ with μ = x²: 4 ∫ E x³ dx, E linear between the places of a row, albedo(i).
+// 2 ∫ E(μ) μ dμ with μ = x²: 4 ∫ E x³ dx, E linear between the entries of a row, albedo(i).
 template <typename Albedo>
 double mean_by_cosine(int side, const Albedo& albedo) {
   const double step = 1.0 / (side - 1);

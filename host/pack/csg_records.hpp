@@ -6,7 +6,7 @@
 
 namespace eyeray::engine::pack {
 
-// Fills in what the leaves weaken a shadow ray by, takes note of their kinds and materials, and gives the
+// Fills in the leaves' loss of a shadow ray, takes note of their kinds and materials, and gives the
 // CSG object the material of the densest.
 void finish_csg(shader::Primitive& csg, records::PackedScene& packed);
 

@@ -25,8 +25,8 @@ namespace {
 constexpr size_t few_tests = 24;
 constexpr size_t few_tests_of_paths = 40;
 constexpr int64_t least_samples_of_paths = 1 << 22;
-// A box that takes this part of the scene's own is hit by nearly every ray that hits the scene. To test what
-// is in it straight away is cheaper than steps that lead there, while such primitives are few.
+// A box that takes this part of the scene's own is hit by nearly every ray that hits the scene. To test its
+// contents straight away is cheaper than steps that lead there, while such primitives are few.
 constexpr double most_of_scene = 0.5;
 constexpr size_t most_in_linear_list = 4;
 
@@ -192,7 +192,7 @@ class GeometryPacker {
   // `material` and `depth_or_triangle`: as the record's.
   void add_instance(const Mat4& transform, uint32_t space, uint32_t first_id, uint32_t material,
                     uint32_t depth_or_triangle) {
-    // World is relative to the eye, and what stands there to the centre of its bounds.
+    // World is relative to the eye, and objects there to the centre of its bounds.
     const Affine map(transform);
     const Mat3 inverse = glm::inverse(map.linear);
     const Vec3 to_world_offset = map.point(blases_[space].origin) - scene_.camera.eye;
@@ -209,7 +209,7 @@ class GeometryPacker {
     packed_.instances.push_back(record);
   }
 
-  // Takes note that shapes of a kind are made of a material. Returns what each takes from a shadow ray: a
+  // Takes note that shapes of a kind are made of a material. Returns each one's loss of a shadow ray: a
   // shape weakens it once, a mesh or patch half at each crossing, for a closed body is left as it was
   // entered.
   uint32_t use_material(uint32_t kind, uint32_t material, bool at_each_crossing) {
@@ -219,8 +219,8 @@ class GeometryPacker {
     return at_each_crossing && optical_depth < OPTICAL_DEPTH_OPAQUE ? optical_depth / 2 : optical_depth;
   }
 
-  // A floor under many small shapes, say: it stays in the linear list, whose boxes are then coded more
-  // finely, and whose leaves may be of one kind.
+  // A floor under many small shapes, for example: it stays in the linear list, whose boxes are then coded
+  // more finely, and whose leaves may be of one kind.
   void unbind_largest() {
     bvh::Box all;
     for (const bvh::Box& box : world_.boxes)
@@ -283,9 +283,9 @@ class GeometryPacker {
   // origin is. Seen from the world they are |linear| · |inverse| times as large: 3 at most where axes are
   // stretched and then turned, more under shears. So they are in a shape's own space, but from its centre.
   static void make_room_for_maps(float growth, bool instances, shader::Bvh& bvh) {
-    constexpr float harmless = 3;  // what the boxes have room for without this
+    constexpr float harmless = 3;  // the growth that the boxes have room for without this
     if (!instances && growth <= harmless) return;
-    // Twice: for the way into the space, and for what a triangle there allows for rounding.
+    // Twice: for the way into the space, and for a triangle's allowance for rounding there.
     bvh.slack = bvh.slack * 2 * growth;
     bvh.extent += glm::abs(bvh.origin);
   }
@@ -304,7 +304,7 @@ class GeometryPacker {
     return growth;
   }
 
-  // Slots of the world: by kind, what is in no BVH, then what is, as its leaves hold it.
+  // Slots of the world: by kind, those in no BVH, then the others, as its leaves hold them.
   void lay_out_world() {
     std::vector<std::vector<uint32_t>> linear(shader::SHAPE_KINDS);
     for (uint32_t item = 0; item < world_.size(); ++item) {

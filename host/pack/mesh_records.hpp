@@ -17,8 +17,8 @@ bvh::Box triangle_box(const shader::Primitive& triangle);
 class MeshRecords {
  public:
   // The triangles of `mesh` under `map`, with `origin` as the origin: positions are rounded after it was
-  // subtracted. Their ids count from `first_id`; `optical_depth` is what each takes from a shadow ray.
-  // Appends normals, texture coordinates and colours to `vertices`, and where `bends` what bent normals ask.
+  // subtracted. Their ids count from `first_id`; `optical_depth` is each one's loss of a shadow ray.
+  // Appends normals, texture coordinates and colours to `vertices`, and where `bends` data of bent normals.
   MeshRecords(const Mesh& mesh, const Affine& map, const Vec3& origin, int material, uint32_t optical_depth,
               uint32_t first_id, bool bends, RawVector<shader::uvec4>& vertices);
 
@@ -34,7 +34,7 @@ class MeshRecords {
   Affine map_;
   Vec3 origin_;
   bool mirrored_;
-  shader::Primitive first_;      // what all have in common, and the first's id and corners
+  shader::Primitive first_;      // the common part, and the first's id and corners
   uint32_t corner_records_ = 0;  // vec4 a triangle among the vertices
 };
 

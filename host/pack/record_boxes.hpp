@@ -1,4 +1,4 @@
-// Boxes around what records say, whose coordinates are rounded.
+// Boxes around records' primitives, whose coordinates are rounded.
 #pragma once
 
 #include <utility>

@@ -68,7 +68,7 @@ std::string to_json(const Findings& findings) {
     json["executors"][std::string(backend_name(p.backend))] = p.description;
   const auto first = findings.first_difference();
 
-  // The order of the overlay says which line comes before which ray.
+  // The order of the overlay decides which line comes before which ray.
   std::vector<size_t> places(rays.size());
   findings.overlay.in_order(
       [&](size_t i) {

@@ -47,7 +47,7 @@ class Judge {
     for (size_t i = 0; i < executors.size(); ++i) (is_exact(i) ? exact_ : reference_).push_back(i);
   }
 
-  // True if anything is beyond tolerance, the surroundings not yet asked.
+  // True if anything is beyond tolerance, the surroundings not yet known.
   bool any_beyond() const {
     return std::ranges::any_of(overlay_.rays(), [&](const Ray& ray) {
       return misses(ray) || std::ranges::any_of(ray.lines, [&](const Line& line) {
@@ -96,7 +96,7 @@ class Judge {
     return line ? reference(*line) : nullptr;
   }
 
-  // By how much a coordinate may be off, along this ray and where it comes from: as compare::t_tolerance, and
+  // By how much a coordinate may be off, along this ray and where it comes from. As compare::t_tolerance;
   // from a surface rays start up to eight times as far off as that is uncertain (geometry/ray.glsl).
   double coordinate_tolerance(const Ray& ray) const {
     double reach = 0, t_scale = 0;
@@ -129,8 +129,8 @@ class Judge {
     return tolerances.color * std::max(1.0, std::abs(reference));
   }
 
-  // True if what the ray hits, or one before it, is another primitive somewhere around the pixel: there all
-  // runs like a square root, and may lie as far beyond what was seen as that is apart.
+  // True if the hit of this ray, or of one before it, is another primitive somewhere around the pixel. There
+  // all runs like a square root, and may lie as far beyond the samples as those are apart.
   bool at_rim(const Ray& ray) const {
     for (const Ray* at = &ray; at->kind != RayKind::pixel; at = &overlay_.rays()[at->parent]) {
       const Line* const primitive = find_line(*at, "primitive");

@@ -1,4 +1,4 @@
-// The ray trees of one sample by several executors, laid over each other: a ray is known by its way through
+// The ray trees of one sample by several executors, laid over each other. A ray is known by its way through
 // the tree and a value by its name, whatever the order in which they came.
 #pragma once
 
@@ -52,9 +52,9 @@ class Overlay {
  public:
   explicit Overlay(size_t executors);
 
-  // The tree of an executor; all of them come before what is around.
+  // The tree of an executor; all of them come before those around.
   void add(size_t executor, const RayTree& tree);
-  // The reference's at the pixel, and at a place around it.
+  // The reference's at the pixel, and at a point around it.
   void add_around(const RayTree& tree);
 
   // The pixel first, each ray after its parent.
@@ -62,7 +62,7 @@ class Overlay {
   const std::vector<Ray>& rays() const { return rays_; }
 
   // Calls ray(i) and line(i, k) for everything, in the order of a ray's life: its lines with its shadow rays
-  // among them, then what it leads to.
+  // among them, then the rays it leads to.
   template <typename OnRay, typename OnLine>
   void in_order(const OnRay& ray, const OnLine& line, size_t from = 0) const {
     ray(from);

@@ -50,8 +50,8 @@ struct Findings {
   std::string way_to(size_t ray) const;
 };
 
-// Error (bad_input) where the picture has no such pixel or the pixel no such sample, and what make_executor
-// throws.
+// Error (bad_input) where the picture has no such pixel or the pixel no such sample, and the errors of
+// make_executor.
 Findings probe_pixel(const Scene& scene, const Options& options);
 
 // For people, lines each ended; `colored` by the codes of terminals.

@@ -40,7 +40,7 @@ struct Row {
   std::vector<std::string> cells;  // none: of a ray
   Verdict verdict = Verdict::agrees;
   std::string remark = {};
-  bool first = false;  // what differs first
+  bool first = false;  // the first difference
 };
 
 class Table {

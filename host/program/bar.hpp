@@ -1,4 +1,4 @@
-// The line on a terminal that says how far a command has come.
+// The line on a terminal with a command's progress.
 #pragma once
 
 #include <memory>
@@ -26,7 +26,7 @@ class Bar {
 std::span<const std::string> compiling_texts();
 
 // Shows on a terminal that kernels compile, by the same line, for commands that report no progress;
-// `and_then` is added to it. The line is wiped away when what is returned goes: before anything else is
+// `and_then` is added to it. The line is wiped away when the returned pointer goes: before anything else is
 // printed.
 std::shared_ptr<void> show_compiling(std::string_view and_then = "");
 

@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 
 // {"severity", "file", "line", "column", "message"}; line and column are absent where unknown.
 Json to_json(const Diagnostic& diagnostic);
-// {"code": 2, "message": "…", "diagnostics": […]}: what a command under --json answers when it fails.
+// {"code": 2, "message": "…", "diagnostics": […]}: the answer of a command under --json when it fails.
 // "diagnostics" are there for scenes and shaders.
 Json to_json(const Error& error);
 // {"load": 0.001, …}, seconds.

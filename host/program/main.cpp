@@ -28,7 +28,7 @@ struct Reporter {
   std::string name;  // of the program
   bool json;
 
-  // Says why the program ends, once: what ends it and what that brings about may both have a word.
+  // Reports once why the program ends: the cause and its consequence may both have a word.
   void operator()(const Error& error) const {
     static std::atomic_flag said;
     if (said.test_and_set()) return;

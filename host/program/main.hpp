@@ -6,9 +6,9 @@
 
 namespace eyeray::engine::program {
 
-// Runs a program's command line, which answers the exit code, and turns every way in which it can fail into
-// words on standard error and an exit code; under --json into JSON on standard output, too. To be called
-// first: it may start the program anew (huge_pages.hpp).
+// Runs a program's command line, which answers the exit code. Turns every way in which it can fail into words
+// on standard error and an exit code; under --json into JSON on standard output, too. To be called first: it
+// may start the program anew (huge_pages.hpp).
 int run_main(int argc, char** argv, const std::string& name,
              const std::function<int(int, char**)>& command_line);
 

@@ -20,7 +20,7 @@ struct Seen {
 struct Judgement {
   enum { equal, hidden, explained, unexplained } verdict;
   compare::RasterCause cause = compare::RasterCause::edge;
-  bool blames_ray = true;  // of what is not explained: the ray, else the rasteriser
+  bool blames_ray = true;  // of the unexplained: the ray, else the rasteriser
 };
 
 // `triangles`: all that may be within their slack of the centre.

@@ -33,7 +33,7 @@ Polyline joined(std::initializer_list<Polyline> parts);
 // is its first. The bound is in object space.
 Tessellation sweep(const Polyline& profile, bool closes, const Polyline& section);
 
-// The unit circle around the axis, as a section of what is `reach` wide.
+// The unit circle around the axis, as a section of a shape `reach` wide.
 Polyline circle(double reach, double tolerance);
 
 }  // namespace eyeray::engine::raster

@@ -82,7 +82,7 @@ Tessellation round_body(const RoundQuadric& round, const QuadricForm& form, doub
   // An ellipsoid is the unit sphere, mapped.
   if (round.square == -1 && round.linear == 0 && round.constant == 1 && round.bottom == -1 && round.top == 1)
     return ball(tolerance);
-  // Its profile is straight, or it bends to one side throughout, as the discriminant says.
+  // Its profile is straight, or it bends to one side throughout, by the discriminant.
   const double bend = round.square * round.constant - round.linear * round.linear;
   const double size = std::fabs(round.square * round.constant) + round.linear * round.linear;
   const auto height = [&](double s) {

@@ -1,4 +1,4 @@
-// Shapes as triangles, from the forms that they say they have (scene/shape.hpp).
+// Shapes as triangles, from the forms that they state (scene/shape.hpp).
 #pragma once
 
 #include <array>

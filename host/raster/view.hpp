@@ -22,8 +22,8 @@ struct ScreenTriangle {
   double reach = 0;  // largest distance of the whole shape or mesh from the eye; 0 for planes
 };
 
-// Two units in the last place, as a share of the largest coordinate: what gate C grants a hit that is close
-// to something large.
+// Two units in the last place, as a share of the largest coordinate: gate C's allowance for a hit that is
+// close to something large.
 inline constexpr double coordinate_error = 0x1p-22;
 
 class View {
@@ -58,8 +58,8 @@ class View {
   // True if a ball in the camera's space may be seen.
   bool may_see(const Vec3& center, double radius) const;
 
-  // Calls visit(ScreenTriangle), `like` at other places, for what is left of a convex polygon before the eye
-  // and about the picture, some pictures wide, so that float32 can resolve all corners. A cut between two
+  // Calls visit(ScreenTriangle), `like` at other points, for the part of a convex polygon before the eye and
+  // about the picture, some pictures wide, so that float32 can resolve all corners. A cut between two
   // polygons that share an edge is the same number in both.
   template <typename Visit>
   void cut(std::span<const Vec4> polygon, const ScreenTriangle& like, const Visit& visit) const {
@@ -90,7 +90,7 @@ class View {
   CameraAxes axes_;
   Rect area_;
   bool perspective_;
-  double focal_;  // pixels of what is 1 wide: at depth 1, or at any
+  double focal_;  // pixels of a width of 1: at depth 1, or at any
   Vec2 middle_;   // where the camera looks, from the area's top left
 };
 

@@ -53,7 +53,7 @@ Seen Witness::traced_at(const compare::Frame& frame, size_t pixel) const {
           view().nearness(int(pixel % width), int(pixel / width), hit.t)};
 }
 
-// A hit lies where its pixel sees it, and as far away as t says; else, in words, where.
+// A hit lies where its pixel sees it, and as far away as t; else, in words, where.
 std::string Witness::misplaced(const FirstHit& hit, int x, int y) const {
   const Vec3 at = view().to_camera(hit.position);
   if (!(hit.t > 0) || !std::isfinite(hit.t) || !std::isfinite(magnitude(at)))
@@ -145,7 +145,7 @@ compare::RasterResult Witness::compare(const compare::Frame& frame, const std::s
       open.push_back(pixel);
   }
 
-  // … of the others the geometry says whether both may be.
+  // … of the others the geometry decides if both may be.
   const std::vector<std::vector<ScreenTriangle>> about = triangles_about(open);
   for (size_t i = 0; i < open.size(); ++i) {
     const size_t pixel = open[i];

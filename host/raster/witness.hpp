@@ -20,12 +20,12 @@ class Witness {
  public:
   // Draws the pixels `area` of the scene, which must outlive it. Error (bad_input) for a camera that cannot
   // be drawn, (no_device) where the device has no graphics queue or not enough memory, or where the
-  // validation layer had something to say.
+  // validation layer had a complaint.
   Witness(const Scene& scene, const Rect& area, gpu::DeviceOptions options);
   Witness(const Witness&) = delete;
   Witness& operator=(const Witness&) = delete;
 
-  // Compares what an executor called `name` hit first.
+  // Compares the first hits of an executor called `name`.
   compare::RasterResult compare(const compare::Frame& frame, const std::string& name) const;
 
  private:

@@ -8,7 +8,7 @@
 namespace eyeray::engine::reading {
 
 SourcePosition position_of(const toml::source_region& source);
-// The place where a string's text begins. Escapes in it are not considered.
+// The position where a string's text begins. Escapes in it are not considered.
 SourcePosition start_of_text(const toml::node& node);
 
 }  // namespace eyeray::engine::reading

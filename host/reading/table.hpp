@@ -12,7 +12,7 @@
 
 namespace eyeray::engine::reading {
 
-// A table as it stands in the file, and what may stand in it.
+// A table as it stands in the file, and the keys allowed in it.
 struct TableSource {
   std::string_view title;                         // for messages: "[camera]", "[[sphere]]"
   const toml::table* table = nullptr;             // null: not written, all keys take their defaults

@@ -200,7 +200,7 @@ std::shared_ptr<const ImageTexture> TableReader::load_image(std::string_view key
 void TableReader::error(std::string_view key, std::string message, std::initializer_list<size_t> element) {
   const Table::Row& row = table_->row(key);
   if (row.failed) return;
-  if (!row.node && table_->log.damaged()) {  // it may stand in what could not be parsed
+  if (!row.node && table_->log.damaged()) {  // it may stand in the unparsed text
     table_->failed = true;
     return;
   }

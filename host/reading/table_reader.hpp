@@ -26,8 +26,8 @@ namespace eyeray::engine::reading {
 class TableReader {
  public:
   // The readers of declared keys. Each value has been checked against its Key; after an error a valid
-  // stand-in comes back, so that reading goes on and all errors are reported together. Asking for an
-  // undeclared key is a CHECK.
+  // stand-in comes back, so that reading goes on and all errors are reported together. Reading an undeclared
+  // key is a CHECK.
   bool has(std::string_view key) const;  // written in the table (not defaulted)
   bool boolean(std::string_view key) const;
   int64_t integer(std::string_view key) const;
@@ -57,7 +57,7 @@ class TableReader {
   void error(std::string_view key, std::string message, std::initializer_list<size_t> element = {});
   // Adds a warning at the key's value, or at the table where the key is absent.
   void warning(std::string_view key, std::string message);
-  // Adds what is wrong within the text of a formula.
+  // Adds the faults within the text of a formula.
   void error(const InputError& faults);
   // True if the key's value, written or default, is valid: false after an error in it, or if it is missing.
   bool valid(std::string_view key) const;

@@ -39,14 +39,14 @@ struct PackedScene {
   std::set<uint32_t> bvh_kinds;                       // of the shapes in BVHs
   std::set<std::pair<uint32_t, uint32_t>> uses;       // kinds of shape, and materials that they are made of
   std::set<std::pair<uint32_t, uint32_t>> leaf_uses;  // the same of the shapes that CSG objects are made of
-  bool mixed_csg = false;  // whether a CSG object's surfaces differ in what they take from a shadow ray
+  bool mixed_csg = false;  // true if a CSG object's surfaces differ in their loss of a shadow ray
   RawVector<shader::uvec4> nodes;
   std::vector<shader::Bvh> bvhs;  // the world's, then one a mesh or group of `instances`
   std::vector<shader::Instance> instances;
   size_t most_linear = 0;        // primitives, and turns of their loops, that a BVH would find no sooner
   bool has_bvh = false;          // whether `nodes` are to be used; else all is tested one by one
   bool quantised_nodes = false;  // the coding of `nodes`
-  uint32_t stack_size = 1;       // what a traversal may have waiting
+  uint32_t stack_size = 1;       // the most entries that a traversal may have waiting
   RawVector<shader::uvec4> vertices;
   bool bent_normals = false;   // whether any material bends those of its surface
   bool vertex_colors = false;  // whether any of `vertices` have colours
@@ -60,18 +60,18 @@ struct PackedScene {
   std::vector<shader::Material> materials;
   std::vector<shader::Texture> textures;
   size_t texel_count = 0;        // of `texels`, written or not; 0 without images
-  std::vector<uint32_t> texels;  // records.h says how
+  std::vector<uint32_t> texels;  // records.h has the layout
   std::vector<shader::Medium> media{{{0, 0, 0}, 1, {0, 0, 0}, 0}};  // by number; 0 is around all
   std::vector<shader::Light> lights;
-  RawVector<shader::uvec4> environment;        // records.h says how; empty without one, or not written
+  RawVector<shader::uvec4> environment;        // as in records.h; empty without one, or not written
   std::vector<shader::Emitter> emitters;       // lights, then surfaces in the order of their primitives
   std::vector<uint32_t> emitter_media;         // that photons of `emitters` start in; empty without photons
-  std::vector<shader::LightNode> light_nodes;  // empty where no light BVH is asked
+  std::vector<shader::LightNode> light_nodes;  // empty where no light BVH is used
   std::set<uint32_t> lobes;                    // that the materials' BSDFs have
   bool panes = false;                          // whether paths may pass any of them straight
   bool interfaces = false;            // whether one of these may be a border between media of one index
   bool has_conductors = false;        // whether any of them mirrors by a metal's index
-  std::vector<shader::vec4> albedos;  // records.h says how; empty where no lobe asks
+  std::vector<shader::vec4> albedos;  // as in records.h; empty where no lobe needs them
   shader::Frame frame{};
 };
 
@@ -92,7 +92,7 @@ class Packer {
     add(primitive);
     pieces.push_back(bounds);
   }
-  // A primitive; its id and optical depth are filled in later. a, b, c: what the shape's .glsl says. `extra`:
+  // A primitive; its id and optical depth are filled in later. a, b, c: as in the shape's .glsl. `extra`:
   // an index into vertices.
   static shader::Primitive primitive(uint32_t kind, int material, const shader::vec4& a,
                                      const shader::vec4& b, const shader::vec4& c, uint32_t extra = NONE) {
@@ -103,10 +103,10 @@ class Packer {
   // The index at which `data` now starts in the vertices.
   uint32_t add_vertices(std::initializer_list<shader::uvec4> data) { return add_vertices(std::span(data)); }
   uint32_t add_vertices(std::span<const shader::uvec4> data);
-  // Every shape that loops says how often it may.
+  // Every shape that loops states how often it may.
   void add_map_growth(double growth) { scene.map_growth = std::max(scene.map_growth, float(growth)); }
   void add_iterations(size_t count) { scene.shape_iterations += count; }
-  // Every shape whose `intersect` may return T_ITERATION_LIMIT says so.
+  // Every shape whose `intersect` may return T_ITERATION_LIMIT calls this.
   void add_iteration_limit() { scene.may_reach_iteration_limit = true; }
   // The index of a texture; equal ones share it.
   uint32_t add(const shader::Texture& texture);
@@ -134,7 +134,7 @@ class Packer {
   Vec3 origin_;
   double formula_instructions_ = 0;
   std::vector<PlacedImage> images_;
-  // By the hash of what is to be shared: places in images_, and in scene.textures.
+  // By the hash of the shared object: indices into images_, and in scene.textures.
   std::unordered_multimap<size_t, size_t> images_by_texels_;
   std::unordered_multimap<size_t, size_t> textures_by_bytes_;
 };

@@ -276,7 +276,7 @@ ViewedBsdf::Layers ViewedBsdf::layers(const Vec3& w) const {
           through_sheen(bsdf_.sheen, bsdf_.sheen_roughness, w.z)};
 }
 
-// A layer takes from what lies under it as much as it sends to the viewer (Khronos: KHR_materials_clearcoat,
+// A layer takes from those under it as much as it sends to the viewer (Khronos: KHR_materials_clearcoat,
 // KHR_materials_sheen), so that a white surface stays white. A photon's viewer is in i; seen from behind,
 // layers lie there.
 ViewedBsdf::Layers ViewedBsdf::layers_between(const Vec3& i) const {

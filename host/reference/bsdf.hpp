@@ -1,4 +1,4 @@
-// BSDFs in float64: what all lobes together say of a direction, and directions by their density. Directions
+// BSDFs in float64: the sum of all lobes for a direction, and directions by their density. Directions
 // are unit, in the surface's own frame, whose z is the normal on the viewer's side.
 #pragma once
 
@@ -32,7 +32,7 @@ class ViewedBsdf {
   BsdfValue at(const Vec3& i, bool before) const;
   // True if any lobe counts for light from i.
   bool faces(const Vec3& i, bool before) const;
-  // chance and u: random numbers in [0, 1). The BSDF must not be black.
+  // `chance` and u: random numbers in [0, 1). The BSDF must not be black.
   BsdfSample sample(double chance, const Vec2& u) const;
   // Its wide lobes alone, or the sharp ones, each followed as often as before (shaders/bsdf/parts.glsl).
   ViewedBsdf part(bool wide) const;

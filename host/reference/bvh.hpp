@@ -3,11 +3,11 @@
 // number of boxes alone.
 //
 // That nothing is lost to rounding rests on two facts. A ray sees every box wider by the same margin, so that
-// what a primitive's own intersection counts as a hit lies in its box. And `BoxRay::entry` is monotone: each
-// of its steps (subtract, multiply, compare) is, in floating-point arithmetic too, so that the entry into a
-// box is never beyond that into a box within it, bit for bit. Hence a hit that is taken only where the ray
-// enters the primitive's own box, and never nearer than there, is found by every search that leaves out no
-// more than boxes entered beyond the nearest hit so far, in whatever order.
+// a point that a primitive's own intersection counts as a hit lies in its box. And `BoxRay::entry` is
+// monotone: each of its steps (subtract, multiply, compare) is, in floating-point arithmetic too, so that the
+// entry into a box is never beyond that into a box within it, bit for bit. Hence a hit that is taken only
+// where the ray enters the primitive's own box, and never nearer than there, is found by every search that
+// leaves out no more than boxes entered beyond the nearest hit so far, in any order.
 #pragma once
 
 #include <array>
@@ -45,7 +45,7 @@ class BoxRay {
   }
 
  private:
-  // Cuts [entry, exit] to what lies between two planes. A ray along one of them (0 · ∞) is between them: the
+  // Cuts [entry, exit] to the part between two planes. A ray along one of them (0 · ∞) is between them: the
   // comparisons leave a NaN out.
   static void clip(double to_min, double to_max, double inverse, double& entry, double& exit) {
     const double near = (inverse < 0 ? to_max : to_min) * inverse;

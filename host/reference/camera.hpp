@@ -1,4 +1,4 @@
-// From a place in the picture to a ray, by the formulas of docs/conventions.md.
+// From a point in the picture to a ray, by the formulas of docs/conventions.md.
 #pragma once
 
 #include "host/scene/scene.hpp"

@@ -11,10 +11,10 @@ namespace eyeray::engine::reference {
 // where a smooth triangle lifts it.
 enum class Leaving { straight, in_front, behind };
 
-// The origin of a ray that leaves a surface point in direction `d`: off the surface by a few error bounds,
-// and by `least`, on the side of `d`, so that the ray does not hit the surface that it leaves. As the shaders
-// do (geometry/ray.glsl), it stays on its line where that is steep: near an edge it then starts beyond the
-// same other face. With `along_normal` it never does.
+// The origin of a ray that leaves a surface point in direction `d`. It is off the surface by a few error
+// bounds, and by `least`, on the side of `d`, so that the ray does not hit the surface that it leaves. As the
+// shaders do (geometry/ray.glsl), it stays on its line where that is steep: near an edge it then starts
+// beyond the same other face. With `along_normal` it never does.
 Vec3 spawn_origin(const SurfacePoint& point, const Vec3& d, double least = 0, bool along_normal = false,
                   Leaving leaving = Leaving::straight);
 

@@ -12,13 +12,13 @@ namespace eyeray::engine::reference {
 
 namespace {
 
-// A point on the sphere, which is a little larger, is not outside: what it sees is its inside.
+// A point on the sphere, which is a little larger, is not outside: it sees the inside.
 bool outside(const SphereForm& sphere, const Vec3& from) {
   const Vec3 way = sphere.center - from;
   return glm::dot(way, way) > 1.0002 * sphere.radius * sphere.radius;
 }
 
-// By solid angle, of a place that is chosen evenly on an area.
+// By solid angle, of a point that is chosen evenly on an area.
 double density_of_area(double area, const Vec3& from, const EmitterSample& place) {
   const Vec3 way = place.position - from;
   const double distance = glm::length(way);
@@ -37,7 +37,7 @@ Vec2 globe(const Vec3& n) {
   return {u < 1 ? u : 0, std::atan2(std::hypot(n.x, n.z), -n.y) / M_PI};
 }
 
-// A place on the sphere as `from` sees it. Wang: Physically Correct Direct Lighting for Distribution Ray
+// A point on the sphere as `from` sees it. Wang: Physically Correct Direct Lighting for Distribution Ray
 // Tracing, Graphics Gems III, 1992.
 EmitterSample on_sphere(const SphereForm& sphere, const Vec3& from, const Vec2& u) {
   const double turn = 2 * M_PI * u.y;
@@ -53,7 +53,7 @@ EmitterSample on_sphere(const SphereForm& sphere, const Vec3& from, const Vec2& 
     const double b = glm::dot(way, d);
     const double c = glm::dot(way, way) - sphere.radius * sphere.radius;
     const double near = b - std::sqrt(std::max(0.0, b * b - c));
-    // From so far away that the radius is lost, the place is the nearest.
+    // From so far away that the radius is lost, the point is the nearest.
     const Vec3 out = near * d - way;
     normal = glm::length(out) > 0 ? glm::normalize(out) : -d;
   }
@@ -111,7 +111,7 @@ EmitterSample on_box(const BoxForm& box, const Vec3& from, const Vec2& u) {
   p[face.axis] = face.sign;
   p[face.axis == 0 ? 1 : 0] = 2 * rest / face.weight - 1;
   p[face.axis == 2 ? 1 : 2] = 2 * u.y - 1;
-  // Seen from outside u runs to the right and v up; what is up on top is −z, below +z.
+  // Seen from outside u runs to the right and v up; the upward direction on top is −z, below +z.
   Vec2 uv(p.x * face.sign, p.y);
   if (face.axis == 0) uv = {-p.z * face.sign, p.y};
   if (face.axis == 1) uv = {p.x, -p.z * face.sign};
@@ -138,7 +138,7 @@ double box_density(const BoxForm& box, const Vec3& from, const EmitterSample& pl
   return of_place->weight / sum * density_of_area(of_place->area(), from, place);
 }
 
-// The unit sphere in its own space, and the same place in the world.
+// The unit sphere in its own space, and the same point in the world.
 EmitterSample on_ellipsoid(const EllipsoidForm& it, const Vec3& from, const Vec2& u) {
   const Affine map(it.to_world), back(glm::inverse(it.to_world));
   const EmitterSample own = on_sphere({Vec3(0), 1}, back.point(from), u);
@@ -185,7 +185,7 @@ double cylinder_density(const CylinderForm& it, const Vec3& from, const EmitterS
   return side * density_of_area(4 * M_PI * glm::length(glm::cross(along, m[1])), from, place);
 }
 
-// True if places are chosen by solid angle, and not by area.
+// True if points are chosen by solid angle, and not by area.
 bool by_solid_angle(double solid_angle, double least = 3e-4) {
   return solid_angle >= least && solid_angle <= 6.22;
 }
@@ -246,7 +246,7 @@ EmitterSample on_parallelogram(const ParallelogramForm& it, const Vec3& from, co
           at};
 }
 
-// Under which it is seen, if places on it are chosen by that.
+// Under which it is seen, if points on it are chosen by that.
 std::optional<double> sampled_solid_angle(const EmitterForm& form, const Vec3& from) {
   double solid_angle = 0;
   if (const auto* triangle = std::get_if<TriangleForm>(&form))

@@ -1,4 +1,4 @@
-// Places on surfaces that emit, chosen at random: in float64, from the formulas.
+// Points on surfaces that emit, chosen at random: in float64, from the formulas.
 #pragma once
 
 #include <utility>
@@ -9,11 +9,11 @@ namespace eyeray::engine::reference {
 
 struct EmitterSample {
   Vec3 position;
-  Vec3 normal;  // unit, of either side; of what is closed outward
+  Vec3 normal;  // unit, of either side; of closed surfaces outward
   Vec2 uv{0};   // as textures have it; of a triangle the weights of the second and the third corner
 };
 
-// A place for `from` to be lit from; u: two random numbers in [0, 1).
+// A point for `from` to be lit from; u: two random numbers in [0, 1).
 EmitterSample sample_emitter(const EmitterForm& form, const Vec3& from, const Vec2& u);
 // By solid angle at `from`, the density with which that chooses `place`.
 double emitter_density(const EmitterForm& form, const Vec3& from, const EmitterSample& place);

@@ -1,4 +1,4 @@
-// Light from all around, as a picture has it (docs/rendering.md), and how places in it are chosen.
+// Light from all around, as a picture has it (docs/rendering.md), and how directions in it are chosen.
 #pragma once
 
 #include "host/scene/environment.hpp"

@@ -5,7 +5,7 @@
 
 namespace eyeray::engine::reference {
 
-// A place in the pixel, from its top left corner, drawn from its filter by `u`, one drawn evenly.
+// A position in the pixel, from its top left corner, drawn from its filter by `u`, one drawn evenly.
 Vec2 filtered(const ImageSettings& image, const Vec2& u);
 
 }  // namespace eyeray::engine::reference

@@ -7,7 +7,7 @@
 
 namespace eyeray::engine::reference {
 
-// The place in the pixel of what lies at `in_cell` of cell `index` of `samples`, a square number.
+// The position in the pixel of the point `in_cell` of cell `index` of `samples`, a square number.
 inline Vec2 in_grid(int samples, uint32_t index, const Vec2& in_cell) {
   const auto n = uint32_t(std::lround(std::sqrt(samples)));
   return (Vec2(index % n, index / n) + in_cell) / double(n);

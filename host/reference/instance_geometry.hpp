@@ -1,4 +1,4 @@
-// An instance of a mesh: what a ray of the world, or of its group, hits of it, and the surface there.
+// An instance of a mesh: the hits of a ray of the world, or of its group, and the surface there.
 #pragma once
 
 #include "host/reference/instance_map.hpp"
@@ -22,7 +22,7 @@ class InstanceGeometry {
   }
 
   // The surface at a hit, in the world. The ray is not needed, and there so that shapes and instances are
-  // asked alike.
+  // queried alike.
   SurfacePoint surface(const Ray& ray, const TriangleHit& hit) const;
 
   int material() const { return material_; }

@@ -1,4 +1,4 @@
-// Lights without a place that are seen under an angle: disks of light behind all else.
+// Lights without a position that are seen under an angle: disks of light behind all else.
 #pragma once
 
 #include "host/core/vec.hpp"

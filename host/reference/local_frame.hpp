@@ -24,7 +24,7 @@ class LocalFrame {
 
   Vec3 into(const Vec3& v) const { return {glm::dot(v, s_), glm::dot(v, t_), glm::dot(v, n_)}; }
   Vec3 out_of(const Vec3& v) const { return v.x * s_ + v.y * t_ + v.z * n_; }
-  // A direction towards the viewer, in this frame: what bent normals turn away is seen edge-on.
+  // A direction towards the viewer, in this frame: one that bent normals turn away is seen edge-on.
   Vec3 seen(const Vec3& to_viewer) const {
     constexpr double least_cosine = 1e-4;
     const Vec3 o = into(to_viewer);

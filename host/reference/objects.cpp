@@ -150,7 +150,7 @@ double Objects::share_of_shape(size_t index, const Ray& ray, double entry, doubl
   if (!hit || std::max(hit->t, entry) >= t_end) return 1;
   double share = share_of(shape.part(*hit).material);
   if (&shape.part(*hit) == &shape) return share;
-  // A CSG object counts once, by what its densest surface on the way lets through.
+  // A CSG object counts once, by the transmittance of its densest surface on the way.
   for (const auto& [in, out] : shape.spans(ray))
     for (const Intersection& crossing : {in, out}) {
       if (crossing.iteration_limit)

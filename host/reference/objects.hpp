@@ -15,7 +15,7 @@ class Objects {
  public:
   // All of them must outlive it. `meshes` and `materials`: as the scene's. `first_ids`: by object, the
   // primitive index of a shape or of an instance's first triangle; of a group, counted from its own first
-  // shape and first triangle, which is what `before` is for below.
+  // shape and first triangle, for which there is `before` below.
   Objects(std::span<const std::unique_ptr<Shape>> shapes, std::span<const Instance> instances,
           const std::deque<MeshGeometry>& meshes, std::span<const std::unique_ptr<Material>> materials,
           std::vector<uint64_t> first_ids, Acceleration acceleration);
@@ -66,7 +66,7 @@ class Objects {
 
   // Around all that has bounds.
   const Bounds& bounds() const { return bounds_; }
-  // The largest coordinate, relative to `eye`, of the terms that what was hit is made of; 0 for unbounded
+  // The largest coordinate, relative to `eye`, of the terms of the hit primitive; 0 for unbounded
   // shapes.
   double reach(const Hit& hit, const Vec3& eye) const;
   // The largest factor by which the rounding of a point grows on its way into an instance and back.

@@ -10,7 +10,7 @@ namespace eyeray::engine::reference {
 class Observer {
  public:
   Observer(RayRecorder* recorder = nullptr) : recorder_(recorder) {}
-  // Takes what a random path decides alone (trail.hpp).
+  // Takes a random path's decisions alone (trail.hpp).
   explicit Observer(std::vector<uint32_t>& events) : events_(&events) {}
 
   // True if there is a recorder.

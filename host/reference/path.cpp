@@ -30,7 +30,7 @@ double largest(const Vec3& v) {
 
 }  // namespace
 
-// A channel says how far, each as likely as it has light left; the density is that of all three.
+// A channel decides how far, each as likely as it has light left; the density is that of all three.
 Flight PathSample::fly(const Ray& ray, const MediaStack& media, const std::optional<Hit>& hit) const {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const Medium medium = rays_.medium(media);

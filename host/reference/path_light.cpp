@@ -11,7 +11,7 @@
 
 namespace eyeray::engine::reference {
 
-// On edge a place is infinitely dense.
+// On edge a point is infinitely dense.
 double power_heuristic(double p, double q) {
   return 1 / (1 + (q / p) * (q / p));
 }
@@ -25,7 +25,7 @@ Leaving leaving(const Interaction& at, const Vec3& d) {
   return glm::dot(at.surface.normal_side, d) > 0 ? Leaving::in_front : Leaving::behind;
 }
 
-// Its own light, less what shadow rays to it have brought already.
+// Its own light, less the light that shadow rays to it have brought already.
 Vec3 PathSample::emitted(const Interaction& at) const {
   const Vec3& light = at.scattering.emitted;
   const LightChoice& choice = tracer_.light_choice();

@@ -73,7 +73,7 @@ class PathSample {
   Vec2 pair(uint32_t use) const { return pair_of(use + pairs_a_vertex * surfaces()); }
   Vec2 pair_of(uint32_t number) const {
     Vec2 pair = sampler(scene_.image.pattern).pair(id_.pixel, id_.index, number, scene_.render.seed);
-    // Moved, where it is asked what float32 makes of numbers that are near to a decision.
+    // Moved, to test float32's effect on numbers near to a decision.
     if (numbers_ != 0)
       for (uint32_t i = 0; i < 2; ++i)
         pair[int(i)] = std::clamp(pair[int(i)] + std::floor(9 * random(numbers_, number, i, 0) - 4) * 0x1p-24,
@@ -97,7 +97,7 @@ class PathSample {
   std::optional<Ray> meet_gathering(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
                                     MediaStack& media, Vec3& color);
   std::optional<Ray> meet_medium(const Ray& ray, const Flight& flight, const MediaStack& media, Vec3& color);
-  // From a vertex whose lights have been asked.
+  // From a vertex whose lights have been sampled.
   void gain(const Vec3& light, Vec3& color);
   // Follows the path to its end, and calls `meet` at every surface.
   PixelSample follow(Ray ray, MediaStack media, Meet meet);

@@ -1,4 +1,4 @@
-// Half of a light's photons are aimed at what bundles light: in float64, the density of both ways together.
+// Half of a light's photons are aimed at focusing objects: in float64, the density of both ways together.
 #pragma once
 
 #include <functional>
@@ -25,7 +25,7 @@ std::vector<Window> windows_from(const PhotonSettings& settings, const Vec3& p, 
 std::vector<Window> windows_along(const PhotonSettings& settings, const Vec3& d);
 
 struct Aimed {
-  Vec3 at;             // a direction or place
+  Vec3 at;             // a direction or position
   bool by_aim;         // by a window, not by the light's own density
   uint64_t event = 0;  // Event::aim
   double density = 0;  // with which such are aimed at

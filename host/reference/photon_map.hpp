@@ -19,7 +19,7 @@ struct Photon {
   Vec3 position;
   Vec3 direction;   // unit, towards where it came from
   Vec3 normal;      // unit, geometric, on the side that it came to
-  Vec3 flux;        // what it brings, over index² there, times the number of all
+  Vec3 flux;        // its flux, over index² there, times the number of all
   uint32_t number;  // of those of its sample
   int depth;        // how often it was scattered before
 };
@@ -39,7 +39,7 @@ class PhotonMap {
   const std::vector<PhotonWay>& ways() const { return ways_; }
 
  private:
-  // Cubes as wide as two radii, each with a number; what lies 2²¹ cubes apart may share it.
+  // Cubes as wide as two radii, each with a number; cubes 2²¹ apart may share it.
   uint64_t cell(const Vec3& p) const;
   std::pair<size_t, size_t> in_cell(uint64_t cell) const;
 

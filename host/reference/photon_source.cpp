@@ -94,7 +94,7 @@ struct FromLight {
   }
 };
 
-// A point for which places are chosen by area: within what is closed, on what is flat.
+// A point for which points are chosen by area: within closed forms, on flat ones.
 Vec3 middle_of(const EmitterForm& form) {
   if (const auto* sphere = std::get_if<SphereForm>(&form)) return sphere->center;
   if (const auto* box = std::get_if<BoxForm>(&form)) return Vec3(box->to_world[3]);
@@ -120,7 +120,7 @@ PhotonSource from_surface(const Scene& scene, const PhotonSettings& settings, co
   const Aimed aim = aimed_from(settings, place.position, n, side.y, heading, from_plane(n, heading));
   const Vec3& d = aim.at;
 
-  // The density of the place by area, from that by solid angle; on what is flat they are even.
+  // The density of the point by area, from that by solid angle; on flat forms they are even.
   const Vec3 way = place.position - middle;
   const double distance = glm::length(way);
   const double by_area = is_flat(emitter.form)

@@ -12,7 +12,7 @@ namespace eyeray::engine::reference {
 struct PhotonSource {
   Ray ray;
   Vec3 flux{0};        // of all photons, if each were as this one
-  uint64_t light;      // its number; of what is around −1
+  uint64_t light;      // its number; of the surroundings −1
   bool below = false;  // it leaves a surface against its normal
   uint64_t aim = 0;    // Event::aim
   MediaStack media{};  // that it starts in
@@ -39,7 +39,7 @@ class PhotonSources {
  private:
   const Tracer& tracer_;
   PhotonSettings settings_;
-  double around_;                  // how likely a photon comes from what is around
+  double around_;                  // the probability that a photon comes from the surroundings
   std::vector<MediaStack> media_;  // of media_of_lights
 };
 

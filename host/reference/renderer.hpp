@@ -29,14 +29,14 @@ class Renderer {
                                const rounding::Displacement& displacement) const;
   // The number of pixels by which float32 may displace the ray through the pixel's centre at `t`.
   double rounding(int x, int y, double t) const;
-  // A rounding::Displacement::pivot a little behind what that ray hits: `which` of eight, modulo 8; 0 where
+  // A rounding::Displacement::pivot a little behind that ray's hit: `which` of eight, modulo 8; 0 where
   // it hits nothing.
   double pivot(int x, int y, uint32_t which) const;
 
   const Tracer& tracer() const { return tracer_; }
 
  private:
-  // A place in the picture and one on the lens.
+  // A position in the picture and one on the lens.
   struct Aim {
     Vec2 place;
     Vec2 lens{0.0};

@@ -130,7 +130,7 @@ double SampleRays::shadow(const Ray& ray, double t_end) {
 Bsdf SampleRays::bsdf(const Material& material, const ScatteringContext& context,
                       const Scattering& scattering) const {
   Bsdf bsdf = material.bsdf(context, scattering);
-  // Without interfaces what has the same index on both sides is glass like any other.
+  // Without interfaces a material with the same index on both sides is glass like any other.
   if (!tracer_.any_interface() && !material.thin()) bsdf.transmitted += std::exchange(bsdf.passed, Vec3(0));
   return bsdf;
 }
@@ -171,7 +171,7 @@ Vec3 SampleRays::through_panes(Ray ray, double t_end, bool has_extent, MediaStac
 }
 
 // A ray may run along the border of two checks through many walls of glass, and be rounded to either side at
-// each: of so many ways the bounds are known without trying them, since no colour falls where a texture's
+// each. For so many ways the bounds are known without trying them, since no colour falls where a texture's
 // rises.
 Scattering SampleRays::scattering(const Ray& ray, const Hit& hit, const SurfacePoint& point,
                                   ScatteringContext context) const {
@@ -238,7 +238,7 @@ Interaction SampleRays::interaction(const Ray& ray, const Hit& hit, const MediaS
   if (!front) turn_over(at.surface);
   at.cos_view = std::clamp(-glm::dot(at.d, at.surface.normal), 0.0, 1.0);
 
-  // Say which media hit here.
+  // List the media that adjoin here.
   const Material& material = *scene_.materials[size_t(hit.material)];
   const Medium before = medium(media);
   at.has_medium = fills(material, scene_.render.integrator);

@@ -1,4 +1,4 @@
-// The rays of one sample, as integrators trace them whose paths go on: what they hit, how they leave it, and
+// The rays of one sample, as integrators trace them whose paths go on: their hits, how they leave these, and
 // how many there were.
 #pragma once
 
@@ -17,7 +17,7 @@ struct Interaction {
   double cos_view = 0;      // between the shading normal and the way back, in [0, 1]
   uint64_t primitive;       // ~0: none, but a point of a medium
   bool has_medium = false;  // its material fills it
-  Vec3 dimming{1};          // what the medium leaves of the light on its way here
+  Vec3 dimming{1};          // the medium's transmittance on the way here
   double ior_before = 1, ior_beyond = 1;
   MediaStack media_beyond = {};  // that a refracted ray is in
   Scattering scattering = {};

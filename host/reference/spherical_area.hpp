@@ -29,7 +29,7 @@ class SphericalRectangle {
   SphericalRectangle(const Vec3& corner, const Vec3& edge_u, const Vec3& edge_v);
 
   double solid_angle() const { return solid_angle_; }
-  // The shares of the edges, in [0, 1], of the place that two numbers in [0, 1) choose.
+  // The shares of the edges, in [0, 1], of the point that two numbers in [0, 1) choose.
   Vec2 place(const Vec2& u) const;
 
  private:

@@ -92,7 +92,7 @@ uint32_t PathSample::photon(const PhotonSources& sources, std::vector<Photon>& s
   Ray ray = rays_.start_ray(source.ray);
   vertex_ = ray.o;
   if (source.flux == Vec3(0)) return rays_.sample(Vec3(0)).trail;
-  // Radiance is index² times what paths carry, and so is flux.
+  // Radiance is index² times the value that paths carry, as is flux.
   const auto squared_index = [&](const MediaStack& in) { return std::pow(rays_.medium(in).ior, 2); };
   const Vec3 sent = source.flux * squared_index(media);
   while (depth_ <= scene_.render.max_depth) {

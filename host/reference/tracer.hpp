@@ -24,8 +24,8 @@ struct Hit {
   int group = -1;      // index in Scene::group_instances; −1 for the scene's own
 };
 
-// A scene made ready for rays. Hits are the same to the last bit with every Acceleration (bvh.hpp says
-// why).
+// A scene made ready for rays. Hits are the same to the last bit with every Acceleration (bvh.hpp has the
+// proof).
 class Tracer {
  public:
   // `scene` must outlive it. Under Acceleration::bvh, a second for a million triangles or less.
@@ -33,7 +33,7 @@ class Tracer {
   ~Tracer();
 
   // The nearest hit with t > 0; of exactly equal ones that of the lowest primitive. Adds to `flags`, of
-  // SampleFlags, what may be wrong with it. `coincident`: rather another primitive that a ray with a unit
+  // SampleFlags, its possible faults. `coincident`: rather another primitive that a ray with a unit
   // direction hits so close behind it that float32 may take it for the nearer one.
   std::optional<Hit> trace(const Ray& ray, uint32_t& flags, bool coincident = false) const;
   std::optional<Hit> trace(const Ray& ray) const;
@@ -41,7 +41,7 @@ class Tracer {
   // it.
   SurfacePoint surface(const Ray& ray, const Hit& hit) const;
 
-  // The largest coordinate, relative to `eye`, of the terms that what was hit is made of; 0 for unbounded
+  // The largest coordinate, relative to `eye`, of the terms of the hit primitive; 0 for unbounded
   // shapes.
   double reach(const Hit& hit, const Vec3& eye) const;
   // FirstHit::t_scale of a hit, and the surface there.

@@ -13,7 +13,7 @@ namespace eyeray::engine::reference {
 enum class Event : uint32_t {
   hit = 1,  // of a primitive, its number + 1; 0: nothing is hit; `in_medium`: a medium scatters it before
   light =
-      2,    // twice its number + 2, of the environment twice 1, and one more where it is seen; 0: none asked
+      2,    // twice its number + 2, of the environment twice 1, and one more where it is seen; 0: none drawn
   way = 3,  // by which the path goes on: a lobe + 1, and `through`; 0: it ends
   aim = 4,  // of a photon: 32 times how many targets its start sees, and how many of them it heads for
 };

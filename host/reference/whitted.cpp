@@ -17,12 +17,12 @@ constexpr std::string_view manual =
     "Whitted's ray tracing: shadow rays to every light from every surface, plus reflections and refractions, "
     "each traced by its own ray.";
 
-// A ray on its way, and what it is worth.
+// A ray on its way, and its weight.
 struct Path {
   Ray ray;
   MediaStack media;
   int depth;        // reflections and refractions so far
-  Vec3 throughput;  // what its colour will be multiplied by in the pixel
+  Vec3 throughput;  // the factor of its colour in the pixel
 };
 
 class Recursion {

@@ -25,8 +25,8 @@ class AdaptiveSampling {
   // Finishes the blocks that are good.
   void judge(film::Film& sums);
   bool finished() const { return left_ == 0; }
-  // Rectangles, in pixels of the band, of what is left of its rows [row, row + height). Gaps between blocks
-  // of a row are filled where they are small, for a device's sake.
+  // Rectangles, in pixels of the band, of the unfinished part of its rows [row, row + height). Gaps between
+  // blocks of a row are filled where they are small, for a device's sake.
   std::vector<Rect> left(int row, int height) const;
   // About how many samples of pixels are still to be taken, where each may have `most`: noise falls as their
   // root.

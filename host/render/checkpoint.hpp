@@ -1,4 +1,4 @@
-// A render that can be taken up again: what it has summed so far, in a file.
+// A render that can be taken up again: its sums so far, in a file.
 //
 // FILE, little-endian, written whole and atomically every time:
 //
@@ -38,7 +38,7 @@ struct IdentityPart {
 
 // The progress of a render.
 struct RenderPosition {
-  uint64_t finished_rows = 0;   // above the band, counted from the top of what is rendered
+  uint64_t finished_rows = 0;   // above the band, counted from the top of the rendered rows
   uint64_t samples = 0;         // a pixel, in the band's sums; with adaptive sampling the most
   uint64_t extra_rows = 0;      // the band's rows, from its top, whose sums hold one more
   uint64_t rays = 0;            // all in all
@@ -52,7 +52,7 @@ class Checkpoint {
   // forgotten one is not lost; Error (file_io) when it cannot be written.
   static Checkpoint begin(std::filesystem::path file, std::vector<IdentityPart> identity, double seconds);
   // Reads it, to be written again. Error (cannot_resume) when it is missing, damaged, or not of this render;
-  // the message then names what differs.
+  // the message then names the difference.
   static Checkpoint resume(std::filesystem::path file, std::vector<IdentityPart> identity, double seconds);
 
   const std::filesystem::path& file() const { return file_; }
@@ -68,10 +68,10 @@ class Checkpoint {
   [[noreturn]] void damaged(const std::string& why) const;
 
   bool due() const { return failure_.empty() && since_saved_.seconds() >= seconds_; }
-  // Neither throws: what went wrong is in failure(), and from then on nothing more is written.
+  // Neither throws: the reason of a failure is in failure(), and from then on nothing more is written.
   void append_rows(const film::Rows& rows);
   void save(const RenderPosition& position, const film::Film& film);
-  // Why the file is not what it should be; "" when it is.
+  // The reason why the file is not valid; "" when it is.
   const std::string& failure() const { return failure_; }
   // True if there is a file to resume from, if only an older one.
   bool on_disk() const { return saved_ || resumes(); }

@@ -14,8 +14,8 @@ void sample_corners(Scene& scene);
 // The corners of some pixels, as a part of that picture.
 Rect corners_of(const Rect& pixels);
 
-// Rows of corners to rows of pixels, one fewer: the mean colours, and channels as ChannelType::of_corners
-// says.
+// Rows of corners to rows of pixels, one fewer: the mean colours, and channels by
+// ChannelType::of_corners.
 class CornerMean {
  public:
   // The rows of pixels that are whole with the next rows of corners, from the top down; images without height

@@ -18,7 +18,7 @@ class Legibility {
 
   // Rows of the picture, 3 channels, linear.
   void see(const image::Image& rows);
-  // One sentence where more than half of what is not background is beyond 1, or where all but a thousandth
+  // One sentence where more than half of the foreground is beyond 1, or where all but a thousandth
   // is background; else "".
   std::string warning() const;
 

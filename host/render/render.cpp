@@ -316,7 +316,7 @@ class Driver {
   const RenderOptions& options_;
   const RowSink& sink_;
   const ShardTiles* const tiles_;
-  const Rect crop_;       // what is rendered, or the stack of the tiles
+  const Rect crop_;       // the rendered area, or the stack of the tiles
   const int64_t pixels_;  // of it
   const int samples_;
   const film::Channels channels_;
@@ -358,7 +358,7 @@ bool trace_first_hits(executors::Executor& executor, const Rect& crop, const Fir
                     std::min(rows_of(most_traced, crop.width), crop.height - row)};
     hits.assign(size_t(tile.pixels()), {});
     executor.first_hits(tile, hits);
-    // An interrupted executor leaves out what it likes.
+    // An interrupted executor may leave out any pixel.
     if (interrupted()) return false;
     sink(row, hits);
     row += tile.height;

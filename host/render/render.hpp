@@ -81,9 +81,9 @@ using RowSink = std::function<void(const film::Rows&)>;
 // bands `sink` may have got some, and samples_done is 0.
 //
 // A checkpoint is written every now and then, when interrupted, before an error of the executor goes on to
-// the caller, and when the last sample is taken: from then on it says that nothing but handing on is left.
-// What keeps it from being written is no reason to lose the render (Checkpoint::failure). Error (file_io)
-// when the checkpoint to resume from is damaged.
+// the caller, and when the last sample is taken. From then on it states that nothing but handing on is left.
+// A failure to write it is no reason to lose the render (Checkpoint::failure). Error (file_io) when the
+// checkpoint to resume from is damaged.
 RenderTotals render_rows(const Scene& scene, executors::Executor& executor, const RenderOptions& options,
                          const RowSink& sink);
 

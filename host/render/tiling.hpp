@@ -21,13 +21,13 @@ struct Shard {
 constexpr int most_shards = 1 << 20;
 
 // The tiles of a picture, from its top left on, row by row. They are a block of noise high and whole blocks
-// wide, but at the right and at the bottom of the picture: what is measured of a block is so one shard's.
+// wide, but at the right and at the bottom of the picture: so each measurement of a block is one shard's.
 // A tile is a dispatch. The more pixels a shard has, the more tiles it has, and the larger these are; but no
 // more than `tiles_wanted`, and no narrower than `least_width`.
 //
 // Shards get one tile each of the first `shards` tiles, one each of the next, and so on, each time in an
-// order drawn anew: so everyone has, to within one, as many, and they lie all over the picture, whatever is
-// dear in it. The orders are drawn from the number of the iteration alone, and are the same everywhere.
+// order drawn anew. So everyone has, to within one, as many, and they lie all over the picture, wherever it
+// is costly. The orders are drawn from the number of the iteration alone, and are the same everywhere.
 class Tiling {
  public:
   // `width`, `height`, `shards` ≥ 1.
@@ -52,7 +52,7 @@ class Tiling {
 };
 
 // The tiles of one shard, stacked: one below the other, each with the height of a whole one. That is the
-// picture which its machine renders; what of it is to the right of a narrow tile or below a low one is no
+// picture which its machine renders; any of it to the right of a narrow tile or below a low one is no
 // pixel, and gets no sample.
 class ShardTiles {
  public:

@@ -7,7 +7,7 @@
 namespace eyeray::engine::rounding {
 
 // The color that a texture gives a hit: its color there, or the least or the greatest of each channel within
-// the distance that rays may be shifted. With these two, rays leave as the mathematics says.
+// the distance that rays may be shifted. With these two, rays leave as in the mathematics.
 enum class TextureChoice { at_hit, darkest, brightest };
 
 // By default nothing is displaced. A ray starts at least `share` above the surface that it leaves
@@ -15,7 +15,7 @@ enum class TextureChoice { at_hit, darkest, brightest };
 // near to a surface's plane may lie on either side of it.
 struct Displacement {
   double share = 0;           // above, of |n|·|position − eye|; shifted, of |position − eye|
-  bool along_normal = false;  // they always leave along it; and what a ray runs along shows its other side
+  bool along_normal = false;  // they always leave along it; and a surface along a ray shows its other side
   uint32_t seed = 0;          // of the shifts
   TextureChoice textures = TextureChoice::at_hit;
   bool coincident = false;   // the farther of two surfaces that float32 cannot distinguish is hit

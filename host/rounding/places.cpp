@@ -36,7 +36,7 @@ Places places_around(double rounding, double surfaces, int angles, bool between)
       for (double radius = radius_growth * least; radius < radius_step; radius *= radius_growth)
         add_ring(radius * reach, angles / 2, 0.25);
   }
-  // Each ring is turned a little, so that no direction is looked at twice.
+  // Each ring is turned a little, so that no direction is tried twice.
   for (int ring = 1; ring <= rings; ++ring)
     add_ring(ring * radius_step * reach, angles, (ring - 1.0) / rings);
   return places;

@@ -5,7 +5,7 @@ namespace eyeray::engine::rounding {
 std::vector<Displacement> ways_of_sample(const Sampling& sampling, Chance chance, double pivot, bool moved,
                                          uint32_t seed) {
   constexpr double share = float32_share;
-  // From the farther surface rays would strike the nearer one, did they start as the mathematics says.
+  // From the farther surface rays would strike the nearer one, did they start as in the mathematics.
   const Displacement plain = chance == Chance::coincident
                                  ? Displacement{.share = share, .along_normal = true, .seed = seed}
                                  : Displacement{};
@@ -16,10 +16,10 @@ std::vector<Displacement> ways_of_sample(const Sampling& sampling, Chance chance
       {.share = share, .seed = seed, .room = float32_room},
   };
   if (sampling.random_paths) {
-    // Weights ask how far off a ray starts, where a light or the surface's own curve is as near as that: so
-    // twice as far, and eight times, as a bilinear patch has it (docs/numerics.md). Long paths bring other
-    // light for less than that: so an eighth as well. And directions are rounded as numbers are that they
-    // are drawn by.
+    // Weights depend on how far off a ray starts, where a light or the surface's own curve is as near as
+    // that. So twice as far, and eight times, as a bilinear patch has it (docs/numerics.md). Long paths bring
+    // other light for less than that: so an eighth as well. And directions are rounded as numbers are that
+    // they are drawn by.
     for (const double times : {8.0, 2.0, 0.125}) ways.push_back({.share = times * share, .seed = seed});
     ways.push_back({.share = share, .seed = seed, .numbers = seed | 1});
   }

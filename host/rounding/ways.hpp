@@ -33,7 +33,7 @@ std::array<Displacement, path_ways> ways_of_path(double pivot, uint32_t seed);
 
 // The ways of a photon: those of float32, times one of `photon_scales`. Surfaces that are curved, or hit at a
 // grazing angle, multiply float32's rounding, one after the other. The widest is 10⁻⁴ of the distance to the
-// eye: the distance of gate B's places in a picture 100 pixels wide.
+// eye: the distance of gate B's positions in a picture 100 pixels wide.
 inline constexpr double photon_scales[] = {1, 8, 64};
 std::array<Displacement, 6> ways_of_photon(double scale, uint32_t seed);
 

@@ -1,5 +1,5 @@
-// A surface's BSDF at a point, as its material says it: which lobes there are, and how strong. What they are
-// is in reference/bsdf.hpp, and in shaders/bsdf.
+// A surface's BSDF at a point, as its material sets it: which lobes there are, and how strong. Their
+// definitions are in reference/bsdf.hpp, and in shaders/bsdf.
 #pragma once
 
 #include "host/optics/fresnel.hpp"
@@ -21,12 +21,12 @@ struct Bsdf {
   double sheen_roughness = 1;
   Vec3 thin{0};         // throughput of a rough pane, under `layer`
   Vec3 glass{0};        // throughput of rough glass, before Fresnel, …
-  Vec3 glass_color{1};  // … and of what of that it refracts
+  Vec3 glass_color{1};  // … and of the refracted part of that
   double ior_from = 1;  // of the media on either side of that
   double ior_to = 1;
   Vec3 mirror{0};       // throughput of the mirrored direction, …
   Vec3 transmitted{0};  // … of the refracted one, …
-  Vec3 passed{0};       // … and of what goes straight on, through a pane, under `layer`
+  Vec3 passed{0};       // … and of light that goes straight on, through a pane, under `layer`
 };
 
 }  // namespace eyeray::engine

@@ -42,7 +42,7 @@ struct PerspectiveCamera {
 };
 
 struct OrthographicCamera {
-  double size = 1;  // half the width of what is seen
+  double size = 1;  // half the width of the view
 };
 
 struct FisheyeCamera {
@@ -58,7 +58,7 @@ struct CylindricalCamera {
   double fov_degrees = 180;  // that the picture's width spans
 };
 
-// monostate: what other programs have no word for.
+// monostate: those that other programs have no word for.
 using CameraForm = std::variant<std::monostate, PerspectiveCamera, OrthographicCamera, FisheyeCamera,
                                 PanoramaCamera, CylindricalCamera>;
 
@@ -69,7 +69,7 @@ struct CameraFact {
   std::vector<std::pair<std::string_view, double>> numbers;
 };
 
-// The kind of a camera: which ray passes a place in the picture. `size` is the picture's, in pixels.
+// The kind of a camera: which ray passes a point in the picture. `size` is the picture's, in pixels.
 class Projection {
  public:
   virtual ~Projection() = default;
@@ -79,7 +79,7 @@ class Projection {
   // The lengths of the shaders' `right`, `up` and `forward` as multiples of the axes. X·right + Y·up, with X
   // and Y in [−1, 1], spans the picture.
   virtual Vec3 scale(const Vec2& size) const = 0;
-  // The ray, its direction unit, at `place`: from the picture's middle to the right and up, in half widths;
+  // The ray, its direction unit, at `place`: from the picture's middle to the right and up, in half widths,
   // and from `lens`, to the right and up of the eye, where rays start on an aperture. The reference's half:
   // written from the mathematics, not from `scale` and the shader.
   virtual Ray ray(const CameraAxes& camera, const Vec2& place, const Vec2& lens, const Vec2& size) const = 0;

@@ -1,4 +1,4 @@
-// Surfaces on which paths choose places to be lit from.
+// Surfaces on which paths choose points to be lit from.
 #pragma once
 
 #include <optional>
@@ -23,7 +23,7 @@ struct CylinderForm {  // x² + z² = 1 from y = −1 to 1, and, unless it is op
 using EmitterForm =
     std::variant<SphereForm, DiskForm, TriangleForm, ParallelogramForm, BoxForm, EllipsoidForm, CylinderForm>;
 
-// None of a shape on which no place is chosen.
+// None of a shape on which no point is chosen.
 std::optional<EmitterForm> emitter_form(const ShapeForm& form);
 EmitterForm mapped(const EmitterForm& form, const Affine& map);
 

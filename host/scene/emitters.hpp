@@ -1,4 +1,4 @@
-// The surfaces that light a scene, for integrators that choose places on them.
+// The surfaces that light a scene, for integrators that choose points on them.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ struct Emitter {
   double side =
       0;  // 1 where light goes only the way that normals point, −1 where it goes the other way alone
   int material = 0;     // index in Scene::materials
-  bool varies = false;  // the radiance is what the material says, by uv, place and colour
+  bool varies = false;  // the radiance is the material's, by uv, position and colour
   std::shared_ptr<const EmitterCorners> corners = nullptr;  // of a triangle that varies
 };
 

@@ -12,7 +12,7 @@
 namespace eyeray::engine {
 
 // Between the centres of four texels lies a cell: height + 1 rows of them from the upper pole to the lower,
-// width columns the last of which closes the circle. In a cell the density of what is chosen is the same by
+// width columns the last of which closes the circle. In a cell the density of directions is the same by
 // solid angle, in proportion to the light at its corners, so that it is nowhere 0 where there is light.
 struct EnvironmentCells {
   std::vector<uint32_t> row_ends;     // as whole_shares() has them

@@ -27,7 +27,7 @@ struct GroupInstance {
   size_t shapes_before = 0;
   size_t instances_before = 0;
   SourcePosition position;
-  NameRef name = {};  // in Scene::names; goes before those of what is in it
+  NameRef name = {};  // in Scene::names; goes before those of its members
 };
 
 // `meshes`: the scene's.

@@ -1,5 +1,5 @@
-// The integrators that a scene may name: the rows of shaders/integrators/rows.h. What they compute is
-// said by reference/integrator.hpp, in float64.
+// The integrators that a scene may name: the rows of shaders/integrators/rows.h. Their definitions are in
+// reference/integrator.hpp, in float64.
 #pragma once
 
 #include <cstdint>

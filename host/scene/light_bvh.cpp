@@ -132,7 +132,7 @@ class Builder {
     return bounds;
   }
 
-  // Sorts the range so that what is before the place is one child's.
+  // Sorts the range so that lights before the result are one child's.
   size_t place_of_split(size_t begin, size_t end, int level) {
     if (end - begin == 2) return begin + 1;
     // The levels that are left must suffice for the larger half.

@@ -1,7 +1,7 @@
 // A BVH over lights by which one is chosen, the likelier the more it may send to a point. Conty Estevez,
 // Kulla: Importance Sampling of Many Lights with Adaptive Tree Splitting, HPG 2018; here without splitting.
-// What it holds is made once, in a fixed order; how important a node is to a point, shaders and reference say
-// each for itself.
+// Its data are made once, in a fixed order. Shaders and reference compute a node's importance to a point each
+// for itself.
 #pragma once
 
 #include <array>

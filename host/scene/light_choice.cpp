@@ -18,7 +18,7 @@ namespace {
 
 // The share of the total weight that is shared evenly.
 constexpr double even_share = 1.0 / 16;
-// With fewer lights, asking a BVH costs more than it gains.
+// With fewer lights, sampling a BVH costs more than it gains.
 constexpr size_t least_for_bvh = 64;
 
 // The radius of a sphere around all that has an end, and the eye.

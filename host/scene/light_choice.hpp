@@ -11,7 +11,7 @@ namespace eyeray::engine {
 struct LightChoice {
   std::vector<Emitter> emitters;  // in the order of their primitives
   // Light i is chosen by the numbers below ends[i] of 2²⁴, and not below those before it. Each has one at
-  // least, but for those in `bvh`, which have none; what is left of 2²⁴ chooses that.
+  // least, but for those in `bvh`, which have none; the rest of 2²⁴ chooses that.
   std::vector<uint32_t> ends;
   LightBvh bvh = {};
 

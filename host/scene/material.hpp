@@ -34,8 +34,8 @@ struct Scattering {
   Vec3 specular{0.0};  // × light · (highlight lobe), see HighlightModel
   double shininess = 1.0;
   bool blinn = false;     // lobe (n·h)^shininess instead of Phong's (r·l)^shininess
-  Vec3 reflected{0.0};    // × what the mirror direction sees
-  Vec3 transmitted{0.0};  // × what the refracted direction sees; 0 under total internal reflection
+  Vec3 reflected{0.0};    // × light from the mirror direction
+  Vec3 transmitted{0.0};  // × light from the refracted direction; 0 under total internal reflection
   Vec3 emitted{0.0};      // radiance that the point emits
 };
 
@@ -45,7 +45,7 @@ struct ScatteringContext {
   double cos_view;  // cosine between the shading normal and the direction back along the ray, in [0, 1]
   double ior_from;  // of the medium the ray comes through
   double ior_to;    // of the medium behind the surface
-  Vec3 color{1.0};  // of a mesh's vertices: what the colours that scatter are multiplied by
+  Vec3 color{1.0};  // of a mesh's vertices: the factor of the colours that scatter
   Vec3 coat_normal{0, 0, 1};  // in the surface's own frame, whose z is the shading normal
 };
 
@@ -71,7 +71,7 @@ struct NormalMap {
 };
 
 // A height field: of white, `height` in the world. Heights are compared `width` to both sides, in uv, or for
-// what is in_space() in the world.
+// a texture in_space() in the world.
 struct BumpMap {
   TexturePtr texture;
   double height;
@@ -83,7 +83,7 @@ class Material {
   virtual ~Material() = default;
 
   virtual Scattering scattering(const ScatteringContext& context) const = 0;
-  // For paths; `scattering`: what that said. By default these terms, none of them above 1.
+  // For paths; `scattering`: its result. By default these terms, none of them above 1.
   virtual Bsdf bsdf(const ScatteringContext& context, const Scattering& scattering) const;
   // The colour that `raycast` shades.
   virtual Vec3 base_color(const TextureContext& place) const = 0;
@@ -92,7 +92,7 @@ class Material {
   virtual std::optional<Vec3> constant_emission() const { return std::nullopt; }
   // Set for materials that fill their shape and let rays through.
   virtual std::optional<Medium> medium() const { return std::nullopt; }
-  // True if paths take it for a pane, which has no inside, whatever `medium` is.
+  // True if paths take it for a pane, which has no inside, for any `medium`.
   virtual bool thin() const { return false; }
   // The share of a shadow ray's light that passes a shape of this material, however often it crosses it.
   virtual double shadow_transmittance() const { return 0.0; }

@@ -14,10 +14,10 @@
 namespace eyeray::engine {
 
 // Triangles that share their vertices, in object space. The code that makes a mesh must ensure that indices
-// are in range, that every value is finite, that no triangle is without area, and that the normal at each
-// corner is on the side of its triangle's own, which is where the corners run counter-clockwise.
+// are in range, every value is finite, and no triangle is without area. It must also ensure that the normal
+// at each corner is on the side of its triangle's own, which is where the corners run counter-clockwise.
 struct Mesh {
-  std::string name;  // for messages: the file, and what the file calls it
+  std::string name;  // for messages: the file, and its name there
   std::vector<Vec3> positions;
   std::vector<std::array<uint32_t, 3>> triangles;  // corners as indices of vertices
   std::vector<Vec3> normals;                       // unit shading normals, one a vertex; empty: flat

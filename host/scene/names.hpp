@@ -16,7 +16,7 @@ class Names {
   // The name of an object that has no name and stands in no group that has one.
   static constexpr int32_t none = -1;
 
-  // The next object called `text` in `group`, which is none or what add returned. `number`: of a batch that
+  // The next object called `text` in `group`, which is none or a result of add. `number`: of a batch that
   // shares the name, from 1; 0: it is alone.
   int32_t add(std::string_view text, uint32_t number, int32_t group);
 

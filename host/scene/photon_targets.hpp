@@ -21,7 +21,7 @@ inline constexpr size_t most_photon_targets = 16;
 
 // Spheres around all shapes and meshes whose material has sharp lobes alone: glass, mirrors, smooth metal,
 // panes. Where there are more than `most_photon_targets`, those that are near to each other share one. None
-// of what has no end, or is wider than half of `reach`, the scene's radius: photons find that by themselves.
+// of endless ones, or ones wider than half of `reach`, the scene's radius: photons find those by themselves.
 std::vector<PhotonTarget> photon_targets(const Scene& scene, double reach);
 
 // True if the material may store photons. A roughness from a texture may have any value.

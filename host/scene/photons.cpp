@@ -22,7 +22,7 @@ double pixel_at(const Scene& scene, double distance) {
   return glm::length(at({2 / size.x, 0}) - at({0, 0}));
 }
 
-// The sphere around the box; not a rounding less than what it is around.
+// The sphere around the box; not a rounding less than the box's extent.
 void put_around(const Bounds& box, PhotonSettings& settings) {
   settings.center = (box.min + box.max) / 2.0;
   settings.reach = glm::length(box.max - box.min) / 2 * (1 + 1e-5);

@@ -1,6 +1,6 @@
-// The primitive indices of a scene, which are the same in every executor and decide exact ties: first its
-// shapes, those of groups where the group stands; then the triangles of its meshes in the same manner. They
-// do not depend on which groups are instanced.
+// The primitive indices of a scene, which are the same in every executor and decide exact ties. First come
+// its shapes, those of groups where the group stands; then the triangles of its meshes in the same manner.
+// They do not depend on which groups are instanced.
 #pragma once
 
 #include <cstddef>
@@ -29,8 +29,8 @@ class PrimitiveIds {
 
   uint64_t count() const { return count_; }
 
-  // What a primitive is: a shape, or a triangle of an instance; the scene's own, or of the group that a group
-  // instance shows.
+  // The kind of a primitive: a shape, or a triangle of an instance; the scene's own, or of the group that a
+  // group instance shows.
   struct Location {
     int group_instance = -1;  // −1: the scene's own
     bool is_shape = true;

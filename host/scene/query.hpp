@@ -1,4 +1,4 @@
-// Rays that are asked about alone, without a picture.
+// Rays that are traced alone, without a picture.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ enum class QueryKind {
   any,  // whether anything opaque, or enough that is not, is hit: t is 0 then, else infinity; no primitive
 };
 
-// Rays that are asked about together.
+// Rays that are traced together.
 struct QueryBatch {
   std::span<const Query> rays;
   QueryKind kind = QueryKind::nearest;

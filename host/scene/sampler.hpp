@@ -1,4 +1,4 @@
-// Where in a pixel its samples may lie: the rows of shaders/samplers/rows.h. reference/sampler.hpp has
+// The positions of samples in a pixel: the rows of shaders/samplers/rows.h. reference/sampler.hpp has
 // them in float64.
 #pragma once
 
@@ -22,7 +22,7 @@ inline constexpr std::string_view sample_patterns[] = {
 #undef X
 };
 
-// How many samples a pixel may have.
+// The numbers of samples that a pixel may have.
 enum class SampleCount { square, any };
 
 constexpr SampleCount sample_count_of(SamplePattern pattern) {

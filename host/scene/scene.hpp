@@ -1,4 +1,4 @@
-// The scene: checked float64 values, as the file says them.
+// The scene: checked float64 values, as in the file.
 #pragma once
 
 #include <cstdint>
@@ -20,15 +20,15 @@
 
 namespace eyeray::engine {
 
-// The rows of registries (scene/sampler.hpp, scene/integrator.hpp). Only their numbers stand here: what only
-// sees a scene is not compiled anew for another row.
+// The rows of registries (scene/sampler.hpp, scene/integrator.hpp). Only their numbers stand here: code that
+// only sees a scene is not compiled anew for another row.
 enum class SamplePattern : uint32_t;
 enum class IntegratorType : uint32_t;
 
 class EnvironmentMap;  // scene/environment.hpp
 struct Scene;
 
-// What of the picture around its middle a pixel shows, each sample for as much: samples are drawn from it.
+// The part of the picture around its middle that a pixel shows, evenly weighted: samples are drawn from it.
 enum class PixelFilter : uint32_t { box, gaussian, blackman_harris };
 
 struct ImageSettings {
@@ -44,7 +44,7 @@ struct ImageSettings {
   int64_t all_samples() const { return int64_t{width} * height * samples; }
 };
 
-// How integrators that ask one light at each vertex of a path choose it; by itself, by how many there are.
+// The choice of one light at each vertex of a path, by integrators that do so; automatic: by their number.
 enum class LightSampler { automatic, uniform, power, bvh };
 enum class TriangleMethod { woop, moller_trumbore };
 enum class GroupStorage { automatic, instanced, flat };
@@ -58,8 +58,8 @@ struct RenderSettings {
   LightSampler light_sampler = LightSampler::automatic;
   GroupStorage groups = GroupStorage::automatic;  // which groups are instanced
   int photons = 1 << 17;                          // of `sppm`, sent out for each sample
-  double photon_radius = 0;  // within which the first sample gathers them; 0: as scene/photons.hpp says
-  Vec3 background{0.0};      // what a ray that hits nothing sees
+  double photon_radius = 0;  // within which the first sample gathers them; 0: see scene/photons.hpp
+  Vec3 background{0.0};      // the light of a ray that hits nothing
   Vec3 ambient{0.0};         // light that reaches every point from everywhere
 };
 
@@ -68,7 +68,7 @@ struct VerifySettings {
   double max_explained = 0.005;  // the share of pixels that may differ for a reason
 };
 
-// Where a scene stands in its animation, of which only this moment is in it; frames are counted from 0.
+// The moment of a scene in its animation: only this moment is in it; frames are counted from 0.
 struct Animation {
   double frame = 0;               // shown
   double frames_per_second = 24;  // of a video
@@ -88,7 +88,7 @@ bool fills(const Material& material, IntegratorType integrator);
 
 struct Scene {
   std::filesystem::path file;
-  std::vector<std::filesystem::path> files;  // every file read, the scene first: what a watcher watches
+  std::vector<std::filesystem::path> files;  // every file read, the scene first: for a watcher
 
   ImageSettings image;
   Camera camera;
@@ -110,7 +110,7 @@ struct Scene {
   std::vector<GroupInstance> group_instances;
   Names names;  // of shapes and instances
 
-  // How many primitives there are for rays; scene/primitive_ids.hpp says which is which.
+  // The number of primitives for rays; scene/primitive_ids.hpp has their order.
   uint64_t primitive_count() const;
 
   std::vector<Diagnostic> warnings;
@@ -124,7 +124,7 @@ void for_each_shape(const Scene& scene, const Visit& visit) {
     for (const auto& shape : group.shapes) visit(*shape);
 }
 
-// The same, with what CSG objects are made of in their place.
+// The same, with the parts of CSG objects in their place.
 template <typename Visit>
 void for_each_leaf(const Scene& scene, const Visit& visit) {
   for_each_shape(scene, [&](const Shape& shape) { for_each_leaf(shape, visit); });

@@ -1,4 +1,4 @@
-// What every shape answers, in float64. A shape is one .cpp in host/shapes (manual page, parse, bounds,
+// The interface of every shape, in float64. A shape is one .cpp in host/shapes (manual page, parse, bounds,
 // float64 intersection, pack), one .glsl in shaders/shapes, one scene in scenes/shapes and one row in
 // shapes/rows.h.
 #pragma once
@@ -26,7 +26,7 @@ namespace records {
 class Packer;  // records/packer.hpp
 }
 
-// Where a ray hits a shape: at P(t), with the shape's own two parameters there (barycentrics of a triangle,
+// A ray's hit of a shape: at P(t), with the shape's own two parameters there (barycentrics of a triangle,
 // …).
 struct Intersection {
   double t = 0;
@@ -48,7 +48,7 @@ struct SurfacePoint {
   Vec3 normal_geometric;  // unit; outward for closed shapes, by counter-clockwise winding for open ones
   Vec3 normal;            // unit shading normal; on the other side than normal_geometric it does not count
   Vec2 uv;
-  // How the position moves with u and with v; of a surface whose uv are none, 0.
+  // The derivatives of the position by u and by v; 0 for a surface without uv.
   Vec3 along_u{0.0}, along_v{0.0};
   Vec4 tangent{0.0};  // of a mesh that has its own, as Mesh::tangents; not unit, w = 0 of any other
   // The same of a mesh's second texture coordinates, which images may read.
@@ -59,9 +59,9 @@ struct SurfacePoint {
   };
   std::optional<SecondUv> second = {};
   Vec3 color{1.0};        // of a mesh's vertices
-  Vec3 coat_normal{0.0};  // unit, as normal; of a clear coat, once its material has said it
-  // How far a triangle with normals at its corners lifts its scattered rays along its interpolated normal, in
-  // front and behind (docs/numerics.md); −1 of any other surface.
+  Vec3 coat_normal{0.0};  // unit, as normal; of a clear coat, once its material has set it
+  // The distance by which a triangle with normals at its corners lifts its scattered rays along its
+  // interpolated normal, in front and behind (docs/numerics.md); −1 of any other surface.
   Vec2 lift{-1.0};
   // A triangle's edges, from each corner to the next, and the weights of its corners; 0 of any other surface.
   std::array<Vec3, 3> edges{};
@@ -71,7 +71,7 @@ struct SurfacePoint {
   Vec3 normal_side{0.0};
 };
 
-// Its normals, and what belongs to them, towards the other side.
+// Its normals, and the vectors with them, towards the other side.
 inline void turn_over(SurfacePoint& point) {
   for (Vec3* normal : {&point.normal_geometric, &point.normal, &point.coat_normal, &point.normal_side})
     *normal = -*normal;
@@ -146,7 +146,7 @@ struct BezierForm {  // rows of four control points
   std::array<Vec3, 16> net;
 };
 class Shape;
-// What is within any of `operands`, or where `all` within all of them, and within none of `removed`.
+// The points within any of `operands`, or where `all` within all of them, and within none of `removed`.
 struct CsgForm {
   bool all;
   std::vector<const Shape*> operands;
@@ -160,7 +160,7 @@ using ShapeForm =
 struct FormulaUse {
   std::shared_ptr<const formula::Formula> formula;
   Bounds box;
-  double lipschitz;       // as steep as it is said to be; 0 where nothing is said
+  double lipschitz;       // as steep as it is stated to be; 0 where nothing is stated
   bool declared = false;  // by the user, who may be wrong
 };
 
@@ -179,19 +179,19 @@ class Shape {
   // The spans of the ray's whole line, t < 0 included, that lie within a closed shape: in order, none touches
   // another. Beyond an end that is `iteration_limit` no span is known.
   virtual std::vector<Span> spans(const Ray&) const { return {}; }
-  // For exporters and for comparing with other renderers; monostate for what they do not have.
+  // For exporters and for comparing with other renderers; monostate for shapes they lack.
   virtual ShapeForm form() const { return {}; }
   // The formula of a shape that is made of one; else null.
   virtual const FormulaUse* formula_use() const { return nullptr; }
   // True if each of its crossings weakens a shadow ray by √(the material's share), as a mesh's triangles do.
   // That holds for open shapes that may be part of a closed surface. Others weaken it once in all.
   virtual bool counts_crossings() const { return false; }
-  // How many times thicker it is than the thinnest of its kind that can be computed, if a map could make it
+  // Its thickness as a multiple of the thinnest of its kind that can be computed, if a map could make it
   // too thin.
   virtual double thickness_margin() const { return std::numeric_limits<double>::infinity(); }
-  // How often a line crosses it at most, as far as that is known. Rounding may find more.
+  // The most times that a line crosses it, as far as that is known. Rounding may find more.
   virtual int most_crossings() const { return 1 << 20; }
-  // Appends the shape's one Primitive (and what it refers to), or several, each with its bounds.
+  // Appends the shape's one Primitive (and the data it refers to), or several, each with its bounds.
   virtual void pack(records::Packer& packer) const = 0;
 
   int material = 0;                 // index in Scene::materials

@@ -1,4 +1,4 @@
-// What every texture answers, in float64: a colour that may vary over a surface. A texture is one .cpp in
+// The interface of every texture, in float64: a colour that may vary over a surface. A texture is one .cpp in
 // host/textures, one .glsl in shaders/textures and one row in textures/rows.h.
 #pragma once
 
@@ -14,7 +14,7 @@ namespace records {
 class Packer;  // records/packer.hpp
 }
 
-// Where a texture is asked: on the surface, and in the world.
+// The point of a texture's lookup: on the surface, and in the world.
 struct TextureContext {
   TextureContext(const Vec2& at_uv = Vec2(0.0), const Vec3& at_position = Vec3(0.0))
       : TextureContext(at_uv, at_uv, at_position) {}
@@ -39,13 +39,13 @@ class Texture {
   virtual std::optional<Vec3> constant() const { return std::nullopt; }
   // The texture's value as an alpha.
   virtual double alpha_at(const TextureContext& place) const { return at(place).x; }
-  // The same with the codes of pictures as they are, for what is no colour; null: there are none.
+  // The same with the codes of pictures as they are, for data that is no colour; null: there are none.
   virtual TexturePtr as_data() const { return nullptr; }
-  // How far apart to look for a slope: in uv, or for what is in_space() in the world.
+  // The distance for measuring a slope: in uv, or for a texture in_space() in the world.
   virtual double detail() const { return 0.01; }
-  // True if it asks for the place in the world, which nothing knows where cutouts are looked at.
+  // True if it asks for the position in the world, which nothing knows where cutouts are sampled.
   virtual bool in_space() const { return false; }
-  // Which texture coordinates of a mesh it reads.
+  // True if it reads the second texture coordinates of a mesh.
   virtual bool reads_second_uv() const { return false; }
   // The index of the texture's record, which is added unless there is an equal one.
   virtual uint32_t pack(records::Packer& packer) const = 0;

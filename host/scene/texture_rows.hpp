@@ -1,4 +1,4 @@
-// The rows of shaders/textures/rows.h, for those who ask of no texture more than they say.
+// The rows of shaders/textures/rows.h, for callers who need no more of a texture than they hold.
 #pragma once
 
 #include <cstdint>

@@ -77,7 +77,7 @@ std::optional<Intersection> intersect_triangle(const Corners& corners, const Vec
     p[i] = {from_eye[x] - ray.d[x] / ray.d[z] * from_eye[z], from_eye[y] - ray.d[y] / ray.d[z] * from_eye[z]};
   }
 
-  // Ask on which side of each edge the ray passes.
+  // Compute on which side of each edge the ray passes.
   const double w0 = edge(p[1], p[2]);
   const double w1 = edge(p[2], p[0]);
   const double w2 = edge(p[0], p[1]);

@@ -1,4 +1,4 @@
-// One triangle in float64: what the triangle as a shape and the triangles of meshes have in common.
+// One triangle in float64: the part common to the triangle shape and the triangles of meshes.
 #pragma once
 
 #include <array>
@@ -45,7 +45,7 @@ void set_smooth(SurfacePoint& point, const Corners& corners, const Corners& norm
 void set_edges(SurfacePoint& point, const Corners& corners, const Intersection& hit);
 
 // Takes shading normals at corners along where a map takes the triangle. To interpolate in the object's space
-// and then map is to interpolate between what this makes of the corners' normals, for it is linear: they are
+// and then map is to interpolate between its results for the corners' normals, for it is linear. They are
 // unit no more, about 1 at most, and their lengths count. Under a similarity they stay unit.
 class CornerNormals {
  public:
@@ -61,7 +61,7 @@ class CornerNormals {
   Mat3 linear_;  // the map's inverse transpose, its largest component 1 unless it keeps angles
 };
 
-// Where the ray hits the triangle, edges included, with the weights of the second and third corner. `normal`
+// The ray's hit of the triangle, edges included, with the weights of the second and third corner. `normal`
 // is perpendicular to the triangle, of any length but 0. Watertight: a ray never passes between two triangles
 // that share an edge. Woop, Benthin and Wald: Watertight Ray/Triangle Intersection, JCGT 2(1), 2013.
 std::optional<Intersection> intersect_triangle(const Corners& corners, const Vec3& normal, const Ray& ray);

@@ -32,10 +32,10 @@ struct Request {
   std::optional<render::Shard> shard;  // render only this share of the picture
   CheckpointFile checkpoint;
   size_t band_bytes = render::RenderOptions().band_bytes;
-  std::string overrides;                                  // what was laid over the scene's file, as text
+  std::string overrides;                                  // the settings laid over the scene's file, as text
   std::function<void(const render::Progress&)> progress;  // first before kernels compile; may be empty
   std::function<void(const std::string&)>
-      warn;  // gets at once what would cost time if it came later; may be empty
+      warn;  // gets at once warnings that would cost time later; may be empty
 };
 
 // A scene that was read, with the doubts about its formulas among its warnings. InputError for formulas that

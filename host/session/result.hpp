@@ -17,7 +17,7 @@ namespace eyeray::engine::session {
 
 struct Result {
   render::RenderTotals totals;  // `interrupted` also where first hits were
-  Rect crop;                    // what was rendered
+  Rect crop;                    // the rendered area
   int samples = 0;              // a pixel, asked for
   int64_t pixels = 0;           // of the crop, or of the share
   std::optional<render::Shard> shard;

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 namespace eyeray::engine::session {
 namespace {
 
-// Throws where what is to be written would take the place of what was read, links followed.
+// Throws where an output would replace a file that was read, links followed.
 void spare_sources(const std::vector<fs::path>& outputs, const Scene& scene) {
   for (const fs::path& output : outputs) {
     for (const fs::path& source : scene.files) {
@@ -52,7 +52,7 @@ class Rendering {
   Result run() {
     output_.begin(plan_);
     take_samples();
-    // A picture in which every pixel has a sample is worth keeping, whatever becomes of the first hits.
+    // A picture in which every pixel has a sample is worth keeping, with or without the first hits.
     if (result_.totals.samples_done > 0) {
       const Saving saving;
       output_times_.measure("encode", [&] { output_.finish_color(); });

@@ -1,4 +1,4 @@
-// One way from a request to a picture, for every program: what checks it, renders it and says what to doubt.
+// One way from a request to a picture, for every program: code that checks it, renders it and adds doubts.
 #pragma once
 
 #include <memory>
@@ -21,8 +21,8 @@ class Session {
   executors::ExecutorOptions& options() { return options_; }
 
   // Renders `scene` to `output`. Error (bad_input) before anything is written where they do not go together
-  // (session::check), or where the output would take the place of a file that the scene reads; else as
-  // make_executor, render_rows, Checkpoint and the output's functions throw.
+  // (session::check), or where the output would replace a file that the scene reads. Else as make_executor,
+  // render_rows, Checkpoint and the output's functions throw.
   Result render(const Scene& scene, const Request& request, Output& output);
 
  private:

@@ -23,7 +23,7 @@ struct PictureQuality {
   std::string illegible = {};  // render::Legibility::warning()
 };
 
-// The quality that a render's totals show, of so many pixels; whoever traced first hits or looked at the
+// The quality that a render's totals show, of so many pixels; whoever traced first hits or examined the
 // picture adds to it. `noise`, `clamp`: RenderOptions.
 PictureQuality quality_of(const Scene& scene, double noise, double clamp, int64_t pixels,
                           const render::RenderTotals& totals);

@@ -119,7 +119,7 @@ class Search {
     return magnitude(high - low);
   }
 
-  // Cuts off, on either side along `axis`, what the ray cannot hit. Returns whether anything is left.
+  // Cuts off, on either side along `axis`, the part the ray cannot hit. True if anything is left.
   bool clip(Part& part, int axis) const {
     // Distances from a line through the ray, along which the other parameter grows.
     const BezierNet& p = part.net;
@@ -154,7 +154,7 @@ class Search {
     part.range = {from + size * within.from, from + size * within.to};
   }
 
-  // Into halves across the longer parameter, the one that begins nearer last, to be looked at first.
+  // Into halves across the longer parameter, the one that begins nearer last, to be examined first.
   void split(const Part& part) {
     const Vec2 size = part.range.to - part.range.from;
     const int axis = size.x >= size.y ? 0 : 1;

@@ -10,7 +10,7 @@ namespace eyeray::engine::shapes {
 namespace {
 
 constexpr double flat_enough = 0.3;
-constexpr double beyond_flat = 0.2;  // twice what the derivatives' variation moves a border by, at most
+constexpr double beyond_flat = 0.2;  // twice the most that the derivatives' variation moves a border by
 constexpr double beyond_others = 1;
 constexpr double speck = 2;  // BEZIER_SPECK
 constexpr double smallest = 0x1p-14;

@@ -22,7 +22,7 @@ BezierPoint bezier_point(const BezierNet& net, double u, double v);
 struct BezierRange {
   Vec2 from{0.0}, to{1.0};
 };
-// The control points of what the patch is there, as if it were a whole one.
+// The control points of that part of the patch, as if it were a whole one.
 BezierNet bezier_part(const BezierNet& net, const BezierRange& range);
 
 // The piece of a patch that a ray is tested against at a time (shaders/shapes/bezier.glsl). It is so flat
@@ -36,7 +36,7 @@ struct BezierPiece {
                   // speck, tested as a disk
   Bounds bounds;
 };
-// All of the patch. Flat enough where the derivatives vary by less than a third of what they are in the
+// All of the patch. Flat enough where the derivatives vary by less than a third of their values in the
 // middle, or else as small as 2⁻¹⁴ of it: at points where it has no normal. At most some thousands.
 std::vector<BezierPiece> bezier_pieces(const BezierNet& net);
 

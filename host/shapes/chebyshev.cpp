@@ -9,7 +9,7 @@ namespace {
 
 constexpr int degree = ChebyshevSeries::degree;
 
-// cos(π·i·k / degree), the values of the k-th polynomial at the places.
+// cos(π·i·k / degree), the values of the k-th polynomial at the points.
 const std::array<std::array<double, degree + 1>, degree + 1>& cosines() {
   static const auto table = [] {
     std::array<std::array<double, degree + 1>, degree + 1> all;

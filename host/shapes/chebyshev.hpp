@@ -1,4 +1,4 @@
-// A function on a segment as a Chebyshev series: what it comes to between places that were looked at.
+// A function on a segment as a Chebyshev series: its values between points that were sampled.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@ class ChebyshevSeries {
   static constexpr int degree = 16;
   static constexpr int points = degree + 1;
 
-  // The places in [−1, 1], from 1 down to −1, at which values are wanted.
+  // The points in [−1, 1], from 1 down to −1, at which values are wanted.
   static const std::array<double, points>& places();
 
   explicit ChebyshevSeries(const std::array<double, points>& values);

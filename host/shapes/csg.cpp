@@ -153,7 +153,7 @@ ShapeForm Csg::form() const {
   return form;
 }
 
-// Takes up what is of the same operation, and is no more than an only operand.
+// Takes up nodes of the same operation, and is no more than an only operand.
 Csg::Node Csg::node_of(bool all, std::vector<Node> operands) {
   Node node{false, 0, all, {}};
   for (Node& operand : operands) {
@@ -178,7 +178,7 @@ Csg::Node Csg::node_of_operand(size_t i, bool complement) const {
   return {true, parts_[i][0], false, {}};
 }
 
-// By De Morgan: complements stand at leaves, whose own flag says so.
+// By De Morgan: complements stand at leaves, as their own flag has it.
 Csg::Node Csg::node(bool complement) const {
   std::vector<Node> operands;
   for (size_t i = 0; i < operands_.size(); ++i) operands.push_back(node_of_operand(i, complement));

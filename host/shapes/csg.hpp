@@ -33,11 +33,11 @@ class Csg final : public Shape {
 
  private:
   // A shape that is no CSG object, of this one or of one in it; by kind in registry order, then as the
-  // operands stand. Its place is its number as a part.
+  // operands stand. Its position is its number as a part.
   struct Leaf {
     const Shape* shape;
     uint32_t kind;
-    bool removed;  // it counts by what is outside of it
+    bool removed;  // it counts by its outside
   };
   // A set of points by its leaves, without differences: their complements are leaves.
   struct Node {
@@ -65,7 +65,7 @@ class Csg final : public Shape {
     double radius;
   };
   std::vector<Ball> balls_;                   // around the operands, removed ones last
-  std::vector<std::vector<uint32_t>> parts_;  // by operand, removed ones last: what their parts are here
+  std::vector<std::vector<uint32_t>> parts_;  // by operand, removed ones last: their parts here
 };
 
 }  // namespace eyeray::engine::shapes

@@ -80,7 +80,7 @@ class SeriesSearch {
     for (const double v : values) size = std::max(size, std::fabs(v));
     largest_ = std::max(largest_, size);
 
-    // Nothing, or what the signs at the ends say, where the series knows.
+    // Nothing, or the answer by the signs at the ends, where the series knows.
     const ChebyshevSeries series(values);
     const bool ends = series.ends(1e-10 * size + 1e-14 * largest_);
     const bool narrow = (to - from) / unit_ < least_gap;

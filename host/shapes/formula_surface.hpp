@@ -15,14 +15,14 @@ class FormulaSurface {
   double value(const Vec3& q) const;
   // By differences of the fourth order, steps of 1e-4.
   Vec3 gradient(const Vec3& q) const;
-  // The first place from `start` to `end` at which the sign is another than at `start`. Between two places no
-  // more than what the values there clear of roots, by the Lipschitz constant, is left out; so none is passed
-  // by, but pairs of roots closer than 1e-8. Where there is no such constant, Chebyshev series take its
-  // place. So that the search ends for any function, so do its steps: then `iteration_limit`, and there is no
-  // change up to s.
+  // The first point from `start` to `end` at which the sign is another than at `start`. Between two points no
+  // more than the stretch that the values there clear of roots, by the Lipschitz constant, is left out; so
+  // none is passed by, but pairs of roots closer than 1e-8. Where there is no such constant, Chebyshev series
+  // take its place. The search ends for any function, as its steps do: then `iteration_limit`, and there is
+  // no change up to s.
   struct Change {
     double s;
-    double beyond;  // a place past it that has the other sign
+    double beyond;  // a point past it that has the other sign
     bool iteration_limit = false;
   };
   std::optional<Change> first_change(const Ray& ray, double start, double end) const;

@@ -145,7 +145,7 @@ class Implicit final : public ObjectShape {
   static constexpr int most_crossed = 1000;
   static constexpr size_t typical_steps = 96;  // of a ray in the shaders
 
-  // The surface's, and the cube's faces where they are within it; v says whether the ray comes in. Each is
+  // The surface's, and the cube's faces where they are within it; v shows if the ray comes in. Each is
   // sought from where f has the other sign for certain, so that they alternate. Where the search gives up, as
   // after too many, the ray is within from there on, or without.
   Crossings crossings(const Ray& ray) const override {
@@ -215,7 +215,7 @@ std::shared_ptr<const formula::Formula> formula_of(TableReader& table, double& l
   if (!has_one_source(table, {"code", "file", "ready"}, owner)) return nullptr;
   if (!table.has("ready")) return read_formula(table, owner, formula::FormulaKind::surface);
 
-  // Lay what is given over the defaults.
+  // Lay the given keys over the defaults.
   const ReadyFormula& ready = ready_formulas()[size_t(table.choice("ready"))];
   std::vector<formula::FormulaParameter> all = ready.parameters;
   for (formula::FormulaParameter& given : formula_parameters(table)) {

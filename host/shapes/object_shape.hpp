@@ -72,8 +72,8 @@ class ObjectShape : public Shape {
 // to the world's +x as can be; if the axis is parallel to that, to +z.
 Mat4 along_axis(const Vec3& from, const Vec3& to, double radius, double low, double high);
 
-// Says at `transform` if the shape is too large, small or far away to be computed with under this map to the
-// world. Returns whether it is.
+// Reports at `transform` if the shape is too large, small or far away to be computed with under this map to
+// the world. Returns whether it is.
 bool out_of_range(TableReader& table, const Mat4& to_world);
 
 // The derivative by u of a point that rotates about the y axis.

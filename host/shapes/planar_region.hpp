@@ -1,4 +1,4 @@
-// A piece of a plane with straight edges, perhaps with holes: what polygons and prisms are made of.
+// A piece of a plane with straight edges, perhaps with holes: for polygons and prisms.
 #pragma once
 
 #include <optional>
@@ -58,7 +58,7 @@ inline constexpr Key holes_key{.name = "holes",
                                .max = max_coordinate};
 
 // The region in a table with these keys; nothing, with one error at the vertex that is to blame, where it is
-// none: its outlines must be flat, have an area and at least 3 vertices each, no two at the same place; must
+// none. Its outlines must be flat, have an area and at least 3 vertices each, no two at the same point; must
 // neither cross nor touch themselves or each other; and holes must lie within the outer outline, beside each
 // other.
 std::optional<PlanarRegion> read_region(TableReader& table);

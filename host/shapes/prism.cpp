@@ -51,7 +51,7 @@ constexpr Key keys[] = {
 // Less than this share of the extrusion off the outline's plane is no height.
 constexpr double least_height = 1e-6;
 
-// Intersection::u: what was hit. Walls count on from there.
+// Intersection::u: the part hit. Walls count on from there.
 constexpr double bottom_cap = 0;
 constexpr double top_cap = 1;
 constexpr size_t first_wall = 2;

@@ -1,4 +1,4 @@
-// Formulas that come with eyeray; each goes the way of a user's own.
+// Formulas that come with eyeray; each goes the way of a user-defined one.
 #pragma once
 
 #include <span>

@@ -143,7 +143,7 @@ class RegionCheck {
                                      "{:.3g} long: move it, or use triangles",
                                      worst.vertex + 1, name(worst.outline), most, size_));
 
-    // Lay it flat for what follows.
+    // Lay it flat for the next steps.
     const auto [u, v] = plane_axes(normal_);
     for (const Outline* outline : outlines_) {
       flat_.emplace_back();

@@ -8,7 +8,7 @@ namespace eyeray::engine::shapes {
 
 namespace {
 
-// Intersection::u: what was hit.
+// Intersection::u: the part hit.
 constexpr double side = 0;
 constexpr double bottom_cap = 1;
 constexpr double top_cap = 2;
@@ -74,8 +74,8 @@ ObjectShape::Point Revolution::point(const Vec3& near, const Intersection& hit) 
     const double y = std::clamp(near.y, bottom, top);
     const double radius = profile_.radius(y);
     const Vec3 p(outward.x * radius, y, outward.y * radius);
-    // Half the gradient of x² + z² − square·y² − 2·linear·y, over the radius; at an apex or a tip, what it
-    // tends to.
+    // Half the gradient of x² + z² − square·y² − 2·linear·y, over the radius; at an apex or a tip, its
+    // limit.
     const double rise = square * y + linear;
     const double slope = radius > 0 ? rise / radius : std::copysign(std::sqrt(std::fabs(square)), rise);
     const Vec3 gradient = radius > 0 || square != 0 ? Vec3(outward.x, -slope, outward.y) : Vec3(0, -rise, 0);

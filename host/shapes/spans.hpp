@@ -1,5 +1,5 @@
-// Stretches of one ray's line, and what sets of points make of them: lists of Spans in order, none touching
-// another. Where two crossings are at the same t, what remains of them is that of the lower part.
+// Stretches of one ray's line, and their parts in sets of points: lists of Spans in order, none touching
+// another. Where two crossings are at the same t, the rest of them is that of the lower part.
 #pragma once
 
 #include <vector>

@@ -113,7 +113,7 @@ class Sphere final : public Shape {
     return Span{{near, 0, 0}, {far, 0, 0}};
   }
 
-  // The place on the map of a direction from the centre, in the sphere's own axes.
+  // The uv on the map of a direction from the centre, in the sphere's own axes.
   static Vec2 uv(const Vec3& n) {
     const double u = 0.5 + std::atan2(-n.z, n.x) / (2 * std::numbers::pi);
     const double v = std::atan2(std::hypot(n.x, n.z), -n.y) / std::numbers::pi;

@@ -95,8 +95,8 @@ class Superellipsoid final : public ObjectShape {
     return {s, norm(at) - 1, glm::dot(gradient(at), ray.d)};
   }
 
-  // A place within the shape, by cutting planes: between two places on either side of the least value the
-  // tangents say how low it can be.
+  // A point within the shape, by cutting planes: between two points on either side of the least value the
+  // tangents bound it from below.
   std::optional<double> inner(const Ray& ray, Sample low, Sample high) const {
     for (int i = 0; i < 400; ++i) {
       if (low.value < 0) return low.s;

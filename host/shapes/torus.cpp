@@ -78,7 +78,7 @@ class Torus final : public ObjectShape {
 
  private:
   // |p|² + 1 − minor² − 2ρ on a ray of unit speed, ρ = √(x² + z²): below 0 inside. Both |p|² and ρ are
-  // convex, so that what they rise by grows along the ray.
+  // convex, so that their rise grows along the ray.
   struct Sample {
     double s;
     double depth;
@@ -92,8 +92,8 @@ class Torus final : public ObjectShape {
     return {s, (round - 1) * (round - 1) + p.y * p.y - minor_ * minor_, 2 * glm::dot(p, ray.d), 2 * rise};
   }
 
-  // Adds the roots between two samples: halves the stretch until bounds of the rise say that there is none or
-  // one.
+  // Adds the roots between two samples: halves the stretch until bounds of the rise prove that there is none
+  // or one.
   void isolate(const Ray& ray, Sample low, Sample high, std::vector<double>& roots) const {
     const double least = low.square_rise - high.round_rise;
     const double greatest = high.square_rise - low.round_rise;

@@ -133,7 +133,7 @@ class Triangle final : public Shape {
                              records::to_bits(records::to_vec4(gradients.v))});
       }
     }
-    // Without −0, so that compiled-in triangles of one plane share what is computed of it.
+    // Without −0, so that compiled-in triangles of one plane share its computed values.
     const Vec3 normal = normal_ + 0.0;
     packer.add(records::Packer::primitive(
         shader::KIND_triangle, material, records::to_vec4(packer.relative(vertices_[0]), normal.x),

@@ -66,7 +66,7 @@ film::LegendTally legend_of(const Json& json) {
   return legend;
 }
 
-// The counts that are not 0, with their places: most counts are 0.
+// The counts that are not 0, with their indices: most counts are 0.
 Json to_json(const render::Brightness& brightness) {
   Json json = Json::array();
   for (size_t i = 0; i < brightness.counts().size(); ++i)

@@ -18,7 +18,7 @@
 //            m       PartTotals as JSON
 //            4       CRC-32 of m and of these m bytes
 //
-// No byte stands outside of a sum, and a sum detects every flipped bit, and every run of damage of up to 32.
+// No byte stands outside of a sum, and a sum detects every flipped bit and every run of damage of up to 32.
 //
 // Pixels are the picture's own, the means of their samples in float32: all samples of a pixel are taken by
 // one shard, in the order in which one machine takes them, so that nothing is left to be added up.

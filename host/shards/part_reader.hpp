@@ -30,7 +30,7 @@ class PartReader {
 
  private:
   struct Plane {
-    uint64_t end = 0;  // of what was read
+    uint64_t end = 0;  // of the bytes read
     size_t tile = 0;   // the next
     uint32_t checksum = 0;
   };

@@ -163,7 +163,7 @@ void PartSet::merge(const PlaneSink& sink) {
   std::vector<float> pixels;
   // OpenEXR's blocks of 16 rows are two of tiles, and there is one for each core.
   const int together = 2 * std::clamp(int(std::thread::hardware_concurrency()), 1, 8) * tiling.columns();
-  // One for each number of channels: memory that is new costs more than what is done with it.
+  // One for each number of channels: memory that is new costs more than the work with it.
   std::map<int, image::Image> images;
   for (int first = 0; first < tiling.count(); first += together) {
     const int end = std::min(first + together, tiling.count());

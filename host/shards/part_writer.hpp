@@ -19,7 +19,7 @@ class PartWriter {
 
   // The next rows of the shard's stack, of the picture (plane 0) or of an AOV (1 + its index).
   void write(size_t plane, const image::Image& rows);
-  // The next tile of such a plane, without what is beside or below it in the stack.
+  // The next tile of such a plane, without the pixels beside or below it in the stack.
   void write_tile(size_t plane, const image::Image& tile);
   // After the last rows of all planes.
   void finish(const PartTotals& totals);
@@ -27,7 +27,7 @@ class PartWriter {
  private:
   struct Plane {
     size_t channels = 0;
-    uint64_t end = 0;  // in the file, of what was written
+    uint64_t end = 0;  // in the file, of the bytes written
     int row = 0;       // the next of the stack
     uint32_t checksum = 0;
     std::string waiting;  // to be written

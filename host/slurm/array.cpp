@@ -21,7 +21,7 @@ namespace {
 
 // A scheduler that is busy answers late.
 constexpr double patience = 120;
-// Tasks of one array: what Slurm allows where a site has not said otherwise (MaxArraySize).
+// Tasks of one array: the most by Slurm's default (MaxArraySize).
 constexpr int most_tasks = 1000;
 
 // The output of a Slurm command, as lines. Error (file_io) with its message if it fails.
@@ -76,7 +76,7 @@ void find_missing_parts(const Array& array, ArrayState& state) {
 
 // The number of the job.
 std::string submit(const Array& array, const std::string& output, std::vector<std::string> last) {
-  // In --output a percent sign begins what Slurm puts in.
+  // In --output a percent sign begins one of Slurm's fields.
   std::string pattern;
   for (const char c : array.folder.string()) pattern += c == '%' ? std::string("%%") : std::string(1, c);
   std::vector<std::string> words{"sbatch", "--parsable",
@@ -124,7 +124,7 @@ void prepare(Array& array) {
 
 ArrayState state_of(const Array& array) {
   ArrayState state;
-  // First: what a job leaves that ends meanwhile is seen.
+  // First: output of a job that ends meanwhile is seen.
   state.queue = ask({"squeue", "--name=" + array.job_name, "--noheader", "--format=%i %T %M %R"});
   if (array.is_picture()) find_missing_parts(array, state);
   for (size_t i = 0; i < array.frames_of_shares.size(); ++i)

@@ -1,7 +1,7 @@
 // A picture as an array of Slurm's jobs, a share each, and a job that merges their parts.
 //
-// One folder, which the nodes share, has everything: scripts, parts, checkpoints, what jobs print. The folder
-// and what Slurm says of the jobs' name are how far the picture is: nothing else is kept.
+// One folder, which the nodes share, has everything: scripts, parts, checkpoints, jobs' output. The folder
+// and Slurm's answer on the jobs' name are the picture's progress: nothing else is kept.
 #pragma once
 
 #include <filesystem>
@@ -21,7 +21,7 @@ struct Array {
   int shards = 1;
   // The files of frames that each share writes; empty of a picture, whose shares write parts.
   std::vector<std::vector<std::filesystem::path>> frames_of_shares = {};
-  std::string contents;  // names what the scene's files and the program hold
+  std::string contents;  // names the contents of the scene's files and of the program
   std::string job_name =
       {};  // of all jobs: squeue, sacct and scancel find them by --name; prepare() gives it
 
@@ -33,9 +33,9 @@ struct Array {
 struct ArrayState {
   std::vector<int> missing;           // shares, counted from 1, that have not all of their files whole
   std::vector<std::string> faults;    // of parts that are there and of no use, a sentence each
-  std::vector<std::string> queue;     // what Slurm has of it: "17_[3-64] PENDING 0:00 (Priority)"
+  std::vector<std::string> queue;     // Slurm's lines on it: "17_[3-64] PENDING 0:00 (Priority)"
   std::vector<std::string> failures;  // from Slurm's accounts: "17_2 OUT_OF_MEMORY 0:125 node7"
-  std::filesystem::path output;       // what the first job printed that ended too early; empty: none did
+  std::filesystem::path output;       // output of the first job that ended too early; empty: none did
   bool done = false;                  // everything is there
 };
 
@@ -48,9 +48,9 @@ std::string merge_script(const Array& array);
 // Takes the folder, and writes the scripts that are not there. Error (bad_input) when it holds other files or
 // another picture, Error (file_io) when it cannot be written.
 void prepare(Array& array);
-// Reads every part that is there, and asks Slurm. Error (file_io) where Slurm does not answer.
+// Reads every part that is there, and queries Slurm. Error (file_io) where Slurm does not answer.
 ArrayState state_of(const Array& array);
-// Submits the shares that are missing, and what merges them. The jobs' numbers. Error (file_io) with Slurm's
+// Submits the shares that are missing, and the merging job. The jobs' numbers. Error (file_io) with Slurm's
 // words where it takes none.
 std::vector<std::string> submit(const Array& array, const ArrayState& state);
 

@@ -87,7 +87,7 @@ Vec4 filtered(const ImageTexture& image, bool srgb, const Vec2& uv) {
   const Vec2 place = uv * Vec2(image.width, image.height);
   if (image.filter == Filter::nearest) return texel(image, srgb, std::floor(place.x), std::floor(place.y));
 
-  // Weigh each texel by how much of a texel's area around the place it covers; its centre is at a
+  // Weigh each texel by how much of a texel's area around the point it covers; its centre is at a
   // half-integer. Equal ones give that very value, which an alpha may be compared with.
   const Vec2 corner = glm::floor(place - 0.5);
   const Vec2 share = place - 0.5 - corner;
@@ -144,7 +144,7 @@ class Image final : public Texture {
 };
 
 TexturePtr parse(TableReader& table) {
-  if (table.failed()) return nullptr;  // what is wrong with the file would hide what is wrong here
+  if (table.failed()) return nullptr;  // a fault of the file would hide one here
   const auto [wrap_u, wrap_v] = table.choice2("wrap");
   ImageTexture wanted;
   wanted.name = table.string("image");

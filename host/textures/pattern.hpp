@@ -1,4 +1,4 @@
-// Patterns in space: a share of [0, 1] at each place of the world, and a color for each share.
+// Patterns in space: a share of [0, 1] at each point of the world, and a color for each share.
 #pragma once
 
 #include <vector>
@@ -33,7 +33,7 @@ constexpr Key colors_key(std::string_view fallback) {
 
 class Pattern : public Texture {
  public:
-  // `parameters`: what the .glsl says.
+  // `parameters`: as in the .glsl.
   Pattern(const TableReader& table, uint32_t kind, const Vec4& parameters = Vec4(0));
 
   Vec3 at(const TextureContext& place) const final;
@@ -42,7 +42,7 @@ class Pattern : public Texture {
   uint32_t pack(records::Packer& packer) const final;
 
  protected:
-  // In [0, 1], at a place of the pattern's own space.
+  // In [0, 1], at a point of the pattern's own space.
   virtual double share(const Vec3& p) const = 0;
 
  private:

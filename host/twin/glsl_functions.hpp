@@ -1,6 +1,6 @@
 // GLSL functions that a user's shader may call, beside those of eyeray's own shaders (shaders/math/math.glsl
-// says why those avoid them). Their bits are not those of any device. Also printf. abs, floor and sqrt of
-// vectors are GLM's anyway.
+// has the reason why those avoid them). Their bits are not those of any device. Also printf. abs, floor and
+// sqrt of vectors are GLM's anyway.
 #pragma once
 
 #include <cstdio>

@@ -15,7 +15,7 @@ thread_local const twin::Spectator* bound_spectator = nullptr;
 thread_local const twin::PhotonSink* bound_sink = nullptr;
 thread_local uint32_t counted_iterations = 0;
 
-// Lets shader functions on this thread read `scene` for its lifetime, and show what they PROBE to
+// Lets shader functions on this thread read `scene` for its lifetime, and show PROBEd values to
 // `spectator`, if there is one, and store photons in `sink`.
 class Binding {
  public:
@@ -184,7 +184,7 @@ void show(const char* name, uint line, const T& shown) {
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
 #pragma GCC diagnostic ignored "-Wunused-parameter"
-// What is dispatched to stands before the dispatch.
+// The targets of a dispatch stand before the dispatch.
 // clang-format off
 #include "shapes/implicit/search.glsl"
 #define FORMULA_NAME(part) stepped_##part

@@ -1,5 +1,5 @@
-// Straight-line code, run step by step by the shaders' own functions: to the last bit what the text made of
-// it (expression/emit.hpp) computes, and without a compiler.
+// Straight-line code, run step by step by the shaders' own functions: to the last bit as the text made of it
+// (expression/emit.hpp), and without a compiler.
 #pragma once
 
 #include "host/expression/expression.hpp"

@@ -15,7 +15,7 @@ extern "C" const Functions eyeray_twin;
 // A view that outlives neither the scene nor the recorder.
 SceneView view_of(const records::PackedScene& scene);
 Spectator spectator_for(RayRecorder& recorder);
-// Takes what random paths decide alone: each `event` that is PROBEd.
+// Takes random paths' decisions alone: each `event` that is PROBEd.
 Spectator spectator_for(std::vector<uint32_t>& events);
 
 }  // namespace eyeray::engine::twin

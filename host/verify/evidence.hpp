@@ -1,4 +1,4 @@
-// What a failed comparison leaves behind, so that it can be looked into.
+// The files a failed comparison leaves behind, so that it can be looked into.
 #pragma once
 
 #include <filesystem>

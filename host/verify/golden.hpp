@@ -1,5 +1,5 @@
-// Golden pictures: what a scene looked like when somebody last looked at it. A .pfm, and beside it a .json of
-// the same name that says what it was made of.
+// Golden pictures: the look of a scene when somebody last examined it. A .pfm, and beside it a .json of the
+// same name that states its origin.
 #pragma once
 
 #include <filesystem>
@@ -25,16 +25,16 @@ struct Golden {
 };
 
 // Gate G: the first frame's colours against the golden picture's, as gate B has it: where they differ, the
-// golden picture must be what the reference says around that pixel. Error (file_io) for a picture that is
-// there and cannot be read.
+// golden picture must be within the reference's range around that pixel. Error (file_io) for a picture that
+// is there and cannot be read.
 compare::GoldenResult compare_with_golden(const Golden& golden, const Scene& scene,
                                           const compare::Frame& frame, const compare::Reference& reference,
                                           const compare::Tolerances& tolerances,
                                           const compare::Report& report);
 
-// Stores the frame as the golden picture where that is asked for and nothing but gate G fails; what is black
-// throughout is refused. Says in the report's golden result what came of it. Error (file_io) when the files
-// cannot be written.
+// Stores the frame as the golden picture where that is asked for and nothing but gate G fails; an all-black
+// one is refused. Sets the outcome in the report's golden result. Error (file_io) when the files cannot be
+// written.
 void bless(const Golden& golden, const Scene& scene, const compare::Frame& frame, compare::Report& report);
 
 }  // namespace eyeray::engine::verify

@@ -8,7 +8,7 @@
 
 namespace eyeray::engine::verify {
 
-// `renderer` is that of `scene`; both must outlive what is returned.
+// `renderer` is that of `scene`; both must outlive the result.
 compare::Reference neighbours(const Scene& scene, const reference::Renderer& renderer);
 
 // The same of single samples, for gate D. `twin` must outlive it too; null: nobody knows the shaders' paths.

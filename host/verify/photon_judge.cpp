@@ -65,7 +65,7 @@ JudgedPhotons judge_photons(const Scene& scene,
   tally.depth = scene.render.max_depth;
   const reference::PhotonTraces traces(renderer.tracer());
   for (uint32_t index = 0; index < uint32_t(scene.image.samples); ++index) {
-    // Compare ways and places.
+    // Compare ways and positions.
     const std::vector<PhotonWay> a = ways(index), b = renderer.tracer().photons(index)->ways();
     CHECK_EQ(a.size(), b.size());
     const double aside = rounding::photon_aside * photon_radius(photon_settings(scene), index);
@@ -79,7 +79,7 @@ JudgedPhotons judge_photons(const Scene& scene,
     std::vector<uint32_t>& left_out = judged.left_out.by_sample.emplace_back();
     for (const Apart& photon : apart) left_out.push_back(photon.number);
 
-    // Ask the reference for each, until the gate has failed.
+    // Query the reference for each, until the gate has failed.
     if (!tally.passes()) continue;
     const auto explain = [&](uint32_t first_seed, uint32_t last_seed) {
       std::vector<char> known(apart.size());

@@ -105,11 +105,11 @@ std::vector<std::vector<compare::PixelOutcome>> compare_each_with_reference(
   return outcomes;
 }
 
-// Says what the report's first hits hit, in the words of the scene.
+// Names the objects of the report's first hits, in the words of the scene.
 void name_hits(const Scene& scene, compare::Report& report) {
   const Objects objects(scene);
   for (const FirstHit& hit : report.shown_hits()) {
-    // An executor that fails may say anything.
+    // An executor that fails may return anything.
     if (hit.primitive >= 0 && uint64_t(hit.primitive) < scene.primitive_count())
       report.primitives[hit.primitive] = objects.describe(uint64_t(hit.primitive));
     if (hit.material >= 0 && size_t(hit.material) < scene.materials.size()) {
@@ -119,7 +119,7 @@ void name_hits(const Scene& scene, compare::Report& report) {
   }
 }
 
-// Draws what gate R compares with, on the device that renders.
+// Draws gate R's picture to compare with, on the device that renders.
 std::optional<raster::Witness> draw(const Scene& scene, const Rect& area, const Options& options) {
   if (!options.raster) return std::nullopt;
   return std::make_optional<raster::Witness>(scene, area,

@@ -15,16 +15,16 @@
 
 namespace eyeray::engine::verify {
 
-// How scenes are verified.
+// The settings of verification.
 struct Options {
   std::vector<executors::Backend> backends{
       executors::Backend::gpu, executors::Backend::twin};  // compared with the reference, in this order
   executors::ExecutorOptions executor;                     // of all of them
-  Rect crop;                                               // what is compared; empty: the whole picture
+  Rect crop;                                               // the compared area; empty: the whole picture
   std::optional<double> max_explained;                     // instead of the scene's
   int64_t ulp = 0;                                         // the bound of gate A
   bool raster = false;                                     // compare with the rasteriser, too: gate R
-  // Is shown what was compared, at last: as Page::add. May be empty.
+  // Gets the compared frames, at last: as Page::add. May be empty.
   std::function<void(const compare::Report&, std::span<const compare::Frame>,
                      std::span<const std::vector<compare::PixelOutcome>>)>
       witness;
@@ -33,7 +33,7 @@ struct Options {
   std::function<std::function<void(const render::Progress&)>()> progress;
 };
 
-// What is verified, and its names.
+// The scene to verify, and its names.
 struct Subject {
   const Scene& scene;
   std::string file;             // Report::scene
@@ -45,10 +45,10 @@ struct Subject {
 };
 
 // Renders the scene by each backend and at last by the reference. Gate A compares each backend with the
-// first, gates B and C compare each with the reference, gate G the first with a golden picture, and gate R,
-// where it is asked for, each and the reference with what the device's rasteriser draws. The report says
-// which of them pass. Error (interrupted) after Ctrl-C, Error (file_io) when the evidence cannot be written,
-// and what make_executor and render throw.
+// first, gates B and C compare each with the reference, gate G the first with a golden picture, and gate R
+// (where it is asked for) each and the reference with the device's rasteriser. The report states which of
+// them pass. Error (interrupted) after Ctrl-C, Error (file_io) when the evidence cannot be written, and the
+// errors of make_executor and render.
 compare::Report verify_scene(const Subject& subject, const Options& options);
 
 }  // namespace eyeray::engine::verify

@@ -37,7 +37,7 @@ namespace eyeray::inline v0 {
 
 // ---- Errors
 
-// An error or a warning, and its place: scene.toml:12:5. Lines and columns count from 1; 0 is unknown.
+// An error or a warning, and its position: scene.toml:12:5. Lines and columns count from 1; 0 is unknown.
 struct Diagnostic {
   bool is_error = true;  // false: a warning
   std::string file;
@@ -55,7 +55,7 @@ enum class ErrorKind {
   internal,   // eyeray has a bug
 };
 
-// what() is text for people: one sentence, or all diagnostics of a scene, each with its line and a caret.
+// `what()` is text for people: one sentence, or all diagnostics of a scene, each with its line and a caret.
 class EYERAY_API Error : public std::runtime_error {
  public:
   Error(ErrorKind kind, const std::string& what, std::vector<Diagnostic> diagnostics = {});
@@ -234,9 +234,9 @@ class [[nodiscard]] EYERAY_API Picture {
   uint64_t rays() const noexcept;     // camera, reflected, refracted and shadow rays
   double seconds() const noexcept;    // the duration of render()
   double sampling_seconds() const noexcept;
-  // The warnings of `eyeray render`: pixels that may be wrong, noise that is left, what clamp cut, samples
-  // far brighter than others, a model that is hardly visible. A renderer's first picture also warns of a
-  // cache that is not used since others could have changed it. Warnings name no file.
+  // The warnings of `eyeray render`: pixels that may be wrong, noise that is left, values that clamp cut,
+  // samples far brighter than others, a model that is hardly visible. A renderer's first picture also warns
+  // of a cache that is not used since others could have changed it. Warnings name no file.
   const std::vector<Diagnostic>& warnings() const noexcept;
 
   // The colours for a screen: sRGB, 8 bits a channel, with the scene's exposure and tone curve. Rows, pixels

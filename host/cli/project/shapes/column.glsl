@@ -5,7 +5,7 @@ float f(vec3 p) {
   float s = sin(angle);
   vec3 q = vec3(c * p.x - s * p.z, p.y - 0.8, s * p.x + c * p.z);
 
-  // How far q is from a box, after Quilez.
+  // Distance of q from a box, after Quilez.
   vec3 beyond = abs(q) - vec3(0.4, 0.8, 0.4) + edge;
   return length(max(beyond, 0.0)) + min(max(beyond.x, max(beyond.y, beyond.z)), 0.0) - edge;
 }
