@@ -24,9 +24,9 @@ inline constexpr double paired_false_alarms = 1e-3;  // of all sums of a picture
 // The sum that is farthest beyond its limit, or nearest to it. The limit is rounding and √(2 ln(2 n / a)) √(m
 // Σ(value − reference)²), for n sums and the rate of false alarms a. It holds for differences that are
 // symmetric around zero, whatever their distribution (Hoeffding 1963, on the signs alone), if at most m of
-// them have one cause and so one sign (Cauchy and Schwarz). m is 1, unless samples of the same number share
-// everything within `shared` of the points that their pixels show, as photons do. Then m is the number of
-// pixels, of a tile or of all, that lie so near to one of them.
+// them have one cause and so one sign (Cauchy and Schwarz). This m is 1, unless samples of the same number
+// share everything within `shared` of the points that their pixels show, as photons do. Then m is the number
+// of pixels, of a tile or of all, that lie so near to one of them.
 PairedSum worst_paired_sum(const Frame& value, const Frame& reference, double shared = 0);
 
 }  // namespace eyeray::engine::compare

@@ -50,7 +50,7 @@ class Executor {
   virtual ~Executor() = default;
 
   // Sample `index` of every pixel of `grid`, row by row; out.size() = grid.pixels(). `auxiliaries`: a
-  // denoiser's needs of the same samples, as many or none; only where paths walk at random
+  // denoiser's inputs of the same samples, as many or none; only where paths walk at random
   // (scene/integrator.hpp). Returns false when interrupted, and both are then undefined.
   virtual bool sample(const Grid& grid, uint32_t index, std::span<PixelSample> out,
                       std::span<AuxiliarySample> auxiliaries = {}) = 0;

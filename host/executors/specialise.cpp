@@ -194,7 +194,7 @@ std::string specialise(const records::PackedScene& scene, const Specialisation& 
                      (options.formula_numbers ? "#define FORMULA_NUMBERS\n" : "") +
                      "#include \"kernels/features.h\"\n#include \"kernels/bindings.glsl\"\n";
   if (options.constants && few_shading_records(scene)) text += shading_as_constants(scene, used.materials);
-  // If the eye moves, so do primitives: such a kernel is made anew for each camera anyway.
+  // If the eye moves, primitives do too: such a kernel is made anew for each camera anyway.
   if (unrolled) text += primitives_as_constants(scene) + frame_as_constant(scene.frame);
   return text + "#include \"kernels/loaders.glsl\"\n" + formula_functions(scene, options.formula_numbers) +
          registries(scene, used);

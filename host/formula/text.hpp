@@ -49,8 +49,8 @@ struct Text {
   }
 };
 
-// Adds the text's faults to `faults`, each at its position. Without faults a compiler may see it: it has at
-// most 64 KiB, nests at most 64 deep, chains at most 500 operators, has only words that formulas know, and
+// Adds the text's faults to `faults`, each at its position. Without faults a compiler may see it. It then has
+// at most 64 KiB, nests at most 64 deep, chains at most 500 operators, has only words that formulas know, and
 // defines the functions that its kind must.
 Text read_text(std::string_view text, FormulaKind kind, std::vector<Fault>& faults);
 

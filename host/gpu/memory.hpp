@@ -20,8 +20,8 @@ VkDeviceMemory allocate_memory(const Context& context, const VkMemoryRequirement
                                MemoryKind kind, size_t bytes, std::string_view what);
 
 // Error (file_io) when a limit on the size of files (RLIMIT_FSIZE) leaves no room for `bytes` more and some
-// for the driver's own use. llvmpipe keeps all memory in one file since Mesa 24, and does not notice when
-// that file cannot grow. The first access to the memory would then end the process by SIGBUS.
+// for the driver's own use. The driver llvmpipe keeps all memory in one file since Mesa 24, and does not
+// notice when that file cannot grow. The first access to the memory would then end the process by SIGBUS.
 void require_room_in_files(const Context& context, VkDeviceSize bytes);
 
 }  // namespace eyeray::engine::gpu

@@ -20,7 +20,7 @@ Error failure(VkResult result, std::string_view what);
 // The Error (timed_out) that drivers took longer than `seconds` to load or to open a device.
 Error late_start(double seconds);
 
-// Throws failure(result, what), unless the result is VK_SUCCESS.
+// Throws `failure(result, what)`, unless the result is VK_SUCCESS.
 void check(VkResult result, std::string_view what);
 
 // A Vulkan structure with its sType set and everything else zero.

@@ -18,7 +18,7 @@ namespace {
 
 // The most pixels that a byte of a file can stand for. Of a PNG: deflate makes at most 1032 bytes of one (RFC
 // 1951), and a byte holds at most 8 pixels. A JPEG spends at least a bit on each block of 8 · 8 samples of a
-// channel; a channel may be coarser than the picture by 4 in one direction, if another is fine in that one.
+// channel. A channel may be coarser than the picture by 4 in one direction, if another is fine in that one.
 constexpr int64_t most_png_pixels_a_byte = 1032 * 8;
 constexpr int64_t most_jpeg_pixels_a_byte = 8 * 256;
 

@@ -20,7 +20,7 @@ struct ExrChannel {
 std::vector<ExrChannel> exr_channels(int channels, bool half);
 
 // The channels of one layer, as they are named before it: R, G and B, else X, Y and Z, else Y, else all there
-// are, up to three and sorted by name; of two the third is 0. What else is there (A, beside R, G and B) is
+// are, up to three and sorted by name. With two the third is 0. What else is there (A, beside R, G and B) is
 // left out. `layer` "": that without a name, or the only one. A part of a file of several is a layer of its
 // name. Reads scan lines and tiles, of these the largest level; the picture is the display window: 0 where it
 // has no data, and without the data around it. Chromaticities other than Rec. 709's and pixels that are no

@@ -1,6 +1,6 @@
 // glTF 2.0, .gltf and .glb: the nodes of its scene as instances, lights and a camera. The JSON is read by
-// nlohmann/json and checked here value by value. tinygltf 2.7 reads beyond the end of a .glb whose last chunk
-// is too long, throws at an empty buffer, and takes a bufferView's range on trust.
+// nlohmann/json and checked here value by value. The library tinygltf 2.7 reads beyond the end of a .glb
+// whose last chunk is too long, throws at an empty buffer, and takes a bufferView's range on trust.
 // Source: Khronos Group: glTF 2.0 Specification (2.0.1); KHR_lights_punctual.
 #include <algorithm>
 #include <glm/gtc/type_ptr.hpp>

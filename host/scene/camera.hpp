@@ -79,9 +79,9 @@ class Projection {
   // The lengths of the shaders' `right`, `up` and `forward` as multiples of the axes. X·right + Y·up, with X
   // and Y in [−1, 1], spans the picture.
   virtual Vec3 scale(const Vec2& size) const = 0;
-  // The ray, its direction unit, at `place`: from the picture's middle to the right and up, in half widths,
-  // and from `lens`, to the right and up of the eye, where rays start on an aperture. The reference's half:
-  // written from the mathematics, not from `scale` and the shader.
+  // The ray, its direction unit, at `place`: from the picture's middle to the right and up, in half widths.
+  // It starts from `lens`, to the right and up of the eye, where rays start on an aperture. The reference's
+  // half: written from the mathematics, not from `scale` and the shader.
   virtual Ray ray(const CameraAxes& camera, const Vec2& place, const Vec2& lens, const Vec2& size) const = 0;
   // True if anything is seen there; else the picture is black.
   virtual bool sees(const Vec2& /*place*/, const Vec2& /*lens*/, const Vec2& /*size*/) const { return true; }

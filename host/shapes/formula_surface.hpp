@@ -18,8 +18,8 @@ class FormulaSurface {
   // The first point from `start` to `end` at which the sign is another than at `start`. Between two points no
   // more than the stretch that the values there clear of roots, by the Lipschitz constant, is left out; so
   // none is passed by, but pairs of roots closer than 1e-8. Where there is no such constant, Chebyshev series
-  // take its place. The search ends for any function, as its steps do: then `iteration_limit`, and there is
-  // no change up to s.
+  // replace it. Its steps end too, so that the search ends for any function: then `iteration_limit`, and
+  // there is no change up to s.
   struct Change {
     double s;
     double beyond;  // a point past it that has the other sign

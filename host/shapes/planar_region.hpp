@@ -58,8 +58,8 @@ inline constexpr Key holes_key{.name = "holes",
                                .max = max_coordinate};
 
 // The region in a table with these keys; nothing, with one error at the vertex that is to blame, where it is
-// none. Its outlines must be flat, have an area and at least 3 vertices each, no two at the same point; must
-// neither cross nor touch themselves or each other; and holes must lie within the outer outline, beside each
+// none. Its outlines must be flat, have an area and at least 3 vertices each, no two at the same point. They
+// must neither cross nor touch themselves or each other. Holes must lie within the outer outline, beside each
 // other.
 std::optional<PlanarRegion> read_region(TableReader& table);
 

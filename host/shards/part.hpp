@@ -20,7 +20,7 @@
 //
 // No byte stands outside of a sum, and a sum detects every flipped bit and every run of damage of up to 32.
 //
-// Pixels are the picture's own, the means of their samples in float32: all samples of a pixel are taken by
+// Pixels are the picture's own, the means of their samples in float32. All samples of a pixel are taken by
 // one shard, in the order in which one machine takes them, so that nothing is left to be added up.
 #pragma once
 

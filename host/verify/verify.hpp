@@ -45,8 +45,8 @@ struct Subject {
 };
 
 // Renders the scene by each backend and at last by the reference. Gate A compares each backend with the
-// first, gates B and C compare each with the reference, gate G the first with a golden picture, and gate R
-// (where it is asked for) each and the reference with the device's rasteriser. The report states which of
+// first, gates B and C compare each with the reference, gate G the first with a golden picture. Gate R, where
+// it is asked for, compares each and the reference with the device's rasteriser. The report states which of
 // them pass. Error (interrupted) after Ctrl-C, Error (file_io) when the evidence cannot be written, and the
 // errors of make_executor and render.
 compare::Report verify_scene(const Subject& subject, const Options& options);
