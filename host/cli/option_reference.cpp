@@ -18,7 +18,7 @@ std::string cell(const std::string& text) {
   return escaped;
 }
 
-std::string heading(const OptionRow& option) {
+std::string spelled(const OptionRow& option) {
   std::string text;
   for (const std::string& name : option.names) text += (text.empty() ? "`" : ", `") + name + "`";
   return option.value.empty() ? text : text + " " + cell(option.value);
@@ -33,7 +33,7 @@ std::string option_tables(const CommandRow& command) {
   for (const std::string& group : groups) {
     text += fmt::format("| {} | |\n| --- | --- |\n", group == "Positionals" ? "Arguments" : cell(group));
     for (const OptionRow& option : command.options)
-      if (option.group == group) text += fmt::format("| {} | {} |\n", heading(option), cell(option.text));
+      if (option.group == group) text += fmt::format("| {} | {} |\n", spelled(option), cell(option.text));
     text += "\n";
   }
   return text;

@@ -26,16 +26,16 @@ material = "floor"
                              "scene.toml");
 }
 
-template <typename T>
-bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+template <typename List>
+bool same_bytes(const List& a, const List& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
 }
 
 struct Written {
   std::string shape, table, keys;
 };
 
-const Written shapes[] = {
+const Written area_shapes[] = {
     {"triangle", "triangle", "vertices = [[0, 2, 0], [1, 2, 0], [0, 2, 1]]\n"},
     {"rectangle", "parallelogram", "origin = [0, 3, 0]\nedge_u = [1, 0, 0]\nedge_v = [0, 0, 1]\n"},
     {"disk", "disk", "center = [0, 1, 0]\nnormal = [0, -1, 0]\nradius = 2\n"},
@@ -53,7 +53,7 @@ TEST_CASE("an area light is packed as the shape of a black material that emits a
         "[[material]]\nname = \"lit\"\ntype = \"phong\"\ndiffuse = 0\nemission = [1, 2, 3]\nemission_side = "
         "\"" +
         side + "\"\n";
-    for (const Written& it : shapes) {
+    for (const Written& it : area_shapes) {
       lights += "[[light]]\ntype = \"area\"\nshape = \"" + it.shape +
                 "\"\nintensity = [1, 2, 3]\nemission_side = \"" + side + "\"\n" + transform + it.keys;
       emitters += "[[" + it.table + "]]\nmaterial = \"lit\"\n" + transform + it.keys;
@@ -70,7 +70,7 @@ TEST_CASE("an area light is packed as the shape of a black material that emits a
 
 TEST_CASE("an area light emits in front unless its table says otherwise, with radiance 1") {
   const Scene scene =
-      scene_of("[[light]]\ntype = \"area\"\nshape = \"disk\"\nname = \"moon\"\n" + shapes[2].keys);
+      scene_of("[[light]]\ntype = \"area\"\nshape = \"disk\"\nname = \"moon\"\n" + area_shapes[2].keys);
   REQUIRE(scene.materials.size() == 2);
   CHECK(scene.materials.back()->emits_in_front);
   CHECK(scene.materials.back()->constant_emission() == Vec3(1));
