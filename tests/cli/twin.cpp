@@ -160,6 +160,14 @@ TEST_CASE("sanitizers find a user's shader's fault, at its line") {
       contains(users.render("twin", "a.pfm", {"--sanitize", "thread"}).err, "--sanitize must be address, "));
 }
 
+TEST_CASE("a shader without faults renders under a sanitizer, and the program ends") {
+  const Users users;
+  const ProcessResult result = users.render("twin", "a.pfm", {"--sanitize", "address"});
+  CAPTURE(result.err);
+  CHECK(result.code == 0);
+  CHECK(std::filesystem::exists(users / "a.pfm"));
+}
+
 TEST_CASE("a debugger stops in a user's shader, which may print") {
   const Users users;
   const int line = users.change_sphere(
