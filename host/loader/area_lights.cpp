@@ -63,7 +63,7 @@ std::span<const Key> area_keys() {
 }
 
 std::string_view area_manual() {
-  return R"(A surface that emits light. It is a shape of the scene: rays hit it, it hides what is behind it, and it reflects nothing. `path` and `sppm` sample it
+  return R"(A surface that emits light. It is a shape of the scene: rays hit it, it hides the shapes behind it, and it reflects nothing. `path` and `sppm` sample it
 as a light; the other integrators show it and cast no light from it.
 
 ```toml
