@@ -118,7 +118,7 @@ TEST_CASE("scenes with extreme values: a clear error or a sound picture") {
   INFO(failures.shown());
   CHECK(failures.count() == 0);
   CHECK(refused > count / 4);
-  CHECK(rendered > count / 12);
+  CHECK(rendered > count / 16);
   CHECK(with_hits > count / 20);
   CHECK(reached_iteration_limit < count / 100);
 }
