@@ -199,15 +199,14 @@ void Builder::add_placed(const toml::table& holder, const Placing& group) {
 
 // The area lights that are such shapes: Scene::shapes stay in registry order.
 void Builder::add_area_lights(std::string_view shape) {
-  for (const auto& [light, table] : area_lights_) {
-    if (light->section.shape->name != shape) continue;
-    for_each_placed(light->section, *table, Placing{},
-                    [&](reading::TableReader& reader, const Placing& placed) {
-                      const bool in_front = reader.choice("emission_side") == 1;
-                      const int material = materials_.emitter(reader.color("intensity"), in_front);
-                      if (auto made = parse_shape(light->section, reader, placed, material))
-                        scene_.shapes.push_back(std::move(made));
-                    });
+  for (const auto& [named, table] : area_lights_) {
+    const Section& light = named->section;
+    if (light.shape->name != shape) continue;
+    for_each_placed(light, *table, Placing{}, [&](reading::TableReader& reader, const Placing& placed) {
+      const bool in_front = reader.choice("emission_side") == 1;
+      const int material = materials_.emitter(reader.color("intensity"), in_front);
+      if (auto made = parse_shape(light, reader, placed, material)) scene_.shapes.push_back(std::move(made));
+    });
   }
 }
 
