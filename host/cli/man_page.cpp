@@ -50,11 +50,8 @@ std::string synopsis(const CommandRow& command) {
 
 // Groups in the order in which they first come, as --help has them.
 std::string option_sections(const CommandRow& command) {
-  std::vector<std::string> groups;
-  for (const OptionRow& option : command.options)
-    if (std::ranges::find(groups, option.group) == groups.end()) groups.push_back(option.group);
   std::string text = ".SH OPTIONS\n";
-  for (const std::string& group : groups) {
+  for (const std::string& group : option_groups(command)) {
     if (group != "Options" && group != "Positionals") text += ".SS \"" + roff(group) + "\"\n";
     for (const OptionRow& option : command.options)
       if (option.group == group) text += ".TP\n" + heading(option) + "\n" + roff(option.text) + "\n";

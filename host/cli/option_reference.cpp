@@ -1,8 +1,6 @@
 // The reference of all commands and options, made from the rows that --help prints.
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "host/cli/option_table.hpp"
 
 namespace eyeray::engine::cli {
@@ -26,11 +24,8 @@ std::string spelled(const OptionRow& option) {
 
 // A table for each group, in the order in which --help has them.
 std::string option_tables(const CommandRow& command) {
-  std::vector<std::string> groups;
-  for (const OptionRow& option : command.options)
-    if (std::ranges::find(groups, option.group) == groups.end()) groups.push_back(option.group);
   std::string text;
-  for (const std::string& group : groups) {
+  for (const std::string& group : option_groups(command)) {
     text += fmt::format("| {} | |\n| --- | --- |\n", group == "Positionals" ? "Arguments" : cell(group));
     for (const OptionRow& option : command.options)
       if (option.group == group) text += fmt::format("| {} | {} |\n", spelled(option), cell(option.text));

@@ -69,4 +69,11 @@ std::string last_word(const CommandRow& command) {
   return command.words.substr(command.words.rfind(' ') + 1);
 }
 
+std::vector<std::string> option_groups(const CommandRow& command) {
+  std::vector<std::string> groups;
+  for (const OptionRow& option : command.options)
+    if (std::ranges::find(groups, option.group) == groups.end()) groups.push_back(option.group);
+  return groups;
+}
+
 }  // namespace eyeray::engine::cli

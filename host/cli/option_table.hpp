@@ -35,6 +35,9 @@ std::vector<const CommandRow*> all_commands(const CommandRow& table);
 // "terrain" of "generate terrain".
 std::string last_word(const CommandRow& command);
 
+// The groups of its options, in the order in which --help has them.
+std::vector<std::string> option_groups(const CommandRow& command);
+
 // "eyeray-generate-terrain.1", in roff's man macros.
 std::string man_page_name(const CommandRow& command);
 std::string man_page(const CommandRow& command);

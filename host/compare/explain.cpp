@@ -137,7 +137,7 @@ const char* name(Cause cause) {
     case Cause::undecidable:
       return "undecidable";
     case Cause::diverged:
-      return "parted";
+      return "diverged";
   }
   return "unknown";
 }

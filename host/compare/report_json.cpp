@@ -173,7 +173,7 @@ Json json(const Report& report) {
           {"gates_b_c", list(report.against_reference)},
           {"gate_r", list(report.raster)},
           {"photons", report.photons ? Json{{"sent", report.photons->sent},
-                                            {"parted", report.photons->diverged},
+                                            {"diverged", report.photons->diverged},
                                             {"may_part", report.photons->may_diverge()},
                                             {"aside", report.photons->aside},
                                             {"may_lie_aside", report.photons->may_lie_aside()},

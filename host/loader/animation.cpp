@@ -53,7 +53,7 @@ constexpr Key table_of_animation[] = {
 constexpr Key table_of_track[] = {
     {.name = "target",
      .type = KeyType::string,
-     .doc = "The value to animate, named as for -D: `camera.eye`, `sphere.0.radius`, `light.lamp.intensity`, "
+     .doc = "The value to animate, named as for -D: `camera.eye`, `sphere.0.radius`, `light.key.intensity`, "
             "`mesh.wheel.transform`."},
     {.name = "keyframes",
      .type = KeyType::keyframes,

@@ -15,7 +15,6 @@ using reading::Key, reading::KeyType;
 
 constexpr std::string_view shape_names[] = {"rectangle", "disk", "sphere", "triangle"};
 constexpr std::string_view sections_of_shapes[] = {"parallelogram", "disk", "sphere", "triangle"};
-constexpr std::string_view sides[] = {"both", "front"};
 
 constexpr Key own_keys[] = {
     {.name = "shape",
@@ -26,7 +25,7 @@ constexpr Key own_keys[] = {
      .type = KeyType::choice,
      .doc = "Emit light only on the side that the normal points to, or on both.",
      .fallback = "\"front\"",
-     .choices = sides},
+     .choices = emission_sides},
     {.name = "transform",
      .type = KeyType::transform,
      .doc = "Steps that move the light, applied in the order written.",

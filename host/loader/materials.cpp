@@ -87,16 +87,14 @@ int Materials::find(reading::TableReader& shape) {
 }
 
 int Materials::emitter(const Vec3& radiance, bool in_front) {
-  for (const int index : emitters_) {
-    const Material& known = *scene_.materials[size_t(index)];
-    if (known.constant_emission() == radiance && known.emits_in_front == in_front) return index;
-  }
+  const auto [entry, fresh] =
+      emitters_.try_emplace({radiance.x, radiance.y, radiance.z, in_front}, int(scene_.materials.size()));
+  if (!fresh) return entry->second;
   auto material = materials::make_phong(
       {.diffuse = textures::make_constant(Vec3(0)), .emission = textures::make_constant(radiance)});
   material->emits_in_front = in_front;
-  emitters_.push_back(int(scene_.materials.size()));
   scene_.materials.push_back(std::move(material));
-  return emitters_.back();
+  return entry->second;
 }
 
 void Materials::check() const {

@@ -3,7 +3,7 @@
 
 #include <map>
 #include <string>
-#include <vector>
+#include <tuple>
 
 #include "host/loader/sections.hpp"
 #include "host/reading/table.hpp"
@@ -38,7 +38,7 @@ class Materials {
   const reading::ValueSources& values_;
   DiagnosticLog& log_;
   std::map<std::string, Named, std::less<>> by_name_;
-  std::vector<int> emitters_;  // in Scene::materials
+  std::map<std::tuple<double, double, double, bool>, int> emitters_;  // by radiance and in_front
   size_t media_ = 0;
 };
 

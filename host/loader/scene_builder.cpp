@@ -32,7 +32,7 @@ namespace eyeray::engine::loader {
 
 namespace {
 
-// Each light is an iteration and a shadow ray at every hit. A driver that ends loops after 65 535 turns
+// Each light is an iteration and a shadow ray at every hit. A driver that ends loops after 65 535 iterations
 // has room for so many where a scene has 24 shapes and no BVH, too (docs/lavapipe.md).
 constexpr size_t most_lights = 2048;
 
@@ -243,8 +243,8 @@ void Builder::add_group(reading::TableReader& reader, const toml::table& table, 
     Group group = build_group(table, Mat4(1.0));
     entry->second = group_placer_.keep(std::move(group), worst_condition_);
   }
-  // The legality of a scene does not depend on its instances: where it may not be legal, read the group as it
-  // stands there.
+  // The legality of a scene does not depend on instancing: where the group may not be instanced, read it as
+  // it stands there.
   if (!group_placer_.surely_fits(entry->second, placing.to_world)) build_group(table, placing.to_world);
   group_placer_.place(entry->second, placing.to_world, reader.position(), placing.name);
 }

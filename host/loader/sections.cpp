@@ -69,7 +69,6 @@ std::span<const Key> light_keys() {
   return keys;
 }
 
-constexpr std::string_view emission_sides[] = {"both", "front"};
 constexpr std::string_view alpha_modes[] = {"mask", "blend"};
 
 std::span<const Key> material_keys() {

@@ -46,6 +46,9 @@ struct Section {
   bool is_combined() const { return shape && shape->combine; }
 };
 
+// The values of `emission_side`.
+inline constexpr std::string_view emission_sides[] = {"both", "front"};
+
 // In the order in which the manual shows them; shapes in registry order.
 std::span<const Section> sections();
 // Null when there is no such table.

@@ -46,7 +46,7 @@ struct Findings {
     std::optional<size_t> line;
   };
   std::optional<Place> first_difference() const;
-  // `eye ray / refracted ray / shadow ray to light 0`.
+  // `camera ray / refracted ray / shadow ray to light 0`.
   std::string way_to(size_t ray) const;
 };
 

@@ -12,6 +12,7 @@
 
 #include "host/cameras/registry.hpp"
 #include "host/lights/registry.hpp"
+#include "host/loader/area_lights.hpp"
 #include "host/loader/sections.hpp"
 #include "host/materials/registry.hpp"
 #include "host/shapes/registry.hpp"
@@ -253,6 +254,14 @@ std::string Writer::write() {
   table("[render]", {loader::find_section("render")->keys}, {}, "");
 
   for (int i = random_.below(4); i > 0; --i) {
+    if (chance(0.25)) {
+      const std::span<const loader::AreaShape> forms = loader::area_shapes();
+      const loader::AreaShape& form = forms[size_t(random_.below(int(forms.size())))];
+      table("[[light]]", {form.section.keys, form.section.shape->keys},
+            {"type", "shape", "normals", "transform"},
+            fmt::format("type = \"area\"\nshape = \"{}\"\n", form.name));
+      continue;
+    }
     const lights::LightType& type = one_of(lights::types());
     table("[[light]]", {loader::find_section("light")->keys, type.keys}, {"type"},
           fmt::format("type = \"{}\"\n", type.name));
