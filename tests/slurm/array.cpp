@@ -186,7 +186,7 @@ TEST_CASE("without Slurm, and with words that are eyeray's own, it ends at once"
   Words command{"slurm", folder.scene(), "--shards", "2", "--folder", folder / "work"};
   const ProcessResult nothing = run_eyeray(command, {{"PATH", "/nowhere"}});
   CHECK(nothing.code == 4);
-  CHECK(nothing.err.find("there is no ") != std::string::npos);
+  CHECK(nothing.err.find("is not installed here") != std::string::npos);
   command.insert(command.end(), {"--", "--array=1-4"});
   const ProcessResult own = run_eyeray(command);
   CHECK(own.code == 2);
