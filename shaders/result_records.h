@@ -129,7 +129,7 @@ struct ProbeRecord {
 #define FLAG_STACK_OVERFLOW 2u
 #define FLAG_LOOP_BUDGET 4u
 #define FLAG_ITERATION_LIMIT 8u
-#define FLAG_ENDLESS 16u  // a formula's loops took more than FORMULA_TURNS iterations in one call
+#define FLAG_ENDLESS 16u  // a formula's loops took more than FORMULA_ITERATIONS iterations in one call
 #define FLAG_CUT_OFF 32u  // with RAY_KINDS, and no fault: max_depth ended the path
 // A loop of a user's shaders was stopped (STOPPED_LOOPS). Its bit among those from REFRACTED_SHIFT on names it, unless RAY_KINDS.
 #define FLAG_ENDLESS_LOOP 64u

@@ -58,8 +58,8 @@ class Fisheye final : public Projection {
 
   Ray ray(const CameraAxes& camera, const Vec2& place, const Vec2&, const Vec2& size) const override {
     const double angle = this->angle(place, size), turn = std::atan2(place.y, place.x);
-    const Vec3 aside = std::cos(turn) * camera.u + std::sin(turn) * camera.v;
-    return {camera.eye, glm::normalize(std::sin(angle) * aside + std::cos(angle) * camera.w)};
+    const Vec3 radial = std::cos(turn) * camera.u + std::sin(turn) * camera.v;
+    return {camera.eye, glm::normalize(std::sin(angle) * radial + std::cos(angle) * camera.w)};
   }
 
   bool sees(const Vec2& place, const Vec2&, const Vec2& size) const override {

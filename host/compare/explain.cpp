@@ -11,7 +11,7 @@ namespace {
 // By so much a normal differs at a crease.
 constexpr double least_crease = 0.01;
 
-// Surfaces struck.
+// Surfaces hit.
 double hits_per_sample(const Neighbour& neighbour) {
   double hits = 0;
   for (const Neighbour::Sample& sample : neighbour.samples) hits += sample.counts.x;

@@ -23,7 +23,7 @@ struct Frame {
   Rect area;                         // the pixels of the whole picture that it holds
   image::Image color;                // linear RGB, the mean of the samples
   std::vector<FirstHit> first_hits;  // row by row
-  image::Image hits;                 // 1 channel: surfaces struck, the mean of the samples
+  image::Image hits;                 // 1 channel: surfaces hit, the mean of the samples
   image::Image rays_traced;          // 1 channel: eye, reflected, refracted and shadow rays, the mean
   uint64_t rays = 0;                 // all of them
   uint64_t flagged_pixels = 0;       // pixels with any SampleFlag
@@ -49,7 +49,7 @@ inline Vec3 color_at(const image::Image& image, int x, int y) {
   return image.channels() == 3 ? Vec3(double(p[0]), double(p[1]), double(p[2])) : Vec3(double(p[0]));
 }
 
-// Surfaces struck and rays traced for a pixel, the means of its samples.
+// Surfaces hit and rays traced for a pixel, the means of its samples.
 using Counts = Vec2;
 
 inline Counts counts_at(const Frame& frame, int x, int y) {

@@ -34,7 +34,7 @@ Sums sums_of(const Frame& value, const Frame& reference, const Rect& tile) {
 // The largest number of the tile's pixels that show a point within that distance of the point of one of them.
 // All pixels are counted, or an even selection of many: neighbours have nearly equal numbers.
 double most_near(const Frame& frame, const Rect& tile, double distance) {
-  constexpr int asked_along = 16;
+  constexpr int sampled_along = 16;
   std::vector<Vec3> places;
   const auto each_place = [&](int step_x, int step_y, const auto& visit) {
     for (int y = tile.y; y < tile.y + tile.height; y += step_y)
@@ -43,7 +43,7 @@ double most_near(const Frame& frame, const Rect& tile, double distance) {
   };
   each_place(1, 1, [&](const Vec3& place) { places.push_back(place); });
   int64_t most = 1;
-  const auto step = [&](int size) { return (size + asked_along - 1) / asked_along; };
+  const auto step = [&](int size) { return (size + sampled_along - 1) / sampled_along; };
   each_place(step(tile.width), step(tile.height), [&](const Vec3& from) {
     most = std::max<int64_t>(most, std::ranges::count_if(places, [&](const Vec3& place) {
                                return glm::length(place - from) < distance;

@@ -88,8 +88,9 @@ std::vector<std::string> Report::failures() const {
     failures.push_back(fmt::format(
         "gate D: twin against the reference, photons: of {}, {} diverge ({} may), {} are displaced ({} may), "
         "and {} of these are unexplained{}",
-        photons->sent, photons->diverged, photons->may_diverge(), photons->aside, photons->may_lie_aside(),
-        photons->unexplained, photons->worst.empty() ? "" : "; the first is " + photons->worst));
+        photons->sent, photons->diverged, photons->may_diverge(), photons->displaced,
+        photons->may_be_displaced(), photons->unexplained,
+        photons->worst.empty() ? "" : "; the first is " + photons->worst));
   for (const ExactResult& result : exact) {
     const ExactComparison& c = result.comparison;
     if (!c.incomparable.empty()) {

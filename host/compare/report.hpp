@@ -64,7 +64,7 @@ struct GoldenResult {
 struct PhotonTally {
   int64_t sent = 0;
   int64_t diverged = 0;
-  int64_t aside = 0;
+  int64_t displaced = 0;
   int64_t unexplained = 0;  // of both
   std::string worst;        // the first of these, and its effect
   int depth = 0;            // the scene's max_depth
@@ -74,8 +74,10 @@ struct PhotonTally {
   int64_t may_diverge() const;
   // Curved surfaces and grazing angles multiply rounding, and displace photons by that much: a tenth of them
   // may be displaced.
-  int64_t may_lie_aside() const { return std::max<int64_t>(4, sent / 10); }
-  bool passes() const { return unexplained == 0 && diverged <= may_diverge() && aside <= may_lie_aside(); }
+  int64_t may_be_displaced() const { return std::max<int64_t>(4, sent / 10); }
+  bool passes() const {
+    return unexplained == 0 && diverged <= may_diverge() && displaced <= may_be_displaced();
+  }
 };
 
 struct Report {

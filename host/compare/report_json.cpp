@@ -175,8 +175,8 @@ Json json(const Report& report) {
           {"photons", report.photons ? Json{{"sent", report.photons->sent},
                                             {"diverged", report.photons->diverged},
                                             {"may_part", report.photons->may_diverge()},
-                                            {"aside", report.photons->aside},
-                                            {"may_lie_aside", report.photons->may_lie_aside()},
+                                            {"displaced", report.photons->displaced},
+                                            {"may_be_displaced", report.photons->may_be_displaced()},
                                             {"unexplained", report.photons->unexplained},
                                             {"passed", report.photons->passes()}}
                                      : Json()},

@@ -204,7 +204,7 @@ std::string to_text(const Report& report) {
          "  gate D {} twin = reference, photons: of {}, {} diverge ({} may) and {} are displaced ({} may), "
          "{} unexplained; they are left out",
          photons->passes() ? "passed" : "FAILED", photons->sent, photons->diverged, photons->may_diverge(),
-         photons->aside, photons->may_lie_aside(), photons->unexplained);
+         photons->displaced, photons->may_be_displaced(), photons->unexplained);
   for (const ReferenceResult& result : report.against_reference) {
     if (!result.comparison.incomparable.empty()) continue;
     if (same_as_first(report, result)) {

@@ -12,7 +12,7 @@ namespace eyeray::engine {
 struct PixelSample {
   Vec3 color{0.0};     // linear RGB, unclipped
   uint32_t rays = 0;   // rays traced for it: eye, reflected, refracted and shadow rays
-  uint32_t hits = 0;   // surfaces struck by its eye, reflected and refracted rays
+  uint32_t hits = 0;   // surfaces hit by its camera, reflected and refracted rays
   uint32_t flags = 0;  // SampleFlag bits; 0 when nothing went wrong
   // The sample's rays by kind; 0 from an executor that does not count kinds (ExecutorOptions::ray_kinds).
   uint32_t reflected = 0;

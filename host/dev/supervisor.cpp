@@ -138,10 +138,10 @@ void Supervisor::request() {
     status["defines"] = defines_;
     status["chosen"] = tunables_;
   });
-  ask_worker();
+  request_worker();
 }
 
-void Supervisor::ask_worker() {
+void Supervisor::request_worker() {
   // A new one may take its time to start.
   heard_ = !worker_.running();
   if (heard_) worker_.start();
@@ -179,7 +179,7 @@ void Supervisor::take_messages() {
     if (worker_.socket().closed())
       lose_worker(ExitCode::bad_input, "");
     else if (busy_ && !heard_ && since_message_.seconds() > grace)
-      worker_.kill(), ask_worker();
+      worker_.kill(), request_worker();
     else if (busy_ && since_message_.seconds() > options_.timeout_seconds + patience && !worker_.debugged())
       lose_worker(ExitCode::timed_out, fmt::format("no answer for {}: does a shader never end?",
                                                    format_seconds(options_.timeout_seconds + patience)));

@@ -46,7 +46,7 @@ class Supervisor {
 
  private:
   void request();
-  void ask_worker();
+  void request_worker();
   void begin_revision();
   void take_messages();
   void handle(const Message& message);

@@ -36,17 +36,19 @@ struct Steepest {
 // closely. Fewer points where each takes long.
 Steepest steepest(const FormulaUse& use) {
   constexpr int points = 20000;
-  constexpr uint64_t most_turns = 1 << 22;
-  uint64_t turns = 0;
+  constexpr uint64_t most_iterations = 1 << 22;
+  uint64_t iterations = 0;
   const Vec3 extent = (use.box.max - use.box.min) * 0.5, center = (use.box.max + use.box.min) * 0.5;
   const double step = 1e-4 * std::min({extent.x, extent.y, extent.z});
-  const auto value = [&](const Vec3& p) { return use.formula->value(std::array{p.x, p.y, p.z}, &turns); };
+  const auto value = [&](const Vec3& p) {
+    return use.formula->value(std::array{p.x, p.y, p.z}, &iterations);
+  };
   const auto slope = [&](const Vec3& p) {
     Vec3 gradient;
     for (int axis = 0; axis < 3; ++axis) {
-      Vec3 aside(0);
-      aside[axis] = step;
-      gradient[axis] = (value(p + aside) - value(p - aside)) / (2 * step);
+      Vec3 offset(0);
+      offset[axis] = step;
+      gradient[axis] = (value(p + offset) - value(p - offset)) / (2 * step);
     }
     const Vec3 along = glm::normalize(gradient) * step;
     // Only a difference between two points disproves anything: at a crease the gradient is steeper than
@@ -57,7 +59,7 @@ Steepest steepest(const FormulaUse& use) {
   std::mt19937_64 random(1);
   const auto uniform = [&] { return double(random() >> 11) * 0x1p-52 - 1; };
   Steepest worst;
-  for (int i = 0; i < points && turns < most_turns; ++i) {
+  for (int i = 0; i < points && iterations < most_iterations; ++i) {
     // One half anywhere, the other near the worst so far.
     const double reach = i % 2 == 0 ? 1 : std::ldexp(1.0, -(i / 2 % 10));
     Vec3 q = Vec3(uniform(), uniform(), uniform()) * reach;

@@ -30,7 +30,7 @@ std::string surface_functions(size_t i, const PackedFormula& packed, LoadedNumbe
                i);
   }
   const std::string name = fmt::format("f{}_", i);
-  const std::string restart = formula.loops() ? "formula_turns = 0u; " : "";
+  const std::string restart = formula.loops() ? "formula_iterations = 0u; " : "";
   return formula.kernel(name, numbers) +
          fmt::format("float formula{}_value(vec3 p) {{ {}return {}f(p); }}\n", i, restart, name) +
          fmt::format("vec3 formula{}_gradient(vec3 p) {{ {}return {}; }}\n", i, restart,
@@ -54,7 +54,7 @@ std::string color_functions(const std::vector<PackedFormula>& formulas, LoadedNu
     const std::string name = fmt::format("f{}_", i);
     text += formula.kernel(name, numbers);
     choice += fmt::format("  if (number == {}u) {{ {}color = {}color(uv); }}\n", i,
-                          formula.loops() ? "formula_turns = 0u; " : "", name);
+                          formula.loops() ? "formula_iterations = 0u; " : "", name);
   }
   if (choice.empty()) return "";
   return text + "vec3 formula_color_of(uint number, vec2 uv) {\n  vec3 color = vec3(0.0f, 0.0f, 0.0f);\n" +
@@ -67,7 +67,8 @@ std::string camera_functions(const std::vector<PackedFormula>& formulas, LoadedN
   for (size_t i = 0; i < formulas.size(); ++i) {
     const formula::Formula& formula = *formulas[i].formula;
     if (formula.kind() != FormulaKind::camera) continue;
-    const std::string name = fmt::format("f{}_", i), restart = formula.loops() ? "formula_turns = 0u; " : "";
+    const std::string name = fmt::format("f{}_", i),
+                      restart = formula.loops() ? "formula_iterations = 0u; " : "";
     text = formula.kernel(name, numbers) +
            fmt::format("vec3 formula_direction(vec4 at) {{ {}return {}direction(at); }}\n", restart, name) +
            fmt::format("vec3 formula_origin(vec4 at) {{ {}return {}; }}\n", restart,
@@ -88,9 +89,10 @@ std::string formula_functions(const records::PackedScene& scene, expression::Loa
   if (std::ranges::any_of(scene.formulas, is_surface)) text += "#include \"shapes/implicit/search.glsl\"\n";
   if (std::ranges::any_of(scene.formulas, loops))
     text +=
-        "uint formula_turns = 0u;\nbool formula_overran = false;\n#define FORMULA_OVERRAN formula_overran\n"
-        "bool formula_turn(uint turns) {\n  formula_turns = formula_turns + turns;\n"
-        "  formula_overran = formula_overran || formula_turns > FORMULA_TURNS;\n  return "
+        "uint formula_iterations = 0u;\nbool formula_overran = false;\n#define FORMULA_OVERRAN "
+        "formula_overran\n"
+        "bool formula_iterates(uint iterations) {\n  formula_iterations = formula_iterations + iterations;\n"
+        "  formula_overran = formula_overran || formula_iterations > FORMULA_ITERATIONS;\n  return "
         "!formula_overran;\n}\n";
   std::string rows;
   for (size_t i = 0; i < scene.formulas.size(); ++i) {

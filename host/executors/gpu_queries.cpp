@@ -17,7 +17,7 @@ double GpuQueries::ask(const QueryBatch& batch, std::span<QueryHit> hits) {
   double seconds = 0;
   for (size_t first = 0; first < batch.rays.size(); first += most_pixels) {
     const size_t count = std::min(batch.rays.size() - first, size_t{most_pixels});
-    seconds += ask_some(asked, how, batch.rays.subspan(first, count), hits.subspan(first, count));
+    seconds += query_some(asked, how, batch.rays.subspan(first, count), hits.subspan(first, count));
   }
   return seconds;
 }
@@ -28,8 +28,8 @@ gpu::Kernel& GpuQueries::kernel(Rays how, bool any) {
   return *made;
 }
 
-double GpuQueries::ask_some(gpu::Kernel& kernel, Rays how, std::span<const Query> rays,
-                            std::span<QueryHit> hits) {
+double GpuQueries::query_some(gpu::Kernel& kernel, Rays how, std::span<const Query> rays,
+                              std::span<QueryHit> hits) {
   std::vector<shader::QueryRay> asked(rays.size());
   std::transform(rays.begin(), rays.end(), asked.begin(),
                  [&](const Query& ray) { return to_query_ray(ray, eye_); });

@@ -23,7 +23,7 @@ class GpuQueries {
 
  private:
   gpu::Kernel& kernel(Rays how, bool any);
-  double ask_some(gpu::Kernel& kernel, Rays how, std::span<const Query> rays, std::span<QueryHit> hits);
+  double query_some(gpu::Kernel& kernel, Rays how, std::span<const Query> rays, std::span<QueryHit> hits);
 
   gpu::Device& device_;
   SceneKernels& kernels_;

@@ -45,9 +45,9 @@ Rays incoherent_rays(const Profile& profile, const records::PackedScene& scene, 
 
 TracePlan plan_tracing(const Profile& profile, const ProfileOptions& asked, const ImageSettings& image,
                        const records::PackedScene& scene, uint32_t subgroup_size) {
-  const bool asked_for_packets = asked.rays == "packets";
+  const bool wants_packets = asked.rays == "packets";
   const bool packets = profile.packets && collapsible(scene) &&
-                       (asked_for_packets || scene.primitives.size() <= most_in_packets) &&
+                       (wants_packets || scene.primitives.size() <= most_in_packets) &&
                        (subgroup_size == 4 || subgroup_size == 8 || subgroup_size == 16);
   TracePlan plan;
   plan.coherent = packets ? Rays::packets : Rays::lanes;
@@ -56,7 +56,7 @@ TracePlan plan_tracing(const Profile& profile, const ProfileOptions& asked, cons
                     scene.primitives.size() <= most_in_wavefront && subgroup_size <= most_lanes_in_wavefront;
   // A path that passes a pane straight stays at its depth, which no kernel of a bounce knows; and paths that
   // gather photons mostly end at once.
-  plan.wavefront = packets && (asked_for_packets || pays) && !scene.panes &&
+  plan.wavefront = packets && (wants_packets || pays) && !scene.panes &&
                    !sends_photons(IntegratorType(scene.frame.integrator));
   // Most rays that leave a mesh hit no more of it: separate kernels do not pay (docs/performance.md).
   plan.bounced = only_triangles(scene) && !profile.incoherent ? Rays::lanes : plan.incoherent;

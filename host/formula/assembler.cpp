@@ -246,7 +246,7 @@ class Assembler {
   void write(Frame& frame, const ir::Loop& loop) {
     loops_.push_back({});
     const auto start = uint32_t(machine_.code_.size());
-    if (loop.turns == 0) emit({.op = Machine::turn, .length = loop.weight});
+    if (loop.iterations == 0) emit({.op = Machine::iterate, .length = loop.weight});
     write(frame, loop.body);
     for (const size_t at : loops_.back().nexts) land(at);
     write(frame, loop.next);

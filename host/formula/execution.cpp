@@ -10,7 +10,7 @@ constexpr size_t most_effort =
     400'000;                           // instructions followed, those of loops each time, and memories copied
 constexpr size_t effortless = 64;      // numbers of a memory that take no longer to copy than an instruction
 constexpr size_t most_steps = 20'000;  // written down, dead ones too
-constexpr int most_turns = 1'000;      // of one loop
+constexpr int most_iterations = 1'000;  // of one loop
 
 }  // namespace
 
@@ -87,11 +87,11 @@ void Execution::run_blocks(Call& call, size_t first, size_t end) {
 void Execution::run_loop(Call& call, size_t header) {
   const Block& block = call.function.blocks[header];
   const size_t end = call.function.block_of.at(block.merge);
-  for (int turns = 0; call.ways.contains(block.label); ++turns) {
-    if (turns == most_turns)
+  for (int iterations = 0; call.ways.contains(block.label); ++iterations) {
+    if (iterations == most_iterations)
       refuse(block.instructions.back(),
              fmt::format("this loop has more than {} iterations, or a number of them that depends on p",
-                         most_turns));
+                         most_iterations));
     run_block(call, block);
     run_blocks(call, header + 1, end);
   }

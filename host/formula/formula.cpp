@@ -220,7 +220,7 @@ std::string Formula::kernel(const std::string& name, expression::LoadedNumbers* 
 }
 
 bool Formula::loops() const {
-  return compiled_->program.counts_turns;
+  return compiled_->program.counts_iterations;
 }
 
 const expression::StraightLine& Formula::straight_line() const {
@@ -248,10 +248,10 @@ const expression::StraightLine& Formula::straight_line() const {
 }
 
 template <size_t Results, typename T, size_t Inputs>
-std::array<T, Results> Formula::run(const std::array<T, Inputs>& input, uint64_t* turns) const {
+std::array<T, Results> Formula::run(const std::array<T, Inputs>& input, uint64_t* iterations) const {
   std::array<T, Results> results{};
   stop_if_interrupted();
-  if (!compiled_->value.run(input, results.data(), turns)) endless();
+  if (!compiled_->value.run(input, results.data(), iterations)) endless();
   return results;
 }
 
@@ -266,8 +266,8 @@ float Formula::value(const std::array<float, 3>& p) const {
   return run<1>(p)[0];
 }
 
-double Formula::value(const std::array<double, 3>& p, uint64_t* turns) const {
-  return run<1>(p, turns)[0];
+double Formula::value(const std::array<double, 3>& p, uint64_t* iterations) const {
+  return run<1>(p, iterations)[0];
 }
 
 std::array<float, 3> Formula::color(const std::array<float, 2>& uv) const {

@@ -57,8 +57,8 @@ class Formula {
 
   // The formula as GLSL for kernels that have shaders/math/formula.glsl: the required function, for instance
   // `float NAMEf(vec3 p)`, and the others of the text. Loops that must be counted (loops()) call `bool
-  // formula_turn(uint turns)`. With `numbers`, constants are loaded: then formulas that differ only in
-  // parameters mostly have the same text.
+  // formula_iterates(uint iterations)`. With `numbers`, constants are loaded: then formulas that differ only
+  // in parameters mostly have the same text.
   std::string kernel(const std::string& name, expression::LoadedNumbers* numbers = nullptr) const;
   bool loops() const;
 
@@ -68,10 +68,10 @@ class Formula {
   const expression::StraightLine& straight_line() const;
 
   // A surface's, in float32, to the bit as kernels compute it, and in float64. Error (timed_out) if the loops
-  // take more iterations than FORMULA_TURNS of math/formula.glsl. Thread-safe. `turns`, if given, grows by
-  // the number of iterations.
+  // take more iterations than FORMULA_ITERATIONS of math/formula.glsl. Thread-safe. `iterations`, if given,
+  // grows by the number of iterations.
   float value(const std::array<float, 3>& p) const;
-  double value(const std::array<double, 3>& p, uint64_t* turns = nullptr) const;
+  double value(const std::array<double, 3>& p, uint64_t* iterations = nullptr) const;
   // The text's own, if it has one.
   std::array<float, 3> gradient(const std::array<float, 3>& p) const;
   // A colour's, likewise.
@@ -86,7 +86,7 @@ class Formula {
 
  private:
   template <size_t Results, typename T, size_t Inputs>
-  std::array<T, Results> run(const std::array<T, Inputs>& input, uint64_t* turns = nullptr) const;
+  std::array<T, Results> run(const std::array<T, Inputs>& input, uint64_t* iterations = nullptr) const;
   template <typename T, size_t Inputs>
   std::array<T, 3> run_other(const std::array<T, Inputs>& input) const;
   [[noreturn]] void endless() const;

@@ -137,8 +137,8 @@ struct Branch {
 // Repeats until it is left. `next` follows each iteration.
 struct Loop {
   Block body, next;
-  uint32_t turns = 0;   // most iterations, if that is known and needs no counting; else 0
-  uint32_t weight = 0;  // weight of an iteration, if iterations are counted
+  uint32_t iterations = 0;  // most iterations, if that is known and needs no counting; else 0
+  uint32_t weight = 0;      // weight of an iteration, if iterations are counted
 };
 enum class Jump : uint8_t { leave, next, give_back };  // of the innermost loop; of the function
 
@@ -188,7 +188,7 @@ struct Program {
   std::vector<Table> tables;
   uint32_t value = 0;             // the function that the text must define
   std::vector<uint32_t> other{};  // the function that it may have beside, if there is one
-  bool counts_turns = false;
+  bool counts_iterations = false;
 };
 
 }  // namespace eyeray::engine::formula::ir

@@ -356,7 +356,7 @@ class Writer {
       close();
       line("again{} = true;", number);
     }
-    if (loop.turns == 0) line("if (!formula_turn({}u)) break;", loop.weight);
+    if (loop.iterations == 0) line("if (!formula_iterates({}u)) break;", loop.weight);
     write(loop.body);
     if (!jumps) write(loop.next);
     close();

@@ -10,8 +10,8 @@
 namespace eyeray::engine::formula {
 
 // The entry of that kind, its name behind `name`, the other one if there is one, and the functions they call;
-// needs shaders/math/formula.glsl and, where loops are counted, `bool formula_turn(uint)`. One operation a
-// statement, on numbers alone: nothing of the user's text is left, and nothing for a compiler to fold. With
+// needs shaders/math/formula.glsl and, where loops are counted, `bool formula_iterates(uint)`. One operation
+// a statement, on numbers alone: nothing of the user's text is left, and nothing for a compiler to fold. With
 // `numbers`, constants are loaded, but those that are indices into arrays.
 std::string kernel_text(const ir::Program& program, FormulaKind kind, const std::string& name,
                         expression::LoadedNumbers* numbers = nullptr);

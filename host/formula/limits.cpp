@@ -15,8 +15,8 @@ constexpr double most_memory = 1 << 13;
 constexpr double most_work = 1 << 18;
 // A loop of a known number of iterations, together no longer than this, needs no counting.
 constexpr double most_uncounted_work = 1 << 16;
-// Instructions that count as one turn more.
-constexpr double work_of_a_turn = 256;
+// Instructions that count as one iteration more.
+constexpr double work_of_an_iteration = 256;
 
 class Measure {
  public:
@@ -69,15 +69,15 @@ class Measure {
   }
   Size of(ir::Loop& loop, const ir::Block& around, size_t at) {
     const Size body = of(loop.body), next = of(loop.next);
-    const double turn = 1 + body.work + next.work;
-    const auto known = known_turns(loop, around, at);
-    const bool uncounted = known && double(*known) * turn <= most_uncounted_work;
-    loop.turns = uncounted ? std::max(*known, 1u) : 0;
-    loop.weight = uint32_t(std::min(1 + turn / work_of_a_turn, 1e6));
-    if (!uncounted) program_.counts_turns = true;
+    const double iteration = 1 + body.work + next.work;
+    const auto known = known_iterations(loop, around, at);
+    const bool uncounted = known && double(*known) * iteration <= most_uncounted_work;
+    loop.iterations = uncounted ? std::max(*known, 1u) : 0;
+    loop.weight = uint32_t(std::min(1 + iteration / work_of_an_iteration, 1e6));
+    if (!uncounted) program_.counts_iterations = true;
     return {.instructions = 1 + body.instructions + next.instructions,
             .branches = 1 + body.branches + next.branches,
-            .work = uncounted ? (*known + 1) * turn : turn};
+            .work = uncounted ? (*known + 1) * iteration : iteration};
   }
   Size of(const ir::Jump&, const ir::Block&, size_t) const { return {.instructions = 1, .work = 1}; }
 
@@ -88,7 +88,7 @@ class Measure {
     if (operand >= 0) return std::nullopt;
     return int32_t(program_.constants[size_t(~operand)].bits);
   }
-  std::optional<uint32_t> known_turns(const ir::Loop& loop, const ir::Block& around, size_t at) const;
+  std::optional<uint32_t> known_iterations(const ir::Loop& loop, const ir::Block& around, size_t at) const;
   static size_t writes(const ir::Block& block, ir::Operand to);
 
   ir::Program& program_;
@@ -122,7 +122,8 @@ size_t Measure::writes(const ir::Block& block, ir::Operand to) {
 
 // for (int i = FROM; i < TO; i += STEP), or <=: where i is a register that starts as a constant just before
 // the loop, is compared first in each iteration, and is written to by nothing but the step.
-std::optional<uint32_t> Measure::known_turns(const ir::Loop& loop, const ir::Block& around, size_t at) const {
+std::optional<uint32_t> Measure::known_iterations(const ir::Loop& loop, const ir::Block& around,
+                                                  size_t at) const {
   if (loop.body.size() < 2 || loop.next.empty() || at == 0) return std::nullopt;
 
   // The condition, and the way out where it does not hold.
@@ -161,10 +162,10 @@ std::optional<uint32_t> Measure::known_turns(const ir::Loop& loop, const ir::Blo
   }
   if (!from) return std::nullopt;
   const int64_t end = inclusive ? *to + 1 : *to;
-  const int64_t turns = std::max<int64_t>((end - *from + *by - 1) / *by, 0);
+  const int64_t iterations = std::max<int64_t>((end - *from + *by - 1) / *by, 0);
   if (end <= *from) return 0;
-  if (*from + turns * *by > INT32_MAX || turns > (1 << 20)) return std::nullopt;
-  return uint32_t(turns);
+  if (*from + iterations * *by > INT32_MAX || iterations > (1 << 20)) return std::nullopt;
+  return uint32_t(iterations);
 }
 
 // Sizes are sums that double with each call: no number of them overflows a double that occurs here.

@@ -113,7 +113,7 @@ struct Machine::Files {
 };
 
 template <typename T>
-bool Machine::run_as(std::span<const T> input, T* result, uint64_t* turns) const {
+bool Machine::run_as(std::span<const T> input, T* result, uint64_t* iterations) const {
   using F = Functions<T>;
   using ir::Op;
   Files<T>& files = Files<T>::of(*this);
@@ -219,14 +219,14 @@ bool Machine::run_as(std::span<const T> input, T* result, uint64_t* turns) const
       case jump: at = code_.data() + c.to; break;
       case jump_if: if (w[x]) at = code_.data() + c.to; break;
       case jump_unless: if (!w[x]) at = code_.data() + c.to; break;
-      case turn:
+      case iterate:
         made += c.length;
-        if (made <= FORMULA_TURNS) break;
-        if (turns) *turns += made;
+        if (made <= FORMULA_ITERATIONS) break;
+        if (iterations) *iterations += made;
         return false;
       case end:
         for (size_t i = 0; result && i < results_.size(); ++i) result[i] = r[results_[i]];
-        if (turns) *turns += made;
+        if (iterations) *iterations += made;
         return true;
       default: CHECK(false);
     }
@@ -234,11 +234,11 @@ bool Machine::run_as(std::span<const T> input, T* result, uint64_t* turns) const
   }
 }
 
-bool Machine::run(std::span<const float> input, float* result, uint64_t* turns) const {
-  return run_as(input, result, turns);
+bool Machine::run(std::span<const float> input, float* result, uint64_t* iterations) const {
+  return run_as(input, result, iterations);
 }
-bool Machine::run(std::span<const double> input, double* result, uint64_t* turns) const {
-  return run_as(input, result, turns);
+bool Machine::run(std::span<const double> input, double* result, uint64_t* iterations) const {
+  return run_as(input, result, iterations);
 }
 
 std::vector<uint32_t> Machine::bits() const {

@@ -19,10 +19,10 @@ class Machine {
 
   // Writes all numbers of the function's result for `input`. In float32 it uses the shaders' functions
   // (math/formula.glsl), so that the bits are a kernel's; in float64 those of C's library. False if counted
-  // loops take more iterations than FORMULA_TURNS. `turns`, if given, grows by the number of iterations.
-  // Thread-safe.
-  bool run(std::span<const float> input, float* result, uint64_t* turns = nullptr) const;
-  bool run(std::span<const double> input, double* result, uint64_t* turns = nullptr) const;
+  // loops take more iterations than FORMULA_ITERATIONS. `iterations`, if given, grows by the number of
+  // iterations. Thread-safe.
+  bool run(std::span<const float> input, float* result, uint64_t* iterations = nullptr) const;
+  bool run(std::span<const double> input, double* result, uint64_t* iterations = nullptr) const;
   // The result of a function without an input in float32, of any type.
   std::vector<uint32_t> bits() const;
 
@@ -34,7 +34,7 @@ class Machine {
     jump = 256,
     jump_if,
     jump_unless,
-    turn,
+    iterate,
     end,
     move_real,
     select_real,
@@ -55,7 +55,7 @@ class Machine {
   struct Files;
 
   template <typename T>
-  bool run_as(std::span<const T> input, T* result, uint64_t* turns) const;
+  bool run_as(std::span<const T> input, T* result, uint64_t* iterations) const;
 
   uint64_t id_;  // no other machine's
   std::vector<Code> code_;

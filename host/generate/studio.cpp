@@ -10,12 +10,12 @@ namespace eyeray::engine::generate {
 namespace {
 
 // In shares of the picture's width and height.
-struct Lamp {
+struct AreaLight {
   Vec2 center, half_size;
   Vec3 radiance;
 };
 
-constexpr Lamp lamps[] = {
+constexpr AreaLight area_lights[] = {
     {{0.27, 0.3}, {0.085, 0.15}, {7, 7.4, 8}},       // the soft box, over the left shoulder
     {{0.83, 0.36}, {0.022, 0.27}, {12, 9.5, 6.5}},   // the strip, behind to the right
     {{0.56, 0.16}, {0.017, 0.034}, {110, 105, 95}},  // the area light, high up
@@ -30,10 +30,10 @@ double cover(double distance, double half_size) {
 Vec3 light(double u, double v) {
   // Walls that are lighter towards the ceiling, and a floor.
   Vec3 color = v < 0.5 ? Vec3(0.16, 0.165, 0.18) + (0.5 - v) * Vec3(0.3, 0.31, 0.33) : Vec3(0.1, 0.09, 0.08);
-  for (const Lamp& lamp : lamps) {
-    const double across = std::abs(u - lamp.center.x);
-    color += cover(std::min(across, 1 - across), lamp.half_size.x) *
-             cover(std::abs(v - lamp.center.y), lamp.half_size.y) * lamp.radiance;
+  for (const AreaLight& light : area_lights) {
+    const double across = std::abs(u - light.center.x);
+    color += cover(std::min(across, 1 - across), light.half_size.x) *
+             cover(std::abs(v - light.center.y), light.half_size.y) * light.radiance;
   }
   return color;
 }

@@ -37,7 +37,7 @@ void call_engine(const std::function<void()>& work, const std::atomic<bool>* sto
 
 // Makes a call that returns a result.
 template <typename Work>
-auto ask_engine(const Work& work, const std::atomic<bool>* stop = nullptr) {
+auto run_engine(const Work& work, const std::atomic<bool>* stop = nullptr) {
   std::optional<decltype(work())> answer;
   call_engine([&] { answer.emplace(work()); }, stop);
   return std::move(*answer);

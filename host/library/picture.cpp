@@ -55,7 +55,7 @@ const std::vector<Diagnostic>& Picture::warnings() const noexcept {
 }
 
 std::vector<uint8_t> Picture::tonemapped() const {
-  return engine::library::ask_engine([&] {
+  return engine::library::run_engine([&] {
     const engine::image::Image shown = engine::image::toned(data_->color, data_->tone);
     std::vector<uint8_t> codes(shown.sample_count());
     std::ranges::transform(shown.samples(), codes.begin(), engine::image::srgb8);
@@ -64,7 +64,7 @@ std::vector<uint8_t> Picture::tonemapped() const {
 }
 
 std::string Picture::png() const {
-  return engine::library::ask_engine([&] {
+  return engine::library::run_engine([&] {
     if (data_->color.sample_count() == 0)
       throw engine::Error(engine::ExitCode::bad_input,
                           "there is no .png: the picture was cancelled and is empty");

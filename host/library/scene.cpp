@@ -20,7 +20,7 @@ std::vector<loader::Override> overrides_of(const v0::SceneOptions& options) {
 
 v0::Scene parse(std::string_view toml, std::string_view name, const v0::SceneOptions& options,
                 const loader::MemoryFiles& files) {
-  return ask_engine([&] {
+  return run_engine([&] {
     return v0::Scene::Data::checked(
         loader::parse_scene(toml, std::string(name), overrides_of(options), files, options.formulas));
   });
@@ -37,7 +37,7 @@ Scene Scene::Data::checked(engine::Scene read) {
 }
 
 Scene Scene::read(const std::filesystem::path& file, const SceneOptions& options) {
-  return engine::library::ask_engine([&] {
+  return engine::library::run_engine([&] {
     return Data::checked(engine::loader::load_scene(file, engine::library::overrides_of(options),
                                                     {options.allowed_folders, options.formulas}));
   });

@@ -59,9 +59,9 @@ importers::ImportedCamera framing(const importers::ImportedScene& import) {
   each_point(import, [&](const Vec3& p) {
     const Vec3 from_centre = p - centre;
     const double nearer = slope * glm::dot(from_centre, towards_eye);
-    const Vec2 aside(glm::dot(from_centre, right), glm::dot(from_centre, up));
-    most[0] = glm::max(most[0], aside + nearer);
-    most[1] = glm::max(most[1], -aside + nearer);
+    const Vec2 lateral(glm::dot(from_centre, right), glm::dot(from_centre, up));
+    most[0] = glm::max(most[0], lateral + nearer);
+    most[1] = glm::max(most[1], -lateral + nearer);
   });
   const Vec2 middle = (most[0] - most[1]) / 2.0;
   const Vec2 distance = (most[0] + most[1]) / (2 * slope);

@@ -27,20 +27,20 @@ void warn_of_paths(const Scene& scene, DiagnosticLog& log) {
                                   "`reflectance` add up to more than 1",
                                   material->name));
   }
-  const Emitters lamps = emitters(scene);
-  const std::vector<SourcePosition>& unsampled = lamps.unsampled;
+  const Emitters found = emitters(scene);
+  const std::vector<SourcePosition>& unsampled = found.unsampled;
   const auto has_size = [&](const auto& light) { return light->illuminate(scene.camera.eye).angle > 0; };
   const auto glass = std::ranges::find_if(scene.materials, [&](const auto& material) {
     return fills(*material, scene.render.integrator) && material->medium()->ior != scene.medium.ior;
   });
   const bool photons = sends_photons(scene.render.integrator);
   if (!photons && glass != scene.materials.end() && !scene.lights.empty() && !scene.environment &&
-      lamps.sampled.empty() && unsampled.empty() && std::ranges::none_of(scene.lights, has_size))
+      found.sampled.empty() && unsampled.empty() && std::ranges::none_of(scene.lights, has_size))
     log.warning({}, fmt::format("paths cannot find point lights through glass (material \"{}\"), so its "
                                 "shadow is black and has no caustics; use integrator = \"sppm\", or lights "
                                 "with a size (`emission`, or the `angle` of a directional light)",
                                 (*glass)->name));
-  if (!photons && scene.lights.empty() && lamps.sampled.empty() && unsampled.empty() &&
+  if (!photons && scene.lights.empty() && found.sampled.empty() && unsampled.empty() &&
       scene.render.background == Vec3(0) && !scene.environment)
     log.warning({},
                 "the scene has no light: there is no [[light]], no `emission`, no `background` and no "

@@ -61,18 +61,18 @@ void check_surfaces(const Scene& scene, reading::TableReader& render) {
 
 void check_lights(const Scene& scene, reading::TableReader& render, std::span<const SourcePosition> lights,
                   DiagnosticLog& log) {
-  const Emitters lamps = emitters(scene);
-  if (scene.lights.empty() && lamps.sampled.empty() && lamps.unsampled.empty() && !scene.environment)
+  const Emitters found = emitters(scene);
+  if (scene.lights.empty() && found.sampled.empty() && found.unsampled.empty() && !scene.environment)
     render.error("integrator", fmt::format("`sppm` has no light to emit its {} photons from: there is no "
                                            "[[light]], no `emission`, no `background` and no [environment]",
                                            scene.render.photons));
-  if (!lamps.unsampled.empty())
+  if (!found.unsampled.empty())
     log.error(
-        lamps.unsampled.front(),
+        found.unsampled.front(),
         fmt::format(
             "`sppm` cannot emit photons from this{}: it samples points on spheres, ellipsoids, boxes, "
             "cylinders, disks, triangles, parallelograms and meshes without cutouts",
-            lamps.unsampled.size() == 1 ? "" : fmt::format(" and {} more", lamps.unsampled.size() - 1)));
+            found.unsampled.size() == 1 ? "" : fmt::format(" and {} more", found.unsampled.size() - 1)));
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     const LightForm form = scene.lights[i]->form();
     if (const auto* point = std::get_if<PointLight>(&form); point && point->falloff == Falloff::none)

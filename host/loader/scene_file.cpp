@@ -47,7 +47,7 @@ Scene finish(Document document, const fs::path& file, std::span<const Override> 
 }
 
 // The moment that the overrides set; their faults are reported later.
-double asked_seconds(std::span<const Override> overrides) {
+double requested_seconds(std::span<const Override> overrides) {
   std::vector<Override> about;
   std::ranges::copy_if(overrides, std::back_inserter(about),
                        [](const Override& each) { return each.text.starts_with("animation"); });
@@ -61,7 +61,7 @@ double asked_seconds(std::span<const Override> overrides) {
 Document read_mesh(const fs::path& file, std::span<const Override> overrides, MeshImports& meshes,
                    DiagnosticLog& log) {
   log.add_source(file.string(), "");
-  meshes.show(asked_seconds(overrides));
+  meshes.show(requested_seconds(overrides));
   const MeshImports::Loaded loaded = meshes.load_alone(file);
   // The camera of a film stands still: it frames the file at rest.
   std::optional<importers::ImportedScene> rest;

@@ -14,11 +14,11 @@ double integral(double mu, double roughness, const Weakening& weakening) {
   const double level = std::sqrt(1 - mu * mu);
   double sum = 0;
   for (int k = 0; k < sheen_heights; ++k) {
-    const double x = (k + 0.5) / sheen_heights, z = x * x, aside = std::sqrt(1 - z * z);
+    const double x = (k + 0.5) / sheen_heights, z = x * x, sine = std::sqrt(1 - z * z);
     double of_turns = 0;
     for (int t = 0; t < sheen_turns; ++t) {
-      const double along = level + aside * std::cos(M_PI * (t + 0.5) / sheen_turns);
-      const double across = aside * std::sin(M_PI * (t + 0.5) / sheen_turns), up = mu + z;
+      const double along = level + sine * std::cos(M_PI * (t + 0.5) / sheen_turns);
+      const double across = sine * std::sin(M_PI * (t + 0.5) / sheen_turns), up = mu + z;
       const double length = std::sqrt(along * along + across * across + up * up);
       of_turns += sheen(std::min(up / length, 1.0), mu, z, roughness);
     }

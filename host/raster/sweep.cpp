@@ -19,8 +19,8 @@ double sagitta(const CurvePoint& a, const CurvePoint& b) {
   if (length == 0) return 0;
   const auto rise = [&](const Vec2& normal) {  // the tangent of the angle between curve and chord
     const double along = std::fabs(normal.x * chord.y - normal.y * chord.x),
-                 aside = std::fabs(glm::dot(normal, chord));
-    return along > 0 ? aside / along : std::numeric_limits<double>::infinity();
+                 across = std::fabs(glm::dot(normal, chord));
+    return along > 0 ? across / along : std::numeric_limits<double>::infinity();
   };
   const double at_a = rise(a.normal), at_b = rise(b.normal);
   if (std::isinf(at_a) || std::isinf(at_b)) return length;
@@ -29,15 +29,15 @@ double sagitta(const CurvePoint& a, const CurvePoint& b) {
 
 void halve(const std::function<CurvePoint(double)>& curve, double from, const CurvePoint& a, double to,
            const CurvePoint& b, double tolerance, int depth, Polyline& line) {
-  const double aside = sagitta(a, b);
-  if (aside > tolerance && depth < deepest) {
+  const double across = sagitta(a, b);
+  if (across > tolerance && depth < deepest) {
     const double middle = (from + to) / 2;
     const CurvePoint between = curve(middle);
     halve(curve, from, a, middle, between, tolerance, depth + 1, line);
     halve(curve, middle, between, to, b, tolerance, depth + 1, line);
     return;
   }
-  line.bound = std::max(line.bound, aside);
+  line.bound = std::max(line.bound, across);
   line.points.push_back(b.at);
 }
 

@@ -61,10 +61,10 @@ std::string Witness::misplaced(const FirstHit& hit, int x, int y) const {
   const Vec3 drawn = view().project(Vec4(at, 1.0));
   const Vec2 center(x + 0.5, y + 0.5);
   const double nearness = view().nearness(x, y, hit.t);
-  const double aside = glm::length(Vec2(drawn) - center), off = std::fabs(drawn.z - nearness);
+  const double distance = glm::length(Vec2(drawn) - center), off = std::fabs(drawn.z - nearness);
   const auto within = [&](double error) {
     const Vec2 room = view().shift(center.x, center.y, nearness, error);
-    return aside <= room.x + ray_error && off <= room.y;
+    return distance <= room.x + ray_error && off <= room.y;
   };
   // Only where something is large, and close, its reach is asked for, which takes time.
   const double error = 2 * exactness_.t * hit.t;
@@ -73,7 +73,7 @@ std::string Witness::misplaced(const FirstHit& hit, int x, int y) const {
     const double reach = list().reach(uint64_t(hit.primitive));
     if (within(error + 2 * coordinate_error * reach / std::max(std::fabs(hit.cosine), 0.01))) return "";
   }
-  return fmt::format("its position falls {:.2g} pixels away from its pixel, and at t {:.9g}", aside,
+  return fmt::format("its position falls {:.2g} pixels away from its pixel, and at t {:.9g}", distance,
                      view().t(x, y, drawn.z));
 }
 

@@ -19,16 +19,19 @@ std::string show(double value) {
   return text;
 }
 
-// " above 0 and below 180", " from 1 to 65536", " of at least 0"; "" where every number will do.
+// " above 0 and below 180", " above 0, at most 64", " from 0 to below 90", " from 1 to 65536", " of at least 0"; ""
+// where every number will do.
 std::string describe_range(const Key& key) {
-  const bool low = std::isfinite(key.min);
-  const bool high = std::isfinite(key.max);
-  if (low && high && !key.above_min && !key.below_max) {
-    return fmt::format(" from {} to {}", show(key.min), show(key.max));
+  const bool low = std::isfinite(key.min), high = std::isfinite(key.max);
+  const std::string min = low ? show(key.min) : "", max = high ? show(key.max) : "";
+  if (low && high) {
+    const std::string_view text = key.above_min ? (key.below_max ? " above {} and below {}" : " above {}, at most {}")
+                                                : (key.below_max ? " from {} to below {}" : " from {} to {}");
+    return fmt::format(fmt::runtime(text), min, max);
   }
-  const std::string least = low ? (key.above_min ? " above " : " of at least ") + show(key.min) : "";
-  const std::string most = high ? (key.below_max ? " below " : " of at most ") + show(key.max) : "";
-  return least + (low && high ? " and" : "") + most;
+  if (low) return (key.above_min ? " above " : " of at least ") + min;
+  if (high) return (key.below_max ? " below " : " of at most ") + max;
+  return "";
 }
 
 std::string each(const Key& key) {

@@ -43,7 +43,7 @@ struct PackedScene {
   RawVector<shader::uvec4> nodes;
   std::vector<shader::Bvh> bvhs;  // the world's, then one a mesh or group of `instances`
   std::vector<shader::Instance> instances;
-  size_t most_linear = 0;        // primitives, and turns of their loops, that a BVH would find no sooner
+  size_t most_linear = 0;        // primitives, and iterations of their loops, that a BVH would find no sooner
   bool has_bvh = false;          // whether `nodes` are to be used; else all is tested one by one
   bool quantised_nodes = false;  // the coding of `nodes`
   uint32_t stack_size = 1;       // the most entries that a traversal may have waiting

@@ -139,16 +139,16 @@ Interaction PathSample::scattered_at(const Ray& ray, double t) const {
   return at;
 }
 
-std::optional<Ray> PathSample::meet_medium(const Ray& ray, const Flight& flight, const MediaStack& media,
-                                           Vec3& color) {
+std::optional<Ray> PathSample::hit_medium(const Ray& ray, const Flight& flight, const MediaStack& media,
+                                          Vec3& color) {
   rays_.decided(Event::hit, in_medium);
   const Interaction at = scattered_at(ray, flight.t);
   gain(direct_in(at, media), color);
   return scatter_in(rays_.medium(media), at);
 }
 
-std::optional<Ray> PathSample::meet_surface(const Interaction& at, const LocalFrame& frame,
-                                            const ViewedBsdf& bsdf, MediaStack& media, Vec3& color) {
+std::optional<Ray> PathSample::hit_surface(const Interaction& at, const LocalFrame& frame,
+                                           const ViewedBsdf& bsdf, MediaStack& media, Vec3& color) {
   gain(emitted(at) + direct_on(at, frame, bsdf, media), color);
   return scatter(at, frame, bsdf, media);
 }
@@ -171,7 +171,7 @@ PixelSample PathSample::follow(Ray ray, MediaStack media, Meet meet) {
     throughput_ *= flight.weight;
     std::optional<Ray> next;
     if (flight.scattered) {
-      next = meet_medium(ray, flight, media, color);
+      next = hit_medium(ray, flight, media, color);
     } else if (hit) {
       const Interaction at = rays_.interaction(ray, *hit, media, before, flight.weight);
       rays_.decided(Event::hit, at.primitive + 1);

@@ -59,10 +59,10 @@ class PathSample {
         rays_(tracer, displacement, observer),
         observer_(observer) {}
 
-  PixelSample sample(Ray ray, MediaStack media) { return follow(ray, media, &PathSample::meet_surface); }
+  PixelSample sample(Ray ray, MediaStack media) { return follow(ray, media, &PathSample::hit_surface); }
   // Follows the path up to the point where photons are gathered, and adds their light.
   PixelSample gathering_sample(Ray ray, MediaStack media) {
-    return follow(ray, media, &PathSample::meet_gathering);
+    return follow(ray, media, &PathSample::hit_gathering);
   }
   // Traces the photon of the sample that the id's index names, and appends the points where it is stopped to
   // `stopped`. The id's pixel is photons_of | the sample's number. Returns the photon's trail.
@@ -92,11 +92,11 @@ class PathSample {
   // Adds the light at the path's hit to `color`, and continues from there: returns the next ray, or none.
   using Meet = std::optional<Ray> (PathSample::*)(const Interaction& at, const LocalFrame& frame,
                                                   const ViewedBsdf& bsdf, MediaStack& media, Vec3& color);
-  std::optional<Ray> meet_surface(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
-                                  MediaStack& media, Vec3& color);
-  std::optional<Ray> meet_gathering(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
-                                    MediaStack& media, Vec3& color);
-  std::optional<Ray> meet_medium(const Ray& ray, const Flight& flight, const MediaStack& media, Vec3& color);
+  std::optional<Ray> hit_surface(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
+                                 MediaStack& media, Vec3& color);
+  std::optional<Ray> hit_gathering(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
+                                   MediaStack& media, Vec3& color);
+  std::optional<Ray> hit_medium(const Ray& ray, const Flight& flight, const MediaStack& media, Vec3& color);
   // From a vertex whose lights have been sampled.
   void gain(const Vec3& light, Vec3& color);
   // Follows the path to its end, and calls `meet` at every surface.

@@ -52,8 +52,8 @@ class PhotonMap {
 template <typename Visit>
 void PhotonMap::near(const Vec3& p, const Visit& visit) const {
   for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 aside(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-    const auto [begin, end] = in_cell(cell(p + radius_ * aside));
+    const Vec3 offset(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+    const auto [begin, end] = in_cell(cell(p + radius_ * offset));
     for (size_t i = begin; i < end; ++i) visit(photons_[i]);
   }
 }

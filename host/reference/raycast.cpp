@@ -13,10 +13,10 @@ constexpr std::string_view manual =
     "Only camera rays are traced. The first surface is shown in its own colour, lit without shadows. In a "
     "scene without lights, a light at the eye illuminates it.";
 
-PixelSample raycast(const Tracer& tracer, const SampleId& id, const Ray& eye_ray, const MediaStack&,
+PixelSample raycast(const Tracer& tracer, const SampleId& id, const Ray& camera_ray, const MediaStack&,
                     const rounding::Displacement& displacement, const Observer& observer) {
   const Scene& scene = tracer.scene();
-  Ray ray = eye_ray;
+  Ray ray = camera_ray;
   ray.alpha_key = alpha_key(id.pixel, id.index, 0, 0, scene.render.seed);
   uint32_t flags = 0;
   const auto hit = tracer.trace(ray, flags, displacement.coincident);

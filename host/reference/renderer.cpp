@@ -22,7 +22,7 @@ Renderer::Aim Renderer::aim(int x, int y, uint32_t index) const {
           camera_.lens_point(sampler(image.pattern).pair(pixel, index, 1, seed))};
 }
 
-Ray Renderer::eye_ray(const Aim& aim, const Vec2& shift, double pivot) const {
+Ray Renderer::camera_ray(const Aim& aim, const Vec2& shift, double pivot) const {
   const Ray moved = camera_.ray(aim.place + shift, aim.lens);
   if (pivot == 0) return moved;
   const Ray ray = camera_.ray(aim.place, aim.lens);
@@ -38,14 +38,14 @@ SampleId Renderer::id(int x, int y, uint32_t index) const {
 AuxiliarySample Renderer::auxiliary(int x, int y, uint32_t index) const {
   const Aim aim = this->aim(x, y, index);
   if (!camera_.sees(aim.place)) return {};
-  return path_auxiliary(tracer_, id(x, y, index), eye_ray(aim, {0, 0}, 0), media_);
+  return path_auxiliary(tracer_, id(x, y, index), camera_ray(aim, {0, 0}, 0), media_);
 }
 
 PixelSample Renderer::sample(int x, int y, uint32_t index, Vec2 shift,
                              const rounding::Displacement& displacement, const Observer& observer) const {
   const Aim aim = this->aim(x, y, index);
   if (!camera_.sees(aim.place + shift, aim.lens)) return {};
-  const Ray ray = eye_ray(aim, shift, displacement.pivot);
+  const Ray ray = camera_ray(aim, shift, displacement.pivot);
   const IntegratorType type = scene_.render.integrator;
   observer.ray(RayKind::eye, ray, 0);
   PixelSample sample = integrator(type).sample(tracer_, id(x, y, index), ray, media_, displacement, observer);
@@ -66,7 +66,7 @@ FirstHit Renderer::hit(const Aim& aim, const SampleId& id, const Vec2& shift,
                        const rounding::Displacement& displacement) const {
   FirstHit result;
   if (!camera_.sees(aim.place + shift, aim.lens)) return result;
-  Ray ray = eye_ray(aim, shift, displacement.pivot);
+  Ray ray = camera_ray(aim, shift, displacement.pivot);
   ray.alpha_key = alpha_key(id.pixel, id.index, 0, 0, scene_.render.seed);
   const auto hit = tracer_.trace(ray, result.flags, displacement.coincident);
   if (!hit) return result;

@@ -43,7 +43,7 @@ class Renderer {
   };
   Aim aim(int x, int y, uint32_t index) const;
   SampleId id(int x, int y, uint32_t index) const;
-  Ray eye_ray(const Aim& aim, const Vec2& shift, double pivot) const;
+  Ray camera_ray(const Aim& aim, const Vec2& shift, double pivot) const;
   FirstHit hit(const Aim& aim, const SampleId& id, const Vec2& shift,
                const rounding::Displacement& displacement) const;
 

@@ -44,9 +44,9 @@ double SampleRays::medium_distance(const MediaStack& media, const Ray& ray, doub
 
 Ray SampleRays::start_ray(const Ray& ray) {
   if (displacement_.share == 0) return ray;
-  Vec3 aside;
-  for (uint32_t i = 0; i < 3; ++i) aside[int(i)] = 2 * random(displacement_.seed, spawned_, i, 0) - 1;
-  const Ray started{ray.o + displacement_.share * glm::length(ray.o - scene_.camera.eye) * aside,
+  Vec3 offset;
+  for (uint32_t i = 0; i < 3; ++i) offset[int(i)] = 2 * random(displacement_.seed, spawned_, i, 0) - 1;
+  const Ray started{ray.o + displacement_.share * glm::length(ray.o - scene_.camera.eye) * offset,
                     rounded(ray.d)};
   ++spawned_;
   return started;
@@ -61,15 +61,15 @@ Ray SampleRays::spawn_ray(const SurfacePoint& point, const Vec3& d, Leaving leav
   Ray ray{spawn_origin(point, d, least, displacement_.along_normal, leaving), d};
   if (displacement_.share == 0) return ray;
 
-  Vec3 aside;
-  for (uint32_t i = 0; i < 3; ++i) aside[int(i)] = 2 * random(displacement_.seed, spawned_, i, 0) - 1;
+  Vec3 offset;
+  for (uint32_t i = 0; i < 3; ++i) offset[int(i)] = 2 * random(displacement_.seed, spawned_, i, 0) - 1;
   // Edges of shapes other than triangles are not known: one ray in eight may be near any.
   if (displacement_.room > 0 && random(displacement_.seed, spawned_, 7, 0) < 0.125 &&
       point.weights == Vec3(0))
-    aside *= displacement_.room / displacement_.share;
+    offset *= displacement_.room / displacement_.share;
   ++spawned_;
-  aside -= glm::dot(aside, point.normal_geometric) * point.normal_geometric;
-  ray.o += displacement_.share * glm::length(from_eye) * aside;
+  offset -= glm::dot(offset, point.normal_geometric) * point.normal_geometric;
+  ray.o += displacement_.share * glm::length(from_eye) * offset;
   ray.o += way_inside(point, displacement_.room * magnitude(from_eye));
   return ray;
 }
@@ -90,9 +90,9 @@ Vec3 SampleRays::end_before(const Vec3& place, const Vec3& normal, const Vec3& l
 
 Vec3 SampleRays::rounded(const Vec3& d) const {
   if (displacement_.share == 0) return d;
-  Vec3 aside;
-  for (uint32_t i = 0; i < 3; ++i) aside[int(i)] = 2 * random(displacement_.seed, spawned_, 4 + i, 0) - 1;
-  return glm::normalize(d + displacement_.share * aside);
+  Vec3 offset;
+  for (uint32_t i = 0; i < 3; ++i) offset[int(i)] = 2 * random(displacement_.seed, spawned_, 4 + i, 0) - 1;
+  return glm::normalize(d + displacement_.share * offset);
 }
 
 Vec3 SampleRays::surroundings(const Vec3& d) const {
@@ -185,9 +185,9 @@ Scattering SampleRays::scattering(const Ray& ray, const Hit& hit, const SurfaceP
   };
   const Vec3 u = glm::normalize(glm::cross(ray.d, std::abs(ray.d.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)));
   const Vec3 v = glm::cross(ray.d, u);
-  const double aside = displacement_.share * glm::length(point.position - scene_.camera.eye);
+  const double offset = displacement_.share * glm::length(point.position - scene_.camera.eye);
   for (int i = 0; i < 8; ++i) {
-    const Ray moved{ray.o + aside * (std::cos(i * M_PI / 4) * u + std::sin(i * M_PI / 4) * v), ray.d,
+    const Ray moved{ray.o + offset * (std::cos(i * M_PI / 4) * u + std::sin(i * M_PI / 4) * v), ray.d,
                     ray.alpha_key};
     const auto other_hit = tracer_.trace(moved);
     if (!other_hit || other_hit->primitive != hit.primitive) continue;

@@ -72,8 +72,8 @@ Vec3 PathSample::direct_on_parts(const Interaction& at, const LocalFrame& frame,
 }
 
 // In a medium the path goes on as any: nothing stays there.
-std::optional<Ray> PathSample::meet_gathering(const Interaction& at, const LocalFrame& frame,
-                                              const ViewedBsdf& bsdf, MediaStack& media, Vec3& color) {
+std::optional<Ray> PathSample::hit_gathering(const Interaction& at, const LocalFrame& frame,
+                                             const ViewedBsdf& bsdf, MediaStack& media, Vec3& color) {
   const ViewedBsdf wide = bsdf.part(true), sharp = bsdf.part(false);
   Vec3 light = emitted(at);
   if (!bsdf.black()) light += direct_on_parts(at, frame, wide, sharp, media);

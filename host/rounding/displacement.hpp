@@ -31,6 +31,6 @@ inline constexpr double float32_share = 24 * 0x1p-24;
 // Its room, in shares (shaders/geometry/edges.glsl).
 inline constexpr double float32_room = 16 * float32_share;
 // The largest distance of a photon from the reference's, as a share of the radius.
-inline constexpr double photon_aside = 1e-3;
+inline constexpr double photon_displacement = 1e-3;
 
 }  // namespace eyeray::engine::rounding

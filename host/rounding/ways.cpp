@@ -24,7 +24,8 @@ std::vector<Displacement> ways_of_sample(const Sampling& sampling, Chance chance
     ways.push_back({.share = share, .seed = seed, .numbers = seed | 1});
   }
   if (sampling.photons)
-    for (const double nearer : {photon_aside, -photon_aside}) ways.push_back({.photon_nearer = nearer});
+    for (const double nearer : {photon_displacement, -photon_displacement})
+      ways.push_back({.photon_nearer = nearer});
   if (!moved)
     for (const TextureChoice textures : {TextureChoice::darkest, TextureChoice::brightest})
       ways.push_back({.share = share, .seed = seed, .textures = textures});

@@ -26,7 +26,7 @@ struct Apart {
 
   // True if it took another path; else it is displaced.
   bool diverged() const { return twin.trail != reference.trail; }
-  double aside() const { return glm::length(twin.places - reference.places); }
+  double displacement() const { return glm::length(twin.places - reference.places); }
 };
 
 // True if the reference explains the photon by other rounding: it takes all of the twin's path, or its own
@@ -36,7 +36,8 @@ bool explained(const Apart& photon, const reference::PhotonTraces& traces, uint3
   const auto explains = [&](const rounding::Displacement& rounded) {
     const reference::PhotonTrace trace = traces.trace(index, photon.number, rounded);
     return reference::trail_of(trace.events) == photon.twin.trail &&
-           (photon.diverged() || glm::length(trace.places - photon.reference.places) >= photon.aside() / 2);
+           (photon.diverged() ||
+            glm::length(trace.places - photon.reference.places) >= photon.displacement() / 2);
   };
   for (const double scale : rounding::photon_scales)
     for (uint32_t seed = first_seed; seed <= last_seed; ++seed)
@@ -47,7 +48,7 @@ bool explained(const Apart& photon, const reference::PhotonTraces& traces, uint3
 std::string describe(const Apart& photon, const reference::PhotonTraces& traces, uint32_t index) {
   if (!photon.diverged())
     return fmt::format("photon {} of sample {}, which is displaced by {:.3g}", photon.number, index,
-                       photon.aside());
+                       photon.displacement());
   std::string way;
   for (const uint32_t event : traces.trace(index, photon.number, {}).events)
     way += (way.empty() ? "" : ", ") + reference::describe_event(event);
@@ -68,13 +69,13 @@ JudgedPhotons judge_photons(const Scene& scene,
     // Compare ways and positions.
     const std::vector<PhotonWay> a = ways(index), b = renderer.tracer().photons(index)->ways();
     CHECK_EQ(a.size(), b.size());
-    const double aside = rounding::photon_aside * photon_radius(photon_settings(scene), index);
+    const double displacement = rounding::photon_displacement * photon_radius(photon_settings(scene), index);
     std::vector<Apart> apart;
     for (uint32_t number = 0; number < a.size(); ++number) {
       const Apart photon{number, a[number], b[number]};
-      if (!photon.diverged() && photon.aside() <= aside) continue;
+      if (!photon.diverged() && photon.displacement() <= displacement) continue;
       apart.push_back(photon);
-      ++(photon.diverged() ? tally.diverged : tally.aside);
+      ++(photon.diverged() ? tally.diverged : tally.displacement);
     }
     std::vector<uint32_t>& left_out = judged.left_out.by_sample.emplace_back();
     for (const Apart& photon : apart) left_out.push_back(photon.number);

@@ -11,8 +11,8 @@ SHADER_BEGIN
 Ray fisheye_ray(Frame frame, vec3 across, vec2 lens) {
   float angle = sqrt(dot3(across, across));
   vec2 turn = sine_cosine(angle);
-  vec3 aside = across * (angle > 0.0f ? turn.x / angle : 1.0f);
-  return make_ray(vec3(0.0f, 0.0f, 0.0f), normalize3(aside + normalize3(frame.forward) * turn.y));
+  vec3 radial = across * (angle > 0.0f ? turn.x / angle : 1.0f);
+  return make_ray(vec3(0.0f, 0.0f, 0.0f), normalize3(radial + normalize3(frame.forward) * turn.y));
 }
 
 SHADER_END

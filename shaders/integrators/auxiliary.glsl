@@ -35,7 +35,7 @@ AuxiliaryResult auxiliary_of(Frame frame, Ray camera_ray, uint pixel, uint index
       result.albedo = white;
       result.normal = vec3(0.0f, 0.0f, 0.0f);
     } else {
-      Interaction at = met_at(path, ray, hit, flight, result.flags);
+      Interaction at = first_interaction(path, ray, hit, flight, result.flags);
       result.albedo = max_component(at.scattering.emitted) > 0.0f ? white : bsdf_albedo(at.bsdf);
       result.normal = at.seen.normal;
 #if HAS_SCATTERING

@@ -92,21 +92,21 @@ Interaction scattered_at(Path path, Flight flight) {
 #endif
 
 // The interaction at the end of the flight.
-Interaction met_at(Path path, Ray ray, Hit hit, Flight flight, INOUT(uint) flags) {
+Interaction first_interaction(Path path, Ray ray, Hit hit, Flight flight, INOUT(uint) flags) {
 #if HAS_SCATTERING
   if (flight.scattered) return scattered_at(path, flight);
 #endif
   return interaction_at(ray, hit, path.media, flags);
 }
 
-// For kernels that trace shadow rays alone: the vertex that the path has behind `hit`, if it is `there`; struck: whether it has one.
-Interaction vertex_at(Frame frame, Path path, Ray ray, Hit hit, bool there, OUT(bool) struck) {
+// For kernels that trace shadow rays alone: the vertex that the path has behind `hit`, if it is `there`; on_surface: whether it has one.
+Interaction vertex_at(Frame frame, Path path, Ray ray, Hit hit, bool there, OUT(bool) on_surface) {
   uint flags = 0u;
   Flight flight = flight_of(frame, path, hit);
-  struck = there && (hit.slot != NONE || flight.scattered);
+  on_surface = there && (hit.slot != NONE || flight.scattered);
   Hit some = hit;
   some.slot = there && hit.slot != NONE ? hit.slot : 0u;
-  return met_at(path, ray, some, flight, flags);
+  return first_interaction(path, ray, some, flight, flags);
 }
 
 #if HAS_SCATTERING

@@ -35,7 +35,7 @@ bool in_medium(Interaction at) {
 
 // The part of an interaction that does not depend on the material. `hit`: that of `ray`, which came through `media`. Adds to `flags` if those
 // are too many.
-Interaction struck_at(Ray ray, Hit hit, uint media, INOUT(uint) flags) {
+Interaction surface_interaction(Ray ray, Hit hit, uint media, INOUT(uint) flags) {
   Primitive primitive = primitive_at(hit);
   uint material = material_of(primitive);
   Interaction at;
@@ -84,7 +84,7 @@ Interaction struck_at(Ray ray, Hit hit, uint media, INOUT(uint) flags) {
 
 Interaction interaction_at(Ray ray, Hit hit, uint media, INOUT(uint) flags) {
   uint material = material_of(primitive_at(hit));
-  Interaction at = struck_at(ray, hit, media, flags);
+  Interaction at = surface_interaction(ray, hit, media, flags);
   at.scattering = scattering_of(material, at.material, at.context);
   bool behind = !(dot3(ray.d, at.surface.normal_geometric) < 0.0f);
   if (HAS_ONE_SIDED_EMISSION == 1 && behind && (at.material.flags & MATERIAL_EMITS_IN_FRONT) != 0u)

@@ -58,16 +58,16 @@ PhotonResult photon_way(Frame frame, uint index, uint number) {
     Hit hit = trace(ray, result.flags);
     Flight flight = flight_of(frame, path, hit);
     path.throughput = path.throughput * flight.weight;
-    bool struck = hit.slot != NONE && !flight.scattered;
-    uint event = flight.scattered ? EVENT_IN_MEDIUM : struck ? hit.id + 1u : 0u;
+    bool on_surface = hit.slot != NONE && !flight.scattered;
+    uint event = flight.scattered ? EVENT_IN_MEDIUM : on_surface ? hit.id + 1u : 0u;
     result.rays += 1u;
     result.trail = with_event(result.trail, EVENT_HIT, event);
     PROBE(event, EVENT_HIT | (event & EVENT_VALUE));
-    going = struck || flight.scattered;
+    going = on_surface || flight.scattered;
     if (going) {
-      Interaction at = met_at(path, ray, hit, flight, result.flags);
+      Interaction at = first_interaction(path, ray, hit, flight, result.flags);
       vec3 place = at.surface.p * pass.cells;
-      if (struck && path.depth > 0u && in_cells(place) && sum_of(part_of(at.bsdf, true)) > 0.0f) {
+      if (on_surface && path.depth > 0u && in_cells(place) && sum_of(part_of(at.bsdf, true)) > 0.0f) {
         Photon photon;
         photon.position = at.surface.p;
         photon.key = cell_key(cell_of(place), pass.key_mask);

@@ -46,7 +46,7 @@ vec3 through_panes(Frame frame, Ray ray, float distance, uint light, uint media,
     }
 #endif
     if (going) {
-      Interaction at = struck_at(ray, state.hit, media, ignored);
+      Interaction at = surface_interaction(ray, state.hit, media, ignored);
       left = i < most ? left * passed_by(at.material, at.context) : vec3(0.0f, 0.0f, 0.0f);
       media = at.media_behind;
       if (i == MOST_CROSSINGS) counts.z = counts.z | FLAG_ITERATION_LIMIT;
@@ -71,21 +71,21 @@ vec3 through_panes(Frame frame, Ray ray, float distance, uint light, uint media,
 // (integrators/trail.glsl).
 Continuations shade(Frame frame, Path path, Ray ray, Hit hit, INOUT(vec3) color, INOUT(uvec4) counts, INOUT(uint) trail) {
   Continuations all = no_continuation(path);
-  bool struck = hit.slot != NONE;
+  bool on_surface = hit.slot != NONE;
   Flight flight = flight_of(frame, path, hit);
-  struck = struck && !flight.scattered;
+  on_surface = on_surface && !flight.scattered;
   if (HAS_ABSORPTION == 1) path.throughput = path.throughput * flight.weight;
   counts.x += 1u;
-  counts.y += struck ? 1u : 0u;
+  counts.y += on_surface ? 1u : 0u;
   counts.w += TRACE_ITERATIONS + 1u;
-  PROBE(primitive, struck ? int(hit.id) : -1);
-  DECIDED(EVENT_HIT, flight.scattered ? EVENT_IN_MEDIUM : struck ? hit.id + 1u : 0u);
-  if (!struck && !flight.scattered) {
+  PROBE(primitive, on_surface ? int(hit.id) : -1);
+  DECIDED(EVENT_HIT, flight.scattered ? EVENT_IN_MEDIUM : on_surface ? hit.id + 1u : 0u);
+  if (!on_surface && !flight.scattered) {
     PROBE(throughput, path.throughput);
     PROBE(light, missed(frame, path));
     color = color + path.throughput * missed(frame, path);
   } else {
-    Interaction at = met_at(path, ray, hit, flight, counts.z);
+    Interaction at = first_interaction(path, ray, hit, flight, counts.z);
     PROBE(throughput, path.throughput);
     vec3 light = emitted(frame, path, at);
     // Tested at the bottom: Mesa 22.3.6 would run one more iteration, with all lanes idle.

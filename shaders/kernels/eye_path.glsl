@@ -11,7 +11,7 @@ Path eye_path(uint place) {
   uint y = dispatch.tile_y + row * dispatch.stride;
   Frame frame = load_frame();
   Ray ray;
-  eye_ray(frame, x, y, dispatch.sample_index, ray);
+  camera_ray(frame, x, y, dispatch.sample_index, ray);
   return begin(frame, ray, y * frame.width + x, dispatch.sample_index);
 }
 

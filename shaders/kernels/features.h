@@ -177,7 +177,7 @@
 //   FORMULA_COLOR         (number, uv): the result of a colour's formula.
 //   FORMULA_DIRECTION     (number, at): the result of a camera's formula …
 //   FORMULA_ORIGIN        … and the start of the ray by that formula.
-//   FORMULA_OVERRAN       defined where a formula loops: whether one made too many turns
+//   FORMULA_OVERRAN       defined where a formula loops: whether one took too many iterations
 //   FORMULA_NUMBERS       defined where formulas read their numbers from a buffer
 
 // ---- Compiled-in records: defined or not; the twin has none of it ---------------------------------------------------

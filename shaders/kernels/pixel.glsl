@@ -13,7 +13,7 @@
 SHADER_BEGIN
 
 // The camera ray of sample `index` of pixel (x, y); false if there is none because the camera sees nothing there.
-bool eye_ray(Frame frame, uint x, uint y, uint index, OUT(Ray) ray) {
+bool camera_ray(Frame frame, uint x, uint y, uint index, OUT(Ray) ray) {
   vec2 place = sample_position(frame, x, y, index);
   vec2 lens = vec2(0.0f, 0.0f);
 #if HAS_LENS
@@ -26,7 +26,7 @@ bool eye_ray(Frame frame, uint x, uint y, uint index, OUT(Ray) ray) {
 SampleResult render_sample(Frame frame, uint x, uint y, uint index) {
   uvec4 counts = uvec4(0u, 0u, 0u, 0u);
   Ray ray;
-  if (!eye_ray(frame, x, y, index, ray)) return sample_result(vec3(0.0f, 0.0f, 0.0f), counts, 1u);
+  if (!camera_ray(frame, x, y, index, ray)) return sample_result(vec3(0.0f, 0.0f, 0.0f), counts, 1u);
   uint trail = 1u;
   vec3 color = radiance(frame, ray, y * frame.width + x, index, counts, trail);
   PROBE_BACK(NONE);
@@ -38,7 +38,7 @@ AuxiliaryResult render_auxiliary(Frame frame, uint x, uint y, uint index) {
   AuxiliaryResult result = no_auxiliary();
 #if RANDOM_WALK
   Ray ray;
-  if (eye_ray(frame, x, y, index, ray)) {
+  if (camera_ray(frame, x, y, index, ray)) {
     result = auxiliary_of(frame, ray, y * frame.width + x, index);
     result.albedo = positive_zeros(result.albedo);
     result.normal = positive_zeros(result.normal);
@@ -94,10 +94,10 @@ HitResult first_hit(Frame frame, uint x, uint y) {
 }
 
 QueryHit answer(TraversalState state, bool any, uint flags) {
-  bool struck = any ? state.occluded >= OPTICAL_DEPTH_OPAQUE : state.hit.slot != NONE;
+  bool is_hit = any ? state.occluded >= OPTICAL_DEPTH_OPAQUE : state.hit.slot != NONE;
   QueryHit result;
-  result.t = struck ? (any ? 0.0f : state.hit.t) : T_MISS;
-  result.primitive = struck && !any ? state.hit.id : NONE;
+  result.t = is_hit ? (any ? 0.0f : state.hit.t) : T_MISS;
+  result.primitive = is_hit && !any ? state.hit.id : NONE;
   result.flags = flags | iteration_limit(state);
   result.occlusion = state.occluded;
   return result;

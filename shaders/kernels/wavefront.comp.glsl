@@ -47,7 +47,7 @@ void main() {
   uint x = dispatch.tile_x + pixel.x * dispatch.stride;
   uint y = dispatch.tile_y + pixel.y * dispatch.stride;
   Ray first;
-  if (!eye_ray(frame, x, y, dispatch.sample_index, first)) {
+  if (!camera_ray(frame, x, y, dispatch.sample_index, first)) {
     results[place] = sample_result(color, counts, trail);
     return;
   }

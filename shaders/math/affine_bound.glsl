@@ -41,10 +41,10 @@ vec3 bound_of_coordinate(float o, float d, float m, float h) {
 // The bound of center + extent · (o + t·d).
 vec3 bound_of_placed(float center, float extent, float o, float d, float m, float h) {
   float way = d * m;
-  float aside = extent * (o + way);
-  float a = center + aside;
+  float shift = extent * (o + way);
+  float a = center + shift;
   float b = extent * (d * h);
-  return bound_rounded(a, b, 0.0f, abs(a) + 2.0f * (abs(aside) + abs(b)) + abs(extent * way));
+  return bound_rounded(a, b, 0.0f, abs(a) + 2.0f * (abs(shift) + abs(b)) + abs(extent * way));
 }
 
 vec3 bound_negate(vec3 x) { return vec3(-x.x, -x.y, x.z); }

@@ -10,7 +10,7 @@ SHADER_BEGIN
 #define INFINITE uintBitsToFloat(0x7f800000u)
 
 // Turns that the loops of a formula may make in one call, longer ones counting more; none goes on after that (docs/implicit-surfaces.md).
-#define FORMULA_TURNS 10000u
+#define FORMULA_ITERATIONS 10000u
 
 // One argument.
 float fn_abs(float x) { return abs(x); }

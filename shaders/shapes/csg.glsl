@@ -84,7 +84,7 @@ Ray beyond(Ray ray, float t) {
 }
 
 // Three crossings of a leaf of an immediate kind, for most of the work is the same: so one call finds all of a convex one.
-LeafCrossings ask_immediate(Primitive leaf, Ray ray) {
+LeafCrossings test_immediate(Primitive leaf, Ray ray) {
   float t0 = T_MISS;
   float t1 = T_MISS;
   float t2 = T_MISS;
@@ -110,7 +110,7 @@ LeafCrossings ask_immediate(Primitive leaf, Ray ray) {
 
 #if HAS_DEFERRED_LEAVES
 // The next crossing of one whose kind searches for it.
-LeafCrossings ask_deferred(Primitive leaf, Ray ray) {
+LeafCrossings test_deferred(Primitive leaf, Ray ray) {
   float t = T_MISS;
 #define ASK_ONCE(name, number)                 \
   if (kind_of(leaf) == number) {               \
@@ -188,9 +188,9 @@ CsgHit csg_traverse(Primitive s, Ray ray, float t_max, uint enough) {
         }                                                                                                   \
       } while (todo != 0u);                                                                                 \
     }
-    ASK(ask_immediate, ~head.w)
+    ASK(test_immediate, ~head.w)
 #if HAS_DEFERRED_LEAVES
-    ASK(ask_deferred, head.w)
+    ASK(test_deferred, head.w)
 #endif
 
     // Cross, as long as that is known. Tested at the top: its results keep for rays that are done with the loop around.

@@ -13,7 +13,7 @@ using namespace eyeray::engine::test;
 namespace {
 
 // An area light of this brightness in the dark.
-Image lamp(float brightness) {
+Image bright_pixels(float brightness) {
   Image image(40, 30, 3);
   for (float& value : image.samples()) value = 0.05f;
   for (int y = 10; y < 20; ++y)
@@ -25,8 +25,8 @@ Image lamp(float brightness) {
 
 TEST_CASE("compare measures HDR-FLIP of values above 1 or on request, and writes its errors and exposures") {
   const TemporaryFolder folder;
-  write_image(folder / "a.exr", lamp(90));
-  write_image(folder / "b.exr", lamp(60));
+  write_image(folder / "a.exr", bright_pixels(90));
+  write_image(folder / "b.exr", bright_pixels(60));
   const auto compare = [&](std::vector<std::string> options) {
     options.insert(options.begin(), {"compare", folder / "a.exr", folder / "b.exr"});
     return run_eyeray(options);
@@ -43,8 +43,8 @@ TEST_CASE("compare measures HDR-FLIP of values above 1 or on request, and writes
   REQUIRE(compare({"--flip", folder / "flip.png", "--exposures", folder / "stops.png"}).code == 1);
   CHECK(read_image(folder / "flip.png").channels() == 3);
 
-  write_image(folder / "a.exr", lamp(0.9f));
-  write_image(folder / "b.exr", lamp(0.6f));
+  write_image(folder / "a.exr", bright_pixels(0.9f));
+  write_image(folder / "b.exr", bright_pixels(0.6f));
   CHECK(compare({}).out.find("HDR-FLIP") == std::string::npos);
   CHECK(compare({"--hdr"}).out.find("HDR-FLIP") != std::string::npos);
   result = compare({"--exposures", folder / "none.png"});

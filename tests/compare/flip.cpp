@@ -96,11 +96,11 @@ TEST_CASE("the exposures of equal, black and half black pictures, and none of wh
   CHECK(exposures_of(black).count == 2);
   CHECK(hdr_flip(grey, black)->flip.mean > 0.5);
 
-  Image lamps(4, 4, 1);
-  lamps.samples()[3] = 100;
-  lamps.samples()[5] = 1;
-  lamps.samples()[6] = 1;
-  CHECK(exposures_of(lamps).stop - exposures_of(lamps).start == doctest::Approx(std::log2(100)));
+  Image bright(4, 4, 1);
+  bright.samples()[3] = 100;
+  bright.samples()[5] = 1;
+  bright.samples()[6] = 1;
+  CHECK(exposures_of(bright).stop - exposures_of(bright).start == doctest::Approx(std::log2(100)));
 
   Image bad = grey;
   bad.samples()[7] = std::numeric_limits<float>::infinity();

@@ -20,7 +20,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-void watch_and_say_why() {
+void watch_and_report() {
   watch_for_termination([](const Error& error) { fmt::print(stderr, "ended: {}\n", error.what()); });
 }
 
@@ -46,7 +46,7 @@ class Child : public Process {
 }  // namespace
 
 TEST_CASE("child: asks" * doctest::skip()) {
-  watch_and_say_why();
+  watch_and_report();
   const Saving saving;
   fmt::print(stderr, "ready\n");
   while (!interrupted()) sleep_seconds(0.001);
@@ -66,7 +66,7 @@ TEST_CASE("the first signal sets the flag, and gives the status") {
 
 TEST_CASE("child: ignores SIGHUP" * doctest::skip()) {
   std::signal(SIGHUP, SIG_IGN);
-  watch_and_say_why();
+  watch_and_report();
   fmt::print(stderr, "ready\n");
   hang();
 }
@@ -82,7 +82,7 @@ TEST_CASE("under nohup SIGHUP is no signal") {
 }
 
 TEST_CASE("child: does not ask" * doctest::skip()) {
-  watch_and_say_why();
+  watch_and_report();
   AtomicFile file(std::getenv("EYERAY_TEST_FILE"));
   file.write("half of it");
   fmt::print(stderr, "ready\n");
@@ -102,7 +102,7 @@ TEST_CASE("work that does not poll is ended, and its half-written files are gone
 }
 
 TEST_CASE("child: has its output full" * doctest::skip()) {
-  watch_and_say_why();
+  watch_and_report();
   int ends[2];
   CHECK(::pipe(ends) == 0);
   fmt::print(stderr, "ready\n");
@@ -120,7 +120,7 @@ TEST_CASE("an output that takes no more holds nothing up") {
 }
 
 TEST_CASE("child: saves for ever" * doctest::skip()) {
-  watch_and_say_why();
+  watch_and_report();
   const Saving saving;
   fmt::print(stderr, "ready\n");
   while (!interrupted()) sleep_seconds(0.001);
@@ -143,7 +143,7 @@ TEST_CASE("one signal lets it save, two at once are one, a second ends it") {
 }
 
 TEST_CASE("child: calls what does not return" * doctest::skip()) {
-  watch_and_say_why();
+  watch_and_report();
   const Saving saving;
   const ForeignCall call(0.05, Error(ExitCode::timed_out, "it took too long"));
   hang();
@@ -157,7 +157,7 @@ TEST_CASE("a call that does not return is ended, whatever there is to save") {
 }
 
 TEST_CASE("child: returns too late and saves" * doctest::skip()) {
-  watch_and_say_why();
+  watch_and_report();
   {
     const Saving saving;
     {
@@ -196,13 +196,13 @@ TEST_CASE("time in which the process is stopped does not count") {
 }
 
 TEST_CASE("child: has no memory in a thread" * doctest::skip()) {
-  watch_and_say_why();
+  watch_and_report();
   report_memory_shortage();
   std::thread([] { throw std::bad_alloc(); }).join();
 }
 
 TEST_CASE("child: breaks off" * doctest::skip()) {
-  watch_and_say_why();
+  watch_and_report();
   report_memory_shortage();
   if (std::getenv("EYERAY_TEST_LIMIT")) {
     const rlimit limit{1 << 20, RLIM_INFINITY};  // less than it has

@@ -19,7 +19,7 @@ CODE = {
 }
 # Literals that are code in other files.
 IS_CODE = re.compile(r"#(define|include|extension|version|if|endif)\b|\{\{|;\\n|^ply\\n|^property |^element |^#\?RADIANCE|"
-                     r"^<\?xml|^ffconcat|^text/|^default-src|^return |^use strict$|var\(--|^badge |^[A-Z0-9]{4,}( [A-Z0-9]{4,})+$")
+                     r"^import |^\[image\]|^<\?xml|^ffconcat|^text/|^default-src|^return |^use strict$|var\(--|^badge |^[A-Z0-9]{4,}( [A-Z0-9]{4,})+$")
 COMMENT_OR_SPACE = re.compile(r"(?:\s|//[^\n]*\n)*")
 TWO_WORDS = re.compile(r"[A-Za-z]{2,}[,;:]? \(?[`'A-Za-z{]|[}'`] [a-z]{2,}")
 TOKEN = re.compile(r'//[^\n]*|/\*.*?\*/|R"([^(\s]*)\(.*?\)\1"|"((?:[^"\\]|\\.)*)"|\'(?:[^\'\\]|\\.)\'', re.DOTALL)
@@ -85,17 +85,28 @@ def of_web(text):
     return [value for _, value in sorted(found) if "$(" not in value and "<" not in value]
 
 
+def of_shell(text):
+    """Quoted texts that a script prints to standard error, itself or by its function `fail`; {} stands for a value."""
+    shown = [line for line in text.split("\n") if re.search(r"\bfail \d?|>&2", line) and not line.lstrip().startswith("#")]
+    quoted = [m[1] if m[1] is not None else m[2] for line in shown
+              for m in re.finditer(r"'([^']*)'|\"((?:[^\"\\$]|\\.|\$\([^()]*\)|\$)*)\"", line)]
+    return [re.sub(r"\$\([^()]*\)|\$\{[^{}]*\}|\$[\w*#]+", "{}", value.replace("%s", "{}")) for value in quoted
+            if not value.startswith(("apt-get update -q", "apt-get install -q", "cd "))]
+
+
 READERS = {".cpp": of_cpp, ".hpp": of_cpp, ".py": of_python, ".html": of_web, ".mjs": of_web}
+SCRIPTS = {"#!/bin/sh": of_shell, "#!/usr/bin/python3": of_python}  # by the first line
 
 
 def messages():
     reference = plain(pathlib.Path("docs/scene-reference.md").read_text() + pathlib.Path("docs/scene.schema.json").read_text())
-    files = subprocess.run(["git", "ls-files", "host", "python"], capture_output=True, text=True, check=True).stdout
+    files = subprocess.run(["git", "ls-files", "host", "python", "scripts", ".ci"], capture_output=True, text=True, check=True).stdout
     for name in sorted(files.splitlines()):
-        reader = READERS.get(pathlib.Path(name).suffix)
+        content = pathlib.Path(name).read_text()
+        reader = READERS.get(pathlib.Path(name).suffix) or SCRIPTS.get(content.partition("\n")[0])
         if not reader or name in CODE:
             continue
-        for value in reader(pathlib.Path(name).read_text()):
+        for value in reader(content):
             text = re.sub(r"\s*\n\s*", " ", value).strip()
             if not TWO_WORDS.search(text.replace("\\n", " ").replace('\\"', "'")) or IS_CODE.search(text):
                 continue

@@ -119,8 +119,8 @@ TEST_CASE("nearest and any: four lanes a ray find what the twin finds, bit by bi
       rays[i].origin = rays[i / 16 * 16].origin;
       if (i % 3 == 0) rays[i].origin += glm::vec3(random.point(1e-3));
     }
-    const std::vector<shader::QueryHit> nearest = test::ask_twin(scene_packed, rays, false);
-    const std::vector<shader::QueryHit> any = test::ask_twin(scene_packed, rays, true);
+    const std::vector<shader::QueryHit> nearest = test::query_twin(scene_packed, rays, false);
+    const std::vector<shader::QueryHit> any = test::query_twin(scene_packed, rays, true);
     const auto hits =
         std::ranges::count_if(nearest, [](const shader::QueryHit& hit) { return hit.primitive != NONE; });
     const auto half = std::ranges::count_if(any, [](const shader::QueryHit& hit) {
@@ -152,7 +152,7 @@ TEST_CASE(
   const PackedScene scene_packed = packed(scene, false);
   const CollapsedBvh bvh = collapse(scene_packed.nodes, scene_packed.bvhs[0]);
   const std::vector<shader::QueryRay> rays(64, test::query_ray(Vec3(0), {0, 0, -1}));
-  const std::vector<shader::QueryHit> nearest = test::ask_twin(scene_packed, rays, false);
+  const std::vector<shader::QueryHit> nearest = test::query_twin(scene_packed, rays, false);
   test::QueryKernel kernel(device, scene_packed, {}, &bvh);
   const std::vector<shader::QueryHit> found = kernel.ask(rays, false);
   int flagged = 0;

@@ -37,7 +37,7 @@ void check_against_twin(gpu::Device& device, const Scene& scene, const PackedSce
     specialisation.profile = {.texel_buffers = shift, .packets = false, .shift_stack = shift};
     QueryKernel kernel(device, packed, specialisation);
     for (const bool any : {false, true}) {
-      const std::vector<shader::QueryHit> expected = ask_twin(packed, rays, any);
+      const std::vector<shader::QueryHit> expected = query_twin(packed, rays, any);
       CAPTURE(shift);
       CAPTURE(any);
       CHECK(differences(expected, kernel.ask(rays, any)) == 0);

@@ -24,15 +24,15 @@ struct Change {
 };
 using Changes = std::vector<Change>;
 
-const Change no_found_lamps{"light = light * power_heuristic(path.density, density);",
-                            "light = light * 0.0f;"};
+const Change no_found_emitters{"light = light * power_heuristic(path.density, density);",
+                               "light = light * 0.0f;"};
 const Change no_found_surroundings{"light = light * power_heuristic(path.density, environment_share",
                                    "light = light * 0.0f * (environment_share"};
-const Change asked_alone{"power_heuristic(density, lobes.density) / density", "1.0f / density"};
-const Change all_found_lamps{"light = light * power_heuristic(path.density, density);", ""};
+const Change shadow_rays_alone{"power_heuristic(density, lobes.density) / density", "1.0f / density"};
+const Change all_found_emitters{"light = light * power_heuristic(path.density, density);", ""};
 const Change all_found_surroundings{"light = light * power_heuristic(path.density, environment_share",
                                     "light = light * max(1.0f, 0.0f * environment_share"};
-const Change none_asked{"power_heuristic(density, lobes.density) / density", "0.0f"};
+const Change no_shadow_rays{"power_heuristic(density, lobes.density) / density", "0.0f"};
 const Change no_roulette{"FIRST_ROULETTE 3u", "FIRST_ROULETTE 99u"};
 const Change early_roulette{"FIRST_ROULETTE 3u", "FIRST_ROULETTE 0u"};
 const Change unpaid_roulette{"next.throughput = next.throughput / survival",
@@ -87,7 +87,7 @@ Scene corner() {
   return scene;
 }
 
-int lamp(Scene& scene, double radiance) {
+int emissive(Scene& scene, double radiance) {
   return add(scene, make_phong({.diffuse = gray(0), .emission = gray(radiance)}));
 }
 
@@ -95,11 +95,11 @@ int lamp(Scene& scene, double radiance) {
 
 TEST_CASE("area lights of every form: shadow rays alone, paths alone, both") {
   Scene scene = corner();
-  add(scene, make_sphere({1, 1.4, 0.2}, 0.4), lamp(scene, 2));
-  add(scene, make_disk({-0.1, 1.4, 0.4}, {0.1, -1, 0}, 0.4), lamp(scene, 3));
-  add(scene, make_parallelogram({-0.4, 0.9, -0.2}, {0.6, 0, 0}, {0, 0.3, 0.5}), lamp(scene, 2));
-  check_all(scene, {{"shadow rays alone", {no_found_lamps, asked_alone}},
-                    {"paths alone", {all_found_lamps, none_asked}},
+  add(scene, make_sphere({1, 1.4, 0.2}, 0.4), emissive(scene, 2));
+  add(scene, make_disk({-0.1, 1.4, 0.4}, {0.1, -1, 0}, 0.4), emissive(scene, 3));
+  add(scene, make_parallelogram({-0.4, 0.9, -0.2}, {0.6, 0, 0}, {0, 0.3, 0.5}), emissive(scene, 2));
+  check_all(scene, {{"shadow rays alone", {no_found_emitters, shadow_rays_alone}},
+                    {"paths alone", {all_found_emitters, no_shadow_rays}},
                     {"no roulette", {no_roulette}},
                     {"roulette from the first vertex on", {early_roulette}}});
 }
@@ -109,13 +109,13 @@ TEST_CASE("an environment with a bright place: shadow rays alone, paths alone, b
   scene.environment = environment(32, 16, [](const Vec3& d) {
     return Vec3(0.5 + 4 * std::pow(std::max(0.0, glm::dot(d, glm::normalize(Vec3(1, 1, 0.5)))), 20));
   });
-  check_all(scene, {{"shadow rays alone", {no_found_surroundings, asked_alone}},
-                    {"paths alone", {all_found_surroundings, none_asked}},
+  check_all(scene, {{"shadow rays alone", {no_found_surroundings, shadow_rays_alone}},
+                    {"paths alone", {all_found_surroundings, no_shadow_rays}},
                     {"no roulette", {no_roulette}}});
 }
 
 TEST_CASE("roulette whose survivors are not paid is found") {
   Scene scene = corner();
-  add(scene, make_sphere({1, 1.4, 0.2}, 0.4), lamp(scene, 2));
+  add(scene, make_sphere({1, 1.4, 0.2}, 0.4), emissive(scene, 2));
   CHECK(apart(estimated(scene, {}), estimated(scene, {early_roulette, unpaid_roulette})) > 5);
 }

@@ -30,16 +30,17 @@ std::vector<float> run(gpu::Device& device, const std::string& text,
                        const std::vector<std::string>& functions, const std::vector<glm::vec4>& places) {
   std::string main =
       "#version 450\n#include \"math/formula.glsl\"\n"
-      "uint formula_turns = 0u;\n"
-      "bool formula_turn(uint turns) { formula_turns = formula_turns + turns; return formula_turns <= "
-      "FORMULA_TURNS; }\n" +
+      "uint formula_iterations = 0u;\n"
+      "bool formula_iterates(uint iterations) { formula_iterations = formula_iterations + iterations; return "
+      "formula_iterations <= "
+      "FORMULA_ITERATIONS; }\n" +
       text +
       "layout(local_size_x = 64) in;\n"
       "layout(std430, set = 0, binding = 0) readonly buffer Places { vec4 places[]; };\n"
       "layout(std430, set = 0, binding = 1) buffer Values { float values[]; };\n"
       "void main() {\n  uint i = gl_GlobalInvocationID.x;\n  vec3 p = places[i].xyz;\n";
   for (size_t n = 0; n < functions.size(); ++n)
-    main += fmt::format("  formula_turns = 0u;\n  values[{}u + i] = {};\n", n * points, functions[n]);
+    main += fmt::format("  formula_iterations = 0u;\n  values[{}u + i] = {};\n", n * points, functions[n]);
   ShaderFiles embedded({}, "");
   const auto read = [&](std::string_view name) -> std::optional<std::string> {
     return name == "formulas.comp" ? std::optional(main + "}\n") : embedded.read(name);

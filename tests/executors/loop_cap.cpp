@@ -172,7 +172,7 @@ TEST_CASE(
   gpu::Device device({});
   for (const Acceleration acceleration : {Acceleration::bvh, Acceleration::brute_force}) {
     const PackedScene packed = pack::pack(scene, {.acceleration = acceleration});
-    const std::vector<shader::QueryHit> expected = test::ask_twin(packed, rays, true);
+    const std::vector<shader::QueryHit> expected = test::query_twin(packed, rays, true);
     CHECK(expected[0].occlusion > count);
     CHECK(expected[0].occlusion < OPTICAL_DEPTH_OPAQUE);
     for (const bool texels : {false, true}) {

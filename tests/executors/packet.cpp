@@ -76,8 +76,8 @@ TEST_CASE("nearest and any: rays in packets find what the twin finds, bit by bit
     test::QueryKernel kernel(device, scene, specialisation);
     REQUIRE(kernel.traces_packets());
     const std::vector<shader::QueryRay> rays = picture(random, pixels, strays);
-    const std::vector<shader::QueryHit> nearest = test::ask_twin(scene, rays, false);
-    const std::vector<shader::QueryHit> any = test::ask_twin(scene, rays, true);
+    const std::vector<shader::QueryHit> nearest = test::query_twin(scene, rays, false);
+    const std::vector<shader::QueryHit> any = test::query_twin(scene, rays, true);
     const auto hits =
         std::ranges::count_if(nearest, [](const shader::QueryHit& hit) { return hit.primitive != NONE; });
     const auto half = std::ranges::count_if(any, [](const shader::QueryHit& hit) {

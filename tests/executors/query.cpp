@@ -18,8 +18,8 @@ TEST_CASE("nearest and any: every bit is the same on the GPU, unrolled or loopin
     REQUIRE_FALSE(scene.has_bvh);
     std::vector<shader::QueryRay> rays(100'000);
     for (shader::QueryRay& ray : rays) ray = test::random_ray(random);
-    const std::vector<shader::QueryHit> nearest = test::ask_twin(scene, rays, false);
-    const std::vector<shader::QueryHit> any = test::ask_twin(scene, rays, true);
+    const std::vector<shader::QueryHit> nearest = test::query_twin(scene, rays, false);
+    const std::vector<shader::QueryHit> any = test::query_twin(scene, rays, true);
     const auto hits =
         std::ranges::count_if(nearest, [](const shader::QueryHit& hit) { return hit.primitive != NONE; });
     const auto shadows =

@@ -62,10 +62,10 @@ TEST_CASE("the gradient is the derivative") {
       const double step = 1e-4;
       Vec3 difference, coarse;
       for (const int axis : {0, 1, 2}) {
-        Vec3 aside(0);
-        aside[axis] = step;
-        difference[axis] = (surface.f(p + aside) - surface.f(p - aside)) / (2 * step);
-        coarse[axis] = (surface.f(p + 2.0 * aside) - surface.f(p - 2.0 * aside)) / (4 * step);
+        Vec3 offset(0);
+        offset[axis] = step;
+        difference[axis] = (surface.f(p + offset) - surface.f(p - offset)) / (2 * step);
+        coarse[axis] = (surface.f(p + 2.0 * offset) - surface.f(p - 2.0 * offset)) / (4 * step);
       }
       // Not where the function has an edge nearby.
       if (!(glm::length(difference - coarse) <= 1e-3 * (1 + glm::length(difference)))) continue;

@@ -58,7 +58,7 @@ bool finite(const Vec3& v) {
 }
 
 // True if a ray from there hits, in either half, a surface or nothing.
-bool can_be_met(const Shape& shape, const PackedScene& packed, const Vec3& from, const Vec3& target) {
+bool can_be_hit(const Shape& shape, const PackedScene& packed, const Vec3& from, const Vec3& target) {
   const shader::Ray ray = shader::make_ray(glm::vec3(from), glm::vec3(glm::normalize(target - from)));
   const shader::Primitive& primitive = packed.primitives[0];
   shader::Hit hit{};
@@ -84,13 +84,13 @@ bool can_be_met(const Shape& shape, const PackedScene& packed, const Vec3& from,
 }
 
 // True if a ray from some point can hit the shape.
-bool can_be_met(const Shape& shape, const PackedScene& packed, Random& random) {
+bool can_be_hit(const Shape& shape, const PackedScene& packed, Random& random) {
   const Bounds bounds = shape.bounds();
   if (!finite(bounds.min) || !finite(bounds.max)) return false;
   const Vec3 center = (bounds.min + bounds.max) * 0.5;
   const double radius = glm::length(bounds.max - bounds.min) * 0.5;
   const Vec3 target = center + random.direction() * radius * random.uniform(0, 1);
-  return can_be_met(shape, packed, target + random.direction() * radius * random.log_uniform(0.01, 100),
+  return can_be_hit(shape, packed, target + random.direction() * radius * random.log_uniform(0.01, 100),
                     target);
 }
 
@@ -118,7 +118,7 @@ TEST_CASE("absurd shapes are refused or can be computed with") {
       shape.pack(packer);
       const shader::Binding binding(twin::view_of(packer.scene));
       for (int k = 0; k < 20; ++k) {
-        if (can_be_met(shape, packer.scene, random)) continue;
+        if (can_be_hit(shape, packer.scene, random)) continue;
         if (wrong++ == 0) first_wrong = table;
       }
     }
@@ -140,10 +140,11 @@ TEST_CASE("a cone has uv at its tip, however flat it is, and on a cap there that
       CAPTURE(tip);
       int wrong = 0;
       for (int i = 0; i < 1000; ++i) {
-        const Vec3 aside = i == 0 ? Vec3(0) : random.direction() * radius * random.log_uniform(1e-10, 1e-6);
-        const Vec3 target(aside.x, 10, aside.z);
+        const Vec3 sideways =
+            i == 0 ? Vec3(0) : random.direction() * radius * random.log_uniform(1e-10, 1e-6);
+        const Vec3 target(sideways.x, 10, sideways.z);
         const Vec3 from = i < 2 ? Vec3(target.x, 20, target.z) : target + random.direction() * 10.0;
-        wrong += !can_be_met(*cone, packer.scene, from, target);
+        wrong += !can_be_hit(*cone, packer.scene, from, target);
       }
       CHECK(wrong == 0);
     }

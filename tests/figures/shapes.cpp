@@ -260,13 +260,13 @@ TEST_CASE("rays that leave, sizes 1e-4 … 1e4: none hits its surface again, eve
         // A sheet that is bent to both sides may be hit again where it bends back, by a ray that starts a
         // little off it and not by one that starts on it.
         const shader::Ray next = shader::spawn_ray(surface, away);
-        const bool meets_again =
+        const bool hits_again =
             again < 0.01 * sample.radius && again < 0.5 * truly && !(truly < 1e3 * double(surface.offset));
-        const bool may_bend_back = meets_again && sample.shape->counts_crossings() &&
+        const bool may_bend_back = hits_again && sample.shape->counts_crossings() &&
                                    std::fabs(glm::dot(away, surface.normal_geometric)) < 0.1f &&
                                    is_grazing(sample, next, again, 2 * double(surface.offset), 500);
         bent_back += may_bend_back;
-        rehits += meets_again && !may_bend_back;
+        rehits += hits_again && !may_bend_back;
       }
     });
     MESSAGE(

@@ -24,9 +24,9 @@ struct Counts {
 };
 
 // True if a step of the surface follows from its derivatives and the step in uv.
-bool follows(const SurfacePoint& point, const SurfacePoint& aside) {
-  const Vec3 step = aside.position - point.position;
-  const Vec2 uv = aside.uv - point.uv;
+bool follows(const SurfacePoint& point, const SurfacePoint& neighbour) {
+  const Vec3 step = neighbour.position - point.position;
+  const Vec2 uv = neighbour.uv - point.uv;
   return glm::length(step - uv.x * point.along_u - uv.y * point.along_v) < 0.02 * glm::length(step);
 }
 
@@ -69,11 +69,11 @@ shader::Surface surface_of(const PackedScene& scene, const shader::Ray& ray, uin
 
 void look(const Shape& shape, const PackedScene& scene, const Ray& ray, double size, Counts& counts) {
   const auto hit = shape.intersect(ray),
-             aside = shape.intersect({ray.o + Vec3(1e-6, 2e-6, -1e-6) * size, ray.d});
-  if (!hit || hit->iteration_limit || !aside || aside->iteration_limit) return;
+             neighbour = shape.intersect({ray.o + Vec3(1e-6, 2e-6, -1e-6) * size, ray.d});
+  if (!hit || hit->iteration_limit || !neighbour || neighbour->iteration_limit) return;
   const SurfacePoint point = shape.surface(ray, *hit);
   if (std::abs(glm::dot(point.normal_geometric, ray.d)) < 0.1) return;
-  const SurfacePoint beside = shape.surface({ray.o + Vec3(1e-6, 2e-6, -1e-6) * size, ray.d}, *aside);
+  const SurfacePoint beside = shape.surface({ray.o + Vec3(1e-6, 2e-6, -1e-6) * size, ray.d}, *neighbour);
   // A point beyond an edge, or beyond the seam, shows nothing.
   if (glm::length(beside.position - point.position) > 1e-4 * size ||
       glm::length(beside.uv - point.uv) > 0.1 ||

@@ -79,7 +79,7 @@ TEST_CASE("loops are counted, but those whose few turns are written out") {
              " return p.x; }",
          {}},
         {}, "it");
-    CHECK((formula.kernel("k_").find("formula_turn(") != std::string::npos) == formula.loops());
+    CHECK((formula.kernel("k_").find("formula_iterates(") != std::string::npos) == formula.loops());
     return formula.loops();
   };
   CHECK_FALSE(counted("for (int i = 0; i < 8; i++) p.x += 1.0;"));

@@ -109,10 +109,10 @@ TEST_CASE("a picture bears the warnings that the command line prints") {
     CHECK_FALSE(picture.warnings()[0].is_error);
     return picture.warnings()[0].message;
   };
-  const Scene lamps =
+  const Scene dark =
       Scene::read("scenes/path/lamps.toml", {.defines = {"image.width=32", "image.height=24"}});
-  CHECK(only_warning(lamps, {.clamp = 0.5}).starts_with("the picture is biased: clamp cut "));
-  CHECK(only_warning(lamps, {.noise = 0.001}).ends_with("samples a pixel are too few; allow more"));
+  CHECK(only_warning(dark, {.clamp = 0.5}).starts_with("the picture is biased: clamp cut "));
+  CHECK(only_warning(dark, {.noise = 0.001}).ends_with("samples a pixel are too few; allow more"));
   const Scene dark = Scene::read("scenes/meshes/knot.ply",
                                  {.defines = {"image.width=32", "image.height=24", "image.exposure=9"}});
   CHECK(only_warning(dark, {}).find("exposure") != std::string::npos);

@@ -65,7 +65,7 @@ Vec3 place(const Instance& instance) {
   return Vec3(instance.transform[3]);
 }
 
-constexpr const char* lamp = "[[light]]\ntype = \"directional\"\ndirection = [0, -1, -1]\n";
+constexpr const char* sun = "[[light]]\ntype = \"directional\"\ndirection = [0, -1, -1]\n";
 
 }  // namespace
 
@@ -73,8 +73,8 @@ TEST_CASE("a mesh shows its file's animation at the frame's moment") {
   const Folder folder;
   walker(folder);
   const std::string file =
-      folder.write("scene.toml", std::string(lamp) +
-                                     "[animation]\nframes_per_second = 8\n[[mesh]]\nfile = 'walker.gltf'\n");
+      folder.write("scene.toml",
+                   std::string(sun) + "[animation]\nframes_per_second = 8\n[[mesh]]\nfile = 'walker.gltf'\n");
   const auto at = [&](const char* frame) {
     return place(load(file, {std::string("animation.frame=") + frame}).instances.at(0));
   };
@@ -93,7 +93,7 @@ TEST_CASE("a mesh shows its file's animation at the frame's moment") {
 TEST_CASE("one file may be shown by each of its animations, and at rest, at once") {
   const Folder folder;
   walker(folder);
-  const std::string file = folder.write("scene.toml", std::string(lamp) + R"(
+  const std::string file = folder.write("scene.toml", std::string(sun) + R"(
 [animation]
 frame = 36
 [[mesh]]
@@ -117,7 +117,7 @@ loop = true
   CHECK(place(load(file, {"animation.frame=84"}).instances[4]) == Vec3(8, 0, 0));
   // If all shown files are at rest, nothing moves.
   const std::string still =
-      folder.write("still.toml", std::string(lamp) + "[[mesh]]\nfile = 'walker.gltf'\nanimation = 'none'\n");
+      folder.write("still.toml", std::string(sun) + "[[mesh]]\nfile = 'walker.gltf'\nanimation = 'none'\n");
   CHECK(load(still).animation.tracks == 0);
 }
 

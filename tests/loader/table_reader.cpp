@@ -100,7 +100,7 @@ TEST_CASE("wrong values: an error each, and a valid stand-in") {
                             "[t] needs `must`, three numbers [x, y, z], each at least 5",
                             "`flag` must be true or false, not 1",
                             "`count` must be an integer from 0 to 9, not 10",
-                            "`size` must be a number above 0 and of at most 1, not 0",
+                            "`size` must be a number above 0, at most 1, not 0",
                             "`label` must be a string, not 3",
                             "`tint` must be \"red\" or \"green\", not \"rod\"; did you mean \"red\"?",
                             "`uv` must be two numbers [x, y], not a list of 1",

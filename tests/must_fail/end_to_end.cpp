@@ -34,7 +34,7 @@ std::vector<Expected> all_expected() {
   const char* first_hits = "gate C: gpu against the reference, first hits";
   const char* counts = "gate C: gpu against the reference, surfaces and rays";
   const char* paths = "gate D: gpu against the reference, paths";
-  const std::vector<std::string> lamps = {"scenes/path/lamps.toml", "--spp", "2"};
+  const std::vector<std::string> emitters = {"scenes/path/lamps.toml", "--spp", "2"};
   const auto seen_by = [](const std::string& camera) {
     return std::vector<std::string>{"scenes/cameras/" + camera + ".toml", "--spp", "4"};
   };
@@ -89,10 +89,10 @@ std::vector<Expected> all_expected() {
        {"scenes/shapes/superellipsoid.toml"}},
       {"mis", {bits, paths}, box},
       {"twice", {bits, paths}, box},
-      {"share", {bits, paths}, lamps},
-      {"density", {bits, paths}, lamps},
+      {"share", {bits, paths}, emitters},
+      {"density", {bits, paths}, emitters},
       {"solid_angle", {bits, paths}, box},
-      {"spherical", {bits, paths}, lamps},
+      {"spherical", {bits, paths}, emitters},
       {"cosine", {bits, paths}, box},
       {"roulette", {bits, paths}, box},
       {"shadow_end", {bits, paths}, box},

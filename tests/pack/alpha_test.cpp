@@ -75,10 +75,10 @@ TEST_CASE("an alpha of the cutoff is there, below it is cut out; behind a cutout
     const Vec3 to(-2 + 2 * (texel % 3), texel < 3 ? 1 : -1, -1);
     const shader::QueryRay ray = query_ray(to + Vec3(0, 0, 1), {0, 0, -1}, 1.5);
     CAPTURE(texel);
-    CHECK(ask_twin(packed, {&ray, 1}, true)[0].occlusion == (there[texel] ? OPTICAL_DEPTH_OPAQUE : 0u));
+    CHECK(query_twin(packed, {&ray, 1}, true)[0].occlusion == (there[texel] ? OPTICAL_DEPTH_OPAQUE : 0u));
     shader::QueryRay endless = ray;
     endless.t_max = T_MISS;
-    CHECK(ask_twin(packed, {&endless, 1}, false)[0].primitive == (there[texel] ? 0u : 1u));
+    CHECK(query_twin(packed, {&endless, 1}, false)[0].primitive == (there[texel] ? 0u : 1u));
     const Ray exact{to + Vec3(0, 0, 1), {0, 0, -1}};
     CHECK(tracer.trace(exact)->primitive == (there[texel] ? 0u : 1u));
     uint32_t flags = 0;
@@ -95,14 +95,14 @@ TEST_CASE("cutouts: BVHs find what brute force finds, and in float64 too, to the
     const PackedScene brute = pack::pack(scene, {.acceleration = Acceleration::brute_force});
     int cut = 0, apart = 0;
     for (const bool any : {false, true}) {
-      const auto expected = ask_twin(brute, rays, any);
+      const auto expected = query_twin(brute, rays, any);
       for (const bool split : {false, true})
         CHECK(differences(expected,
-                          ask_twin(pack::pack(scene, {.acceleration = Acceleration::bvh, .split = split}),
-                                   rays, any)) == 0);
+                          query_twin(pack::pack(scene, {.acceleration = Acceleration::bvh, .split = split}),
+                                     rays, any)) == 0);
       PackedScene filled = brute;
       for (shader::Material& material : filled.materials) material.alpha_cutoff = 0;
-      cut += differences(expected, ask_twin(filled, rays, any));
+      cut += differences(expected, query_twin(filled, rays, any));
       if (any) continue;
       const reference::Tracer tracer(scene);
       for (size_t i = 0; i < rays.size(); ++i) {
@@ -130,7 +130,7 @@ TEST_CASE("cutouts on the GPU: in every search what the twin finds" * doctest::t
       const CollapsedBvh bvh4 = collapse(packed.nodes, packed.bvhs[0]);
       QueryKernel kernel(device, packed, {}, &bvh4);
       for (const bool any : {false, true})
-        CHECK(differences(kernel.ask(rays, any), ask_twin(packed, rays, any)) == 0);
+        CHECK(differences(kernel.ask(rays, any), query_twin(packed, rays, any)) == 0);
     }
   }
 }

@@ -80,7 +80,7 @@ void hard_scenes_on_the_gpu(int count) {
     QueryKernel kernel(device, bvh, specialisation);
     together += kernel.traces_packets();
     for (const bool any : {false, true})
-      tally.compare(seed, any ? "any" : "nearest", rays, ask_twin(brute, rays, any), kernel.ask(rays, any));
+      tally.compare(seed, any ? "any" : "nearest", rays, query_twin(brute, rays, any), kernel.ask(rays, any));
   }
   MESSAGE(
       fmt::format("{} compared, {} hit, {} dimmed; of {} BVHs {} quantised, {} with splits, {} with "
@@ -148,10 +148,10 @@ TEST_CASE("10 000 hard scenes on the twin: the BVH finds what brute force finds,
     with_groups += bvh.has_bvh && !hard.scene().groups.empty();
     with_splits += splits;
     for (const bool any : {false, true}) {
-      const std::vector<shader::QueryHit> expected = ask_twin(brute, rays, any);
-      whole.compare(uint64_t(seed), any ? "any" : "nearest", rays, expected, ask_twin(bvh, rays, any));
+      const std::vector<shader::QueryHit> expected = query_twin(brute, rays, any);
+      whole.compare(uint64_t(seed), any ? "any" : "nearest", rays, expected, query_twin(bvh, rays, any));
       if (splits)
-        split.compare(uint64_t(seed), any ? "any" : "nearest", rays, expected, ask_twin(cut, rays, any));
+        split.compare(uint64_t(seed), any ? "any" : "nearest", rays, expected, query_twin(cut, rays, any));
     }
   });
   MESSAGE(fmt::format(
@@ -233,7 +233,7 @@ TEST_CASE("a floor under many spheres stands in the linear list, whose leaves ho
   for (shader::QueryRay& ray : rays) ray = test::random_ray(random);
   const PackedScene brute = pack::pack(scene, {.acceleration = Acceleration::brute_force});
   for (const bool any : {false, true})
-    CHECK(test::differences(test::ask_twin(packed, rays, any), test::ask_twin(brute, rays, any)) == 0);
+    CHECK(test::differences(test::query_twin(packed, rays, any), test::query_twin(brute, rays, any)) == 0);
 
   // Five such triangles would each be tested by every ray, so they go into the BVH.
   for (int i = 0; i < 3; ++i) {

@@ -92,7 +92,7 @@ TEST_CASE("one-sided meshes are not hit from behind, whatever the way of searchi
     int culled = 0, apart = 0;
     for (const Acceleration acceleration : {Acceleration::bvh, Acceleration::brute_force}) {
       const PackedScene packed = pack::pack(scene, {.acceleration = acceleration});
-      const auto nearest = ask_twin(packed, rays, false), occluded = ask_twin(packed, rays, true);
+      const auto nearest = query_twin(packed, rays, false), occluded = query_twin(packed, rays, true);
       for (size_t i = 0; i < rays.size(); ++i) {
         const Expected right = expected(scene, rays[i]);
         const Ray exact{Vec3(rays[i].origin), Vec3(rays[i].direction)};

@@ -104,10 +104,10 @@ TEST_CASE("triangles cut in parts: 4 million grazing rays find what brute force 
     parts += int64_t(cut.primitives.size());
     const std::vector<shader::QueryRay> rays = hard.rays(4000);
     for (const bool any : {false, true}) {
-      const std::vector<shader::QueryHit> expected = ask_twin(brute, rays, any);
+      const std::vector<shader::QueryHit> expected = query_twin(brute, rays, any);
       for (const shader::QueryHit& hit : expected) hits += hit.primitive != NONE || hit.occlusion > 0;
       compared += int64_t(rays.size());
-      different += differences(expected, ask_twin(cut, rays, any));
+      different += differences(expected, query_twin(cut, rays, any));
     }
   });
   MESSAGE(fmt::format("{} compared, {} hit, {} triangles in {} parts: {} differ", compared.load(),

@@ -86,10 +86,10 @@ TEST_CASE("at the same place the lower part is hit, and nothing thin is left") {
 TEST_CASE("a lens: entered by the one ball, left by the other, normals outward") {
   const auto lens = make_csg(true, operands(make_sphere({-1, 0, 0}, 2), make_sphere({1, 0, 0}, 2)));
   CHECK(ends(*lens, along_x) == std::vector<double>{9, 11});
-  const SurfacePoint front = struck(*lens, along_x);
+  const SurfacePoint front = surface_hit(*lens, along_x);
   CHECK(near(front.position, Vec3(-1, 0, 0), 1e-14));
   CHECK(near(front.normal, Vec3(-1, 0, 0), 1e-14));
-  CHECK(near(struck(*lens, {{0, 0, 0}, {1, 0, 0}}).normal, Vec3(1, 0, 0), 1e-14));
+  CHECK(near(surface_hit(*lens, {{0, 0, 0}, {1, 0, 0}}).normal, Vec3(1, 0, 0), 1e-14));
   // Its rim is where both balls are: at a distance of √3 from the axis.
   CHECK(distance(*lens, {{0, 1.733, -10}, {0, 0, 1}}) == -1);
   CHECK(near(distance(*lens, {{0, 0, -10}, {0, 0, 1}}), 10 - std::sqrt(3.0), 1e-13));
@@ -125,7 +125,7 @@ TEST_CASE("a tube is crossed four times; CSG objects in CSG objects, also where 
   const auto cut = make_csg(false, operands(make_box({-5, -0.5, -5}, {5, 0.5, 5})), operands(tube()));
   CHECK(ends(*cut, along_x) == std::vector<double>{5, 8, 9, 11, 12, 15});
   // Taken away twice, the tube's hole is full again.
-  CHECK(near(struck(*cut, {{0, 0, 0}, {1, 0, 0}}).normal, Vec3(1, 0, 0), 1e-14));
+  CHECK(near(surface_hit(*cut, {{0, 0, 0}, {1, 0, 0}}).normal, Vec3(1, 0, 0), 1e-14));
 }
 
 TEST_CASE("each closed shape says where a line is within it, whichever way the line is given") {
@@ -166,7 +166,7 @@ TEST_CASE("what a formula bounds: each crossing once, alternating, with a Lipsch
     REQUIRE(left.size() == 6);
     CHECK(near(left[2], 10 - 5 * sixth, 1e-12));
     CHECK(near(left[3], 9.4, 1e-12));
-    CHECK(near(struck(*cut, {{0, 0, 0}, {-1, 0, 0}}).normal, Vec3(1, 0, 0), 1e-9));
+    CHECK(near(surface_hit(*cut, {{0, 0, 0}, {-1, 0, 0}}).normal, Vec3(1, 0, 0), 1e-9));
   }
 }
 

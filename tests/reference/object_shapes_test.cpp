@@ -16,7 +16,7 @@ TEST_CASE("box: from outside, inside, behind, beside, and along a face") {
   CHECK(distance(*box, {{1.001, 1, 9}, {0, 0, -1}}) == -1);
   CHECK(near(distance(*box, {{1, 1, 9}, {0, 0, -1}}), 6, 1e-14));
   CHECK(near(distance(*box, {{-5, 4, 2.5}, {1, 0, 0}}), 4, 1e-14));
-  CHECK(near(struck(*box, {{0.5, 9, 2.25}, {0, -1, 0}}).position, Vec3(0.5, 4, 2.25), 1e-14));
+  CHECK(near(surface_hit(*box, {{0.5, 9, 2.25}, {0, -1, 0}}).position, Vec3(0.5, 4, 2.25), 1e-14));
   CHECK(box->bounds().min == Vec3(-1, 0, 2));
   CHECK(box->bounds().max == Vec3(1, 4, 3));
 }
@@ -24,7 +24,7 @@ TEST_CASE("box: from outside, inside, behind, beside, and along a face") {
 TEST_CASE("box: uv are upright on every face, seen from outside") {
   const auto box = make_box({0, 0, 0}, {1, 1, 1});
   const auto uv = [&](const Vec3& at, const Vec3& outward) {
-    const SurfacePoint point = struck(*box, {at + outward, -outward});
+    const SurfacePoint point = surface_hit(*box, {at + outward, -outward});
     CHECK(near(point.normal_geometric, outward, 1e-15));
     return point.uv;
   };
@@ -42,7 +42,7 @@ TEST_CASE("ellipsoid: each radius along its axis, normals by the gradient, bound
   CHECK(near(distance(*ellipsoid, {{1, 0, 0}, {0, 0, 1}}), 1, 1e-14));
   CHECK(distance(*ellipsoid, {{1, 2.001, 9}, {0, 0, -1}}) == -1);
   // x = 1 + 3·0.6, y = 2·0.8: the gradient is (0.6/3, 0.8/2, 0).
-  const SurfacePoint point = struck(*ellipsoid, {{2.8, 9, 0}, {0, -1, 0}});
+  const SurfacePoint point = surface_hit(*ellipsoid, {{2.8, 9, 0}, {0, -1, 0}});
   CHECK(near(point.position, Vec3(2.8, 1.6, 0), 1e-14));
   CHECK(near(point.normal, glm::normalize(Vec3(0.2, 0.4, 0)), 1e-14));
 
@@ -58,8 +58,8 @@ TEST_CASE("a sphere under a map that is no similarity is what the map makes of i
   Random random(3);
   for (int i = 0; i < 1000; ++i) {
     const Vec3 out = random.direction(), from = Vec3(1, 2, 3) + out * 2.0;
-    const SurfacePoint here = struck(*plain, {from, -out});
-    const SurfacePoint there = struck(*mapped, {Vec3(map * Vec4(from, 1)), Vec3(map * Vec4(-out, 0))});
+    const SurfacePoint here = surface_hit(*plain, {from, -out});
+    const SurfacePoint there = surface_hit(*mapped, {Vec3(map * Vec4(from, 1)), Vec3(map * Vec4(-out, 0))});
     CHECK(near(there.position, Vec3(map * Vec4(here.position, 1)), 1e-13));
     CHECK(near(Vec3(there.uv, 0), Vec3(here.uv, 0), 1e-12));
   }
@@ -74,18 +74,18 @@ TEST_CASE("cylinder: side, caps, open, and rays along its axis") {
   CHECK(distance(*open, {{1, 9, 0}, {0, -1, 0}}) == -1);
   CHECK(distance(*closed, {{2.001, 9, 0}, {0, -1, 0}}) == -1);
   // Through the open end onto the side, from within.
-  const SurfacePoint within = struck(*open, {{0, 7, 0}, {-1, -2, 0}});
+  const SurfacePoint within = surface_hit(*open, {{0, 7, 0}, {-1, -2, 0}});
   CHECK(near(within.position, Vec3(-2, 3, 0), 1e-14));
   CHECK(near(within.normal_geometric, Vec3(-1, 0, 0), 1e-14));
-  CHECK(near(struck(*closed, {{9, 2, 0}, {-1, 0, 0}}).uv, Vec2(0.5, 0.25), 1e-14));
-  CHECK(near(struck(*closed, {{0, 2, 9}, {0, 0, -1}}).uv, Vec2(0.25, 0.25), 1e-14));
-  CHECK(near(struck(*closed, {{1, 9, 0}, {0, -1, 0}}).uv, Vec2(0.75, 0.5), 1e-14));
+  CHECK(near(surface_hit(*closed, {{9, 2, 0}, {-1, 0, 0}}).uv, Vec2(0.5, 0.25), 1e-14));
+  CHECK(near(surface_hit(*closed, {{0, 2, 9}, {0, 0, -1}}).uv, Vec2(0.25, 0.25), 1e-14));
+  CHECK(near(surface_hit(*closed, {{1, 9, 0}, {0, -1, 0}}).uv, Vec2(0.75, 0.5), 1e-14));
 }
 
 TEST_CASE("cone: the apex, the slope, and not its mirror image") {
   const auto cone = make_cone({0, 0, 0}, {0, 2, 0}, 1);
   CHECK(near(distance(*cone, {{9, 1, 0}, {-1, 0, 0}}), 8.5, 1e-14));
-  CHECK(near(struck(*cone, {{9, 1, 0}, {-1, 0, 0}}).normal, glm::normalize(Vec3(2, 1, 0)), 1e-14));
+  CHECK(near(surface_hit(*cone, {{9, 1, 0}, {-1, 0, 0}}).normal, glm::normalize(Vec3(2, 1, 0)), 1e-14));
   CHECK(distance(*cone, {{9, 3, 0}, {-1, 0, 0}}) == -1);  // the other nappe
   CHECK(near(distance(*cone, {{0.5, -3, 0}, {0, 1, 0}}), 3, 1e-14));
   CHECK(near(distance(*cone, {{0.5, 0.5, 0}, {0, 1, 0}}), 0.5, 1e-14));
@@ -96,14 +96,14 @@ TEST_CASE("cone: the apex, the slope, and not its mirror image") {
   const auto cut = make_cone({0, 0, 0}, {0, 2, 0}, 1, 2, true);
   CHECK(near(distance(*cut, {{9, 1, 0}, {-1, 0, 0}}), 7.5, 1e-14));
   CHECK(distance(*cut, {{0, 9, 0}, {0, -1, 0}}) == -1);
-  CHECK(near(struck(*cut, {{9, 1.5, 0}, {-1, 0, 0}}).uv, Vec2(0.5, 0.25), 1e-14));
+  CHECK(near(surface_hit(*cut, {{9, 1.5, 0}, {-1, 0, 0}}).uv, Vec2(0.5, 0.25), 1e-14));
 }
 
 TEST_CASE("an axis keeps u = ½ towards the world's +x, and outside is outside under a mirror") {
   for (const Vec3& to : {Vec3(0, 1, 0), Vec3(0, -1, 0), Vec3(0, 0, 1), Vec3(0, 3, -4)}) {
     const auto cylinder = make_cylinder({0, 0, 0}, to, 0.5, true);
-    CHECK(near(struck(*cylinder, {to * 0.5 + Vec3(9, 0, 0), {-1, 0, 0}}).uv.x, 0.5, 1e-15));
+    CHECK(near(surface_hit(*cylinder, {to * 0.5 + Vec3(9, 0, 0), {-1, 0, 0}}).uv.x, 0.5, 1e-15));
   }
   const auto mirrored = make_cone({0, 0, 0}, {0, 2, 0}, 1, 0, false, glm::scale(Mat4(1.0), Vec3(1, -1, 1)));
-  CHECK(near(struck(*mirrored, {{9, -1, 0}, {-1, 0, 0}}).normal, glm::normalize(Vec3(2, -1, 0)), 1e-14));
+  CHECK(near(surface_hit(*mirrored, {{9, -1, 0}, {-1, 0, 0}}).normal, glm::normalize(Vec3(2, -1, 0)), 1e-14));
 }

@@ -29,7 +29,7 @@ std::string refused(const std::string& shape) {
 }
 
 // The first hit of the camera ray.
-FirstHit struck(Scene scene, const Vec3& from, const Vec3& target) {
+FirstHit surface_hit(Scene scene, const Vec3& from, const Vec3& target) {
   const Scene one = one_pixel(from, target);
   scene.image = one.image;
   scene.camera = one.camera;
@@ -46,7 +46,7 @@ TEST_CASE("shapes are where their tables say") {
     material = 'm'
     transform = [{ scale = 3 }, { rotate = { axis = [0, 1, 0], degrees = 90 } }]
   )";
-  CHECK(near(struck(scene_of(sphere), {0, 0, 20}, {0, 0, 0}).position, Vec3(0, 0, 3), 1e-14));
+  CHECK(near(surface_hit(scene_of(sphere), {0, 0, 20}, {0, 0, 0}).position, Vec3(0, 0, 3), 1e-14));
 
   const std::string plane = R"(
     [[plane]]
@@ -55,7 +55,7 @@ TEST_CASE("shapes are where their tables say") {
     u_axis = [0, 0, 1]
     material = 'm'
   )";
-  const FirstHit floor = struck(scene_of(plane), {3, 4, 7}, {3, 0, 7});
+  const FirstHit floor = surface_hit(scene_of(plane), {3, 4, 7}, {3, 0, 7});
   CHECK(floor.position == Vec3(3, 2, 7));
   CHECK(floor.uv == Vec2(7, 3));
 
@@ -66,7 +66,7 @@ TEST_CASE("shapes are where their tables say") {
     uv = [[0, 0], [0, 0], [8, 9]]
     material = 'm'
   )";
-  const FirstHit corner = struck(scene_of(triangle), {0, 1, 7}, {0, 1, 0});
+  const FirstHit corner = surface_hit(scene_of(triangle), {0, 1, 7}, {0, 1, 0});
   CHECK(near(corner.normal, Vec3(0, 0.6, 0.8), 1e-15));
   CHECK(corner.uv == Vec2(8, 9));
 }

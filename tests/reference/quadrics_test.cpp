@@ -39,12 +39,12 @@ TEST_CASE("disk: its hole, its rims and its uv") {
   CHECK(distance(*ring, {{-9, 2, 3}, {1, 0, 0}}) == -1);
   CHECK(distance(*make_disk({1, 2, 3}, {0, 5, 0}, 2), {{1, 7, 3}, downwards * 2.0}) == 2.5);
 
-  const SurfacePoint east = struck(*ring, {{2.5, 7, 3}, downwards});
+  const SurfacePoint east = surface_hit(*ring, {{2.5, 7, 3}, downwards});
   CHECK(near(east.position, Vec3(2.5, 2, 3), 1e-15));
   CHECK(east.normal == Vec3(0, 1, 0));
   CHECK(near(east.uv.x, 0.875, 1e-15));
   CHECK(near(east.uv.y, 0.5, 1e-15));
-  const SurfacePoint south = struck(*ring, {{1, -7, 4.5}, -downwards});
+  const SurfacePoint south = surface_hit(*ring, {{1, -7, 4.5}, -downwards});
   CHECK(south.normal == Vec3(0, 1, 0));
   CHECK(near(south.uv.x, 0.5, 1e-15));
   CHECK(near(south.uv.y, 0.125, 1e-15));
@@ -52,8 +52,8 @@ TEST_CASE("disk: its hole, its rims and its uv") {
   // Sheared: y = 2 becomes y = 2 + x, whose normal is that of −x + y.
   const Mat4 shear{{1, 1, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
   const auto slope = make_disk({1, 2, 3}, {0, 5, 0}, 2, 1, shear);
-  CHECK(near(struck(*slope, {{2.5, 9, 3}, downwards}).position, Vec3(2.5, 4.5, 3), 1e-14));
-  CHECK(near(struck(*slope, {{2.5, 9, 3}, downwards}).normal, Vec3(-1, 1, 0) / std::sqrt(2.0), 1e-15));
+  CHECK(near(surface_hit(*slope, {{2.5, 9, 3}, downwards}).position, Vec3(2.5, 4.5, 3), 1e-14));
+  CHECK(near(surface_hit(*slope, {{2.5, 9, 3}, downwards}).normal, Vec3(-1, 1, 0) / std::sqrt(2.0), 1e-15));
 }
 
 TEST_CASE("paraboloid: y = x² + z², its cap, its tip and its focus") {
@@ -65,11 +65,11 @@ TEST_CASE("paraboloid: y = x² + z², its cap, its tip and its focus") {
   check_heights(*bowl, 2.001, 0, {});
   CHECK(near(distance(*csg, {{-5, 1, 0}, {1, 0, 0}}), 4, 1e-14));
   CHECK(near(distance(*csg, {{0, 1, 0}, {1, 0, 0}}), 1, 1e-14));
-  CHECK(struck(*csg, {{1, 10, 0}, downwards}).normal == Vec3(0, 1, 0));
-  CHECK(near(struck(*csg, {{0, -3, 0}, -downwards}).normal, Vec3(0, -1, 0), 1e-12));
+  CHECK(surface_hit(*csg, {{1, 10, 0}, downwards}).normal == Vec3(0, 1, 0));
+  CHECK(near(surface_hit(*csg, {{0, -3, 0}, -downwards}).normal, Vec3(0, -1, 0), 1e-12));
 
   // Rays along the axis are reflected to the focus, 2² / (4 · 4) above the tip.
-  const SurfacePoint point = struck(*bowl, {{1, 10, 0}, downwards});
+  const SurfacePoint point = surface_hit(*bowl, {{1, 10, 0}, downwards});
   CHECK(near(point.position, Vec3(1, 1, 0), 1e-14));
   CHECK(near(glm::reflect(downwards, point.normal), Vec3(-0.8, -0.6, 0), 1e-14));
   CHECK(near(point.uv.x, 0.5, 1e-15));
@@ -77,7 +77,7 @@ TEST_CASE("paraboloid: y = x² + z², its cap, its tip and its focus") {
 
   // Mirrored, it opens downward and its outside stays outside.
   const auto hill = make_paraboloid({0, 0, 0}, {0, 4, 0}, 2, true, glm::scale(Mat4(1.0), Vec3(1, -1, 1)));
-  CHECK(near(struck(*hill, {{1, 10, 0}, downwards}).normal, Vec3(2, 1, 0) / std::sqrt(5.0), 1e-14));
+  CHECK(near(surface_hit(*hill, {{1, 10, 0}, downwards}).normal, Vec3(2, 1, 0) / std::sqrt(5.0), 1e-14));
 }
 
 TEST_CASE("hyperboloid: x² + z² = 9 + y², hit up to four times") {
@@ -92,11 +92,11 @@ TEST_CASE("hyperboloid: x² + z² = 9 + y², hit up to four times") {
   CHECK(near(distance(*spool, {{-10, 0, 0}, {1, 0, 0}}), 7, 1e-14));
   CHECK(near(distance(*spool, {{0, 0, 0}, {1, 0, 0}}), 3, 1e-14));
 
-  const SurfacePoint out = struck(*spool, {{4, -3, 0}, {0, 1, 0}});
+  const SurfacePoint out = surface_hit(*spool, {{4, -3, 0}, {0, 1, 0}});
   CHECK(near(out.position, Vec3(4, -bend, 0), 1e-14));
   CHECK(near(out.normal, Vec3(4, bend, 0) / std::sqrt(23.0), 1e-14));
   CHECK(near(out.uv.y, (4 - bend) / 8, 1e-14));
-  CHECK(near(struck(*spool, {{0, 0, 9}, {0, 0, -1}}).uv.x, 0.25, 1e-15));
+  CHECK(near(surface_hit(*spool, {{0, 0, 9}, {0, 0, -1}}).uv.x, 0.25, 1e-15));
 
   // The waist may be an end, and need not be in the middle: here r² = 9 + y² from y = −4 to 0, and to √7.
   CHECK(near(distance(*make_hyperboloid({0, -4, 0}, {0, 0, 0}, 5, 3, 3), {{-9, -1e-12, 0}, {1, 0, 0}}), 6,
@@ -111,14 +111,14 @@ TEST_CASE("capsule: side, ends, and the seams between them") {
   check_heights(*capsule, 0.6, 0, {-0.8, 2.8});
   check_heights(*capsule, 1.001, 0, {});
   for (const double y : {0.0, 1.0, 2.0}) {
-    const SurfacePoint point = struck(*capsule, {{10, y, 0}, {-1, 0, 0}});
+    const SurfacePoint point = surface_hit(*capsule, {{10, y, 0}, {-1, 0, 0}});
     CHECK(near(point.position, Vec3(1, y, 0), 1e-14));
     CHECK(near(point.normal, Vec3(1, 0, 0), 1e-14));
     CHECK(near(point.uv.x, 0.5, 1e-15));
     CHECK(near(point.uv.y, (std::numbers::pi / 2 + y) / (std::numbers::pi + 2), 1e-14));
   }
-  CHECK(near(struck(*capsule, {{10, 2.6, 0}, {-1, 0, 0}}).normal, Vec3(0.8, 0.6, 0), 1e-14));
-  CHECK(near(struck(*capsule, {{0, 9, 0}, downwards}).uv.y, 1, 1e-15));
+  CHECK(near(surface_hit(*capsule, {{10, 2.6, 0}, {-1, 0, 0}}).normal, Vec3(0.8, 0.6, 0), 1e-14));
+  CHECK(near(surface_hit(*capsule, {{0, 9, 0}, downwards}).uv.y, 1, 1e-15));
   CHECK(near(distance(*capsule, {{0, 1, 0}, {0, 1, 0}}), 2, 1e-14));
   CHECK(near(capsule->bounds().min, Vec3(-1, -1, -1), 1e-14));
   CHECK(near(capsule->bounds().max, Vec3(1, 3, 1), 1e-14));
@@ -131,14 +131,14 @@ TEST_CASE("quadric: a saddle, two sheets, and a ball cut off by a box") {
   check_heights(*sheet, 0.5, 0.5, {0});
   check_heights(*sheet, 0, 0.5, {-0.25});
   check_heights(*sheet, 1.001, 0, {});
-  const SurfacePoint point = struck(*sheet, {{0.25, 5, 0}, downwards});
+  const SurfacePoint point = surface_hit(*sheet, {{0.25, 5, 0}, downwards});
   CHECK(near(point.normal, Vec3(0.5, -1, 0) / std::sqrt(1.25), 1e-14));
   CHECK(near(point.uv.x, 0.625, 1e-14));
   CHECK(near(point.uv.y, 0.5, 1e-14));
   const auto csg = make_quadric(saddle, Vec3(-1), Vec3(1));
   check_heights(*csg, 0.5, 0, {0.25, 1});
-  CHECK(struck(*csg, {{0.5, 5, 0}, downwards}).normal == Vec3(0, 1, 0));
-  CHECK(near(struck(*csg, {{0.5, 5, 0}, downwards}).uv.x, 0.75, 1e-15));
+  CHECK(surface_hit(*csg, {{0.5, 5, 0}, downwards}).normal == Vec3(0, 1, 0));
+  CHECK(near(surface_hit(*csg, {{0.5, 5, 0}, downwards}).uv.x, 0.75, 1e-15));
 
   const QuadricValues sheets{.square = {1, -1, 1}, .product = Vec3(0), .linear = Vec3(0), .constant = 0.25};
   check_heights(*make_quadric(sheets, Vec3(-1), Vec3(1)), 0, 0, {-1, -0.5, 0.5, 1});
@@ -147,14 +147,14 @@ TEST_CASE("quadric: a saddle, two sheets, and a ball cut off by a box") {
   const QuadricValues ball{.square = Vec3(1), .product = Vec3(0), .linear = {-6, 0, 0}, .constant = 8};
   const auto cut = make_quadric(ball, {2.5, -2, -2}, {4.5, 2, 2});
   CHECK(near(distance(*cut, {Vec3(0), {1, 0, 0}}), 2.5, 1e-14));
-  CHECK(struck(*cut, {Vec3(0), {1, 0, 0}}).normal == Vec3(-1, 0, 0));
-  const SurfacePoint far_side = struck(*cut, {{3, 0, 0}, {0.6, 0.8, 0}});
+  CHECK(surface_hit(*cut, {Vec3(0), {1, 0, 0}}).normal == Vec3(-1, 0, 0));
+  const SurfacePoint far_side = surface_hit(*cut, {{3, 0, 0}, {0.6, 0.8, 0}});
   CHECK(near(far_side.position, Vec3(3.6, 0.8, 0), 1e-14));
   CHECK(near(far_side.normal, Vec3(0.6, 0.8, 0), 1e-14));
 
   // The products each belong to their pair: 2xy + 4xz + 8yz grows by (2y + 4z, 2x + 8z, 4x + 8y).
   const QuadricValues mixed{.square = Vec3(0), .product = {2, 4, 8}, .linear = {0, 0, 0}, .constant = -1};
-  const SurfacePoint twisted = struck(*make_quadric(mixed, Vec3(-1), Vec3(1), true), {Vec3(0), Vec3(1)});
+  const SurfacePoint twisted = surface_hit(*make_quadric(mixed, Vec3(-1), Vec3(1), true), {Vec3(0), Vec3(1)});
   CHECK(near(twisted.position, Vec3(1 / std::sqrt(14.0)), 1e-14));
   CHECK(near(twisted.normal, glm::normalize(Vec3(6, 10, 12)), 1e-14));
 }

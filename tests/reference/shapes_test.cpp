@@ -14,7 +14,7 @@ TEST_CASE("sphere: from outside, inside, behind and beside") {
   CHECK(distance(*sphere, {{1, 2, 4}, {0, 0, -1}}) == 3);
   CHECK(distance(*sphere, {{1, 2, -10}, {0, 0, -1}}) == -1);
   CHECK(distance(*sphere, {{3.0001, 2, 10}, {0, 0, -1}}) == -1);
-  const SurfacePoint point = struck(*sphere, {{1, 2, 10}, {0, 0, -1}});
+  const SurfacePoint point = surface_hit(*sphere, {{1, 2, 10}, {0, 0, -1}});
   CHECK(point.position == Vec3(1, 2, 5));
   CHECK(point.normal_geometric == Vec3(0, 0, 1));
   CHECK(sphere->bounds().min == Vec3(-1, 0, 1));
@@ -44,7 +44,9 @@ TEST_CASE("sphere: a point aimed at is a point hit, at every scale and distance"
 }
 
 TEST_CASE("sphere: uv run eastward and northward") {
-  const auto uv = [](const Shape& shape, const Vec3& from) { return struck(shape, {from * 5.0, -from}).uv; };
+  const auto uv = [](const Shape& shape, const Vec3& from) {
+    return surface_hit(shape, {from * 5.0, -from}).uv;
+  };
   const auto sphere = make_sphere({0, 0, 0}, 1);
   CHECK(near(uv(*sphere, {1, 0, 0}).x, 0.5, 1e-15));
   CHECK(near(uv(*sphere, {0, 0, 1}).x, 0.25, 1e-15));
@@ -61,7 +63,7 @@ TEST_CASE("sphere: uv run eastward and northward") {
   const auto mirrored = make_sphere({0, 0, 0}, 1, glm::scale(Mat4(1.0), Vec3(1, 1, -1)));
   CHECK(near(uv(*mirrored, {0, 0, -1}).x, 0.25, 1e-15));
   const auto moved = make_sphere({1, 0, 0}, 1, glm::scale(Mat4(1.0), Vec3(3)));
-  CHECK(near(struck(*moved, {{3, 0, 9}, {0, 0, -1}}).position, Vec3(3, 0, 3), 1e-14));
+  CHECK(near(surface_hit(*moved, {{3, 0, 9}, {0, 0, -1}}).position, Vec3(3, 0, 3), 1e-14));
 }
 
 TEST_CASE("plane: both sides, parallel and behind") {
@@ -71,7 +73,7 @@ TEST_CASE("plane: both sides, parallel and behind") {
   CHECK(distance(*plane, {{0, 5, 0}, {1, 0, 0}}) == -1);
   CHECK(distance(*plane, {{0, 2, 0}, {1, 0, 0}}) == -1);
   CHECK(distance(*plane, {{0, 5, 0}, {0, 1, 0}}) == -1);
-  const SurfacePoint far = struck(*plane, {{0, 3, 0}, {1, -1e-9, 0.3}});
+  const SurfacePoint far = surface_hit(*plane, {{0, 3, 0}, {1, -1e-9, 0.3}});
   CHECK(near(far.position.y, 2, far.position_error));
   CHECK(near(far.position.x / 1e9, 1, 1e-12));
   CHECK(far.normal == Vec3(0, 1, 0));
@@ -79,7 +81,7 @@ TEST_CASE("plane: both sides, parallel and behind") {
 
 TEST_CASE("plane: uv are right-handed, upright and in its own units") {
   const auto uv = [](const Shape& plane, const Vec3& at, const Vec3& from) {
-    return struck(plane, {at + from, -from}).uv;
+    return surface_hit(plane, {at + from, -from}).uv;
   };
   const auto floor = make_plane({1, 0, 0}, {0, 1, 0});
   CHECK(uv(*floor, {3, 0, 5}, {0, 1, 0}) == Vec2(2, -5));
@@ -94,21 +96,22 @@ TEST_CASE("plane: uv are right-handed, upright and in its own units") {
   // Scaled by 2 along x only: a point twice as far has the same u; moved: the origin moves along.
   const auto stretched =
       make_plane({1, 0, 0}, {0, 1, 0}, glm::scale(glm::translate(Mat4(1.0), Vec3(0, 4, 0)), Vec3(2, 1, 1)));
-  CHECK(near(struck(*stretched, {{6, 9, 5}, {0, -1, 0}}).position, Vec3(6, 4, 5), 1e-14));
+  CHECK(near(surface_hit(*stretched, {{6, 9, 5}, {0, -1, 0}}).position, Vec3(6, 4, 5), 1e-14));
   CHECK(uv(*stretched, {6, 4, 5}, {0, 1, 0}) == Vec2(2, -5));
 }
 
 TEST_CASE("a normal maps by the inverse transpose, and outside stays outside under a mirror") {
   const Mat4 stretch = glm::scale(Mat4(1.0), Vec3(1, 2, 1));
   const Vec3 expected = glm::normalize(Vec3(2, 1, 0));
-  CHECK(near(struck(*make_plane({0, 0, 0}, {1, 1, 0}, stretch), {{5, 5, 0}, {-1, -1, 0}}).normal, expected,
-             1e-15));
+  CHECK(near(surface_hit(*make_plane({0, 0, 0}, {1, 1, 0}, stretch), {{5, 5, 0}, {-1, -1, 0}}).normal,
+             expected, 1e-15));
   const TriangleValues slope{.vertices = {Vec3(1, 0, -9), Vec3(0, 1, 0), Vec3(1, 0, 9)}};
-  CHECK(near(struck(*make_triangle(slope, stretch), {{5, 5, 0}, {-4.5, -4, 0}}).normal, expected, 1e-15));
+  CHECK(
+      near(surface_hit(*make_triangle(slope, stretch), {{5, 5, 0}, {-4.5, -4, 0}}).normal, expected, 1e-15));
 
   const Mat4 mirror = glm::scale(Mat4(1.0), Vec3(-1, 1, 1));
   const TriangleValues wall{.vertices = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}};
-  const SurfacePoint point = struck(*make_triangle(wall, mirror), {{-0.25, 0.5, 1}, {0, 0, -1}});
+  const SurfacePoint point = surface_hit(*make_triangle(wall, mirror), {{-0.25, 0.5, 1}, {0, 0, -1}});
   CHECK(point.normal_geometric == Vec3(0, 0, 1));
   CHECK(near(point.uv.x, 0.25, 1e-15));
   CHECK(near(point.uv.y, 0.5, 1e-15));
@@ -122,11 +125,11 @@ TEST_CASE("triangle: attributes belong to their corners") {
   for (const bool mirrored : {false, true}) {
     const double side = mirrored ? -1 : 1;
     const auto triangle = make_triangle(values, glm::scale(Mat4(1.0), Vec3(side, 1, 1)));
-    const SurfacePoint corner = struck(*triangle, {{side * 2, 0, 3}, {0, 0, -1}});
+    const SurfacePoint corner = surface_hit(*triangle, {{side * 2, 0, 3}, {0, 0, -1}});
     CHECK(near(corner.normal, tilted * Vec3(side, 1, 1), 1e-15));
     CHECK(corner.normal_geometric == Vec3(0, 0, 1));
     CHECK(corner.uv == Vec2(30, 20));
-    const SurfacePoint inside = struck(*triangle, {{side * 0.5, 1, 3}, {0, 0, -1}});
+    const SurfacePoint inside = surface_hit(*triangle, {{side * 0.5, 1, 3}, {0, 0, -1}});
     CHECK(near(inside.uv.x, 15, 1e-13));
     CHECK(near(inside.uv.y, 40, 1e-13));
     CHECK(near(inside.position, Vec3(side * 0.5, 1, 0), 1e-15));
@@ -201,12 +204,13 @@ TEST_CASE("polygon: concave and with a hole, from both sides; uv in its own unit
   CHECK(distance(*polygon, {{2, 0.5, -3}, {0, 0, 2}}) == 1.5);
   CHECK(distance(*polygon, {{2, 0.5, 5}, {0, 0, 1}}) == -1);
   CHECK(distance(*polygon, {{-1, 0.5, 0}, {1, 0, 0}}) == -1);
-  CHECK(struck(*polygon, {{3, 1, -5}, {0, 0, 1}}).normal == Vec3(0, 0, 1));
-  CHECK(struck(*polygon, {{3, 1, 5}, {0, 0, -1}}).uv == Vec2(3, 1));
-  CHECK(struck(*make_polygon(region, Mat4(1.0), Vec3(0, 2, 9)), {{3, 1, 5}, {0, 0, -1}}).uv == Vec2(1, -3));
+  CHECK(surface_hit(*polygon, {{3, 1, -5}, {0, 0, 1}}).normal == Vec3(0, 0, 1));
+  CHECK(surface_hit(*polygon, {{3, 1, 5}, {0, 0, -1}}).uv == Vec2(3, 1));
+  CHECK(surface_hit(*make_polygon(region, Mat4(1.0), Vec3(0, 2, 9)), {{3, 1, 5}, {0, 0, -1}}).uv ==
+        Vec2(1, -3));
 
   const auto mirrored = make_polygon(region, glm::scale(Mat4(1.0), Vec3(-2, 1, 1)));
-  const SurfacePoint point = struck(*mirrored, {{-6, 1, 5}, {0, 0, -1}});
+  const SurfacePoint point = surface_hit(*mirrored, {{-6, 1, 5}, {0, 0, -1}});
   CHECK(point.normal_geometric == Vec3(0, 0, 1));
   CHECK(point.uv == Vec2(3, 1));
 }
@@ -217,13 +221,13 @@ TEST_CASE("parallelogram: its edges, its uv, a mirror") {
   CHECK(distance(*shape, {{1.1, 0.9, 4}, {0, 0, -2}}) == -1);
   CHECK(distance(*shape, {{3.4, 0.9, 4}, {0, 0, -2}}) == 2);
   CHECK(distance(*shape, {{3.2, 0.1, 4}, {0, 0, -2}}) == -1);
-  const SurfacePoint point = struck(*shape, {{2.375, 0.75, 4}, {0, 0, -2}});
+  const SurfacePoint point = surface_hit(*shape, {{2.375, 0.75, 4}, {0, 0, -2}});
   CHECK(near(point.uv.x, 0.5, 1e-15));
   CHECK(near(point.uv.y, 0.75, 1e-15));
   CHECK(point.normal == Vec3(0, 0, 1));
   const auto mirrored =
       make_parallelogram({1, 0, 0}, {2, 0, 0}, {0.5, 1, 0}, glm::scale(Mat4(1.0), Vec3(-1, 1, 1)));
-  CHECK(struck(*mirrored, {{-2.375, 0.75, 4}, {0, 0, -2}}).normal == Vec3(0, 0, 1));
+  CHECK(surface_hit(*mirrored, {{-2.375, 0.75, 4}, {0, 0, -2}}).normal == Vec3(0, 0, 1));
 }
 
 TEST_CASE("prism: caps and walls, from outside, inside and through its notch") {
@@ -243,7 +247,7 @@ TEST_CASE("prism: caps and walls, from outside, inside and through its notch") {
               {{{-1, 1, 1.5}, {1, 0, 0}}, 3, {-1, 0, 0}, {3.5, 1}}};
   for (const auto& [ray, t, normal, uv] : hits) {
     CHECK(near(distance(*prism, ray), t, 1e-14));
-    const SurfacePoint point = struck(*prism, ray);
+    const SurfacePoint point = surface_hit(*prism, ray);
     CHECK(near(point.normal_geometric, normal, 1e-15));
     CHECK(near(point.uv.x, uv.x, 1e-14));
     CHECK(near(point.uv.y, uv.y, 1e-14));
@@ -253,14 +257,14 @@ TEST_CASE("prism: caps and walls, from outside, inside and through its notch") {
 
   // Swept down the body is below, and outside stays outside; so it does in a hole, and under a mirror.
   const auto sunk = make_prism(region, {0, -2, 0}, glm::scale(Mat4(1.0), Vec3(-1, 1, 1)));
-  CHECK(near(struck(*sunk, {{-1, 5, 0.5}, {0, -1, 0}}).normal, Vec3(0, 1, 0), 1e-15));
+  CHECK(near(surface_hit(*sunk, {{-1, 5, 0.5}, {0, -1, 0}}).normal, Vec3(0, 1, 0), 1e-15));
   CHECK(near(distance(*sunk, {{-1, 5, 0.5}, {0, -1, 0}}), 5, 1e-14));
-  CHECK(near(struck(*sunk, {{1, -1, 0.5}, {-1, 0, 0}}).normal, Vec3(1, 0, 0), 1e-15));
+  CHECK(near(surface_hit(*sunk, {{1, -1, 0.5}, {-1, 0, 0}}).normal, Vec3(1, 0, 0), 1e-15));
   const PlanarRegion frame{{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}},
                            {{{1, 1, 0}, {3, 1, 0}, {3, 3, 0}, {1, 3, 0}}}};
   const auto oblique = make_prism(frame, {1, 0, 2});
   CHECK(distance(*oblique, {{2.5, 2, 5}, {0, 0, -1}}) == -1);
-  const SurfacePoint within = struck(*oblique, {{2.5, 2, 1}, {1, 0, 0}});
+  const SurfacePoint within = surface_hit(*oblique, {{2.5, 2, 1}, {1, 0, 0}});
   CHECK(near(within.position, Vec3(3.5, 2, 1), 1e-14));
   CHECK(near(within.normal, glm::normalize(Vec3(-2, 0, 1)), 1e-14));
 }

@@ -21,10 +21,10 @@ TEST_CASE("torus: four crossings, one after the other, the hole and the pole") {
   CHECK(near(distance(*torus, {{1, 12, 4}, {0, -1, 0}}), 10 - std::sqrt(5.25), 1e-13));
   CHECK(near(distance(*torus, {{1, 2, 4}, {0, -1, 0}}), std::sqrt(1.25), 1e-13));
 
-  const SurfacePoint point = struck(*torus, {{9, 4, 3}, {-1, 0, 0}});
+  const SurfacePoint point = surface_hit(*torus, {{9, 4, 3}, {-1, 0, 0}});
   CHECK(near(point.position, Vec3(1.5, 4, 3), 1e-13));
   CHECK(near(point.normal_geometric, Vec3(1, 0, 0), 1e-13));
-  const SurfacePoint hole = struck(*torus, {{1, 2, 3}, {0, 0, -1}});
+  const SurfacePoint hole = surface_hit(*torus, {{1, 2, 3}, {0, 0, -1}});
   CHECK(near(hole.position, Vec3(1, 2, 1.5), 1e-13));
   CHECK(near(hole.normal_geometric, Vec3(0, 0, 1), 1e-13));
   CHECK(near(torus->bounds().min, Vec3(0.5, -0.5, 0.5), 1e-14));
@@ -33,18 +33,18 @@ TEST_CASE("torus: four crossings, one after the other, the hole and the pole") {
 
 TEST_CASE("torus: uv, and outside stays outside under a mirror that stretches") {
   const auto torus = make_torus({0, 0, 0}, {0, 1, 0}, 2, 0.5);
-  CHECK(near(Vec3(struck(*torus, {{9, 0, 0}, {-1, 0, 0}}).uv, 0), Vec3(0.5, 0.5, 0), 1e-14));
-  CHECK(near(Vec3(struck(*torus, {{0, 0, 9}, {0, 0, -1}}).uv, 0), Vec3(0.25, 0.5, 0), 1e-14));
-  CHECK(near(Vec3(struck(*torus, {{2, 9, 0}, {0, -1, 0}}).uv, 0), Vec3(0.5, 0.75, 0), 1e-14));
-  CHECK(near(Vec3(struck(*torus, {{2, -9, 0}, {0, 1, 0}}).uv, 0), Vec3(0.5, 0.25, 0), 1e-14));
-  CHECK(near(Vec3(struck(*torus, {{0, 0, 0}, {1, 0, 0}}).uv, 0), Vec3(0.5, 0, 0), 1e-14));
+  CHECK(near(Vec3(surface_hit(*torus, {{9, 0, 0}, {-1, 0, 0}}).uv, 0), Vec3(0.5, 0.5, 0), 1e-14));
+  CHECK(near(Vec3(surface_hit(*torus, {{0, 0, 9}, {0, 0, -1}}).uv, 0), Vec3(0.25, 0.5, 0), 1e-14));
+  CHECK(near(Vec3(surface_hit(*torus, {{2, 9, 0}, {0, -1, 0}}).uv, 0), Vec3(0.5, 0.75, 0), 1e-14));
+  CHECK(near(Vec3(surface_hit(*torus, {{2, -9, 0}, {0, 1, 0}}).uv, 0), Vec3(0.5, 0.25, 0), 1e-14));
+  CHECK(near(Vec3(surface_hit(*torus, {{0, 0, 0}, {1, 0, 0}}).uv, 0), Vec3(0.5, 0, 0), 1e-14));
 
   const auto other = make_torus({0, 0, 0}, {0, 1, 0}, 2, 0.5,
                                 glm::translate(glm::scale(Mat4(1.0), Vec3(-3, 2, 1)), Vec3(1, 0, 0)));
-  const SurfacePoint point = struck(*other, {{-20, 0, 0}, {1, 0, 0}});
+  const SurfacePoint point = surface_hit(*other, {{-20, 0, 0}, {1, 0, 0}});
   CHECK(near(point.position, Vec3(-10.5, 0, 0), 1e-12));
   CHECK(near(point.normal_geometric, Vec3(-1, 0, 0), 1e-13));
-  const SurfacePoint top = struck(*other, {{-9, 9, 0}, {0, -1, 0}});
+  const SurfacePoint top = surface_hit(*other, {{-9, 9, 0}, {0, -1, 0}});
   CHECK(near(top.position, Vec3(-9, 1, 0), 1e-12));
   CHECK(near(top.normal_geometric, Vec3(0, 1, 0), 1e-13));
 }

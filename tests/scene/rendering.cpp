@@ -41,14 +41,14 @@ class StoppingExecutor final : public Executor {
         out[size_t(y * tile.width + x)] = {Vec3(tile.x + x, tile.y + y, index), 2, 1, 0};
     return true;
   }
-  void first_hits(const Rect&, std::span<FirstHit>) override { asked_first_hits = true; }
+  void first_hits(const Rect&, std::span<FirstHit>) override { traced_first_hits = true; }
   Probed probe(int, int, uint32_t) override { return {}; }
   double query(const QueryBatch&, std::span<QueryHit>) override {
     FAIL("a picture asks for samples");
     return 0;
   }
 
-  bool asked_first_hits = false;
+  bool traced_first_hits = false;
 
  private:
   int calls_left_;
@@ -100,7 +100,7 @@ TEST_CASE("an interrupted picture has whole samples: what a pixel shows is the m
     StoppingExecutor executor(stop);
     const Rendering part = render::render(scene, executor, {{}, true, {}});
     CHECK(part.interrupted);
-    CHECK_FALSE(executor.asked_first_hits);
+    CHECK_FALSE(executor.traced_first_hits);
     CHECK(part.first_hits.empty());
     CHECK(part.samples_done < 4);
     CHECK(part.flags == 0);

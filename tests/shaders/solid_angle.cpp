@@ -37,7 +37,7 @@ double solid_angle_of_rectangle(const Vec2& low, const Vec2& high, double z) {
 }
 
 // An area light whose surface is cut into cells, and each cell's solid angle from a point.
-struct CutLamp {
+struct CutEmitter {
   EmitterForm form;
   std::function<size_t(const Vec2& uv)> cell;
   std::vector<double> solid_angles;
@@ -49,27 +49,27 @@ size_t slice(double share) {
   return size_t(std::min(std::max(int(share * cuts), 0), cuts - 1));
 }
 
-CutLamp cut(const ParallelogramForm& it, const Vec3& from) {
-  CutLamp lamp{it, [](const Vec2& uv) { return slice(uv.x) * cuts + slice(uv.y); }, {}};
+CutEmitter cut(const ParallelogramForm& it, const Vec3& from) {
+  CutEmitter emitter{it, [](const Vec2& uv) { return slice(uv.x) * cuts + slice(uv.y); }, {}};
   for (int i = 0; i < cuts; ++i)
     for (int k = 0; k < cuts; ++k) {
       const auto corner = [&](int x, int y) {
         return it.corner + double(x) / cuts * it.edge_u + double(y) / cuts * it.edge_v - from;
       };
       const Vec3 a = corner(i, k), b = corner(i + 1, k), c = corner(i + 1, k + 1), d = corner(i, k + 1);
-      lamp.solid_angles.push_back(solid_angle(a, b, c) + solid_angle(a, c, d));
+      emitter.solid_angles.push_back(solid_angle(a, b, c) + solid_angle(a, c, d));
     }
-  return lamp;
+  return emitter;
 }
 
 // By lines through the first corner and lines along the opposite edge.
-CutLamp cut(const TriangleForm& it, const Vec3& from) {
-  CutLamp lamp{it,
-               [](const Vec2& weights) {
-                 const double out = weights.x + weights.y;
-                 return slice(out) * cuts + slice(out > 0 ? weights.y / out : 0);
-               },
-               {}};
+CutEmitter cut(const TriangleForm& it, const Vec3& from) {
+  CutEmitter emitter{it,
+                     [](const Vec2& weights) {
+                       const double out = weights.x + weights.y;
+                       return slice(out) * cuts + slice(out > 0 ? weights.y / out : 0);
+                     },
+                     {}};
   const Vec3 &a = it.vertices[0], &b = it.vertices[1], &c = it.vertices[2];
   for (int i = 0; i < cuts; ++i)
     for (int k = 0; k < cuts; ++k) {
@@ -79,22 +79,22 @@ CutLamp cut(const TriangleForm& it, const Vec3& from) {
       const Vec3 near0 = place(i, k), near1 = place(i, k + 1), far0 = place(i + 1, k),
                  far1 = place(i + 1, k + 1);
       const double whole = solid_angle(near0, far0, far1);
-      lamp.solid_angles.push_back(i == 0 ? whole : whole + solid_angle(near0, far1, near1));
+      emitter.solid_angles.push_back(i == 0 ? whole : whole + solid_angle(near0, far1, near1));
     }
-  return lamp;
+  return emitter;
 }
 
 // The excess of χ² over its expectation, in standard deviations, for points that should be uniform by solid
 // angle.
-double excess(const CutLamp& lamp, const std::function<Vec2(const shader::vec2&)>& uv_of) {
+double excess(const CutEmitter& emitter, const std::function<Vec2(const shader::vec2&)>& uv_of) {
   constexpr int count = 1 << 16;
   Random random(7);
-  std::vector<int> found(lamp.solid_angles.size());
+  std::vector<int> found(emitter.solid_angles.size());
   for (int i = 0; i < count; ++i)
-    ++found[lamp.cell(
+    ++found[emitter.cell(
         uv_of({float(random.below(1 << 24)) * 0x1p-24f, float(random.below(1 << 24)) * 0x1p-24f}))];
   double all = 0, chi_squared = 0, degrees = -1;
-  for (const double one : lamp.solid_angles) all += one;
+  for (const double one : emitter.solid_angles) all += one;
   // Cells that few points fall on count as one.
   double few_expected = 0, few_found = 0;
   const auto add = [&](double expected, double places) {
@@ -102,7 +102,7 @@ double excess(const CutLamp& lamp, const std::function<Vec2(const shader::vec2&)
     degrees += 1;
   };
   for (size_t i = 0; i < found.size(); ++i) {
-    const double expected = lamp.solid_angles[i] / all * count;
+    const double expected = emitter.solid_angles[i] / all * count;
     if (expected >= 10) {
       add(expected, found[i]);
     } else {
@@ -114,17 +114,18 @@ double excess(const CutLamp& lamp, const std::function<Vec2(const shader::vec2&)
   return (chi_squared - degrees) / std::sqrt(2 * degrees);
 }
 
-double both_excess(const CutLamp& lamp, const Vec3& from) {
+double both_excess(const CutEmitter& emitter, const Vec3& from) {
   double all = 0;
-  for (const double one : lamp.solid_angles) all += one;
+  for (const double one : emitter.solid_angles) all += one;
   CHECK(all > 0.011);
   CHECK(all < 6.2);
-  const shader::Emitter record = record_of(lamp.form);
-  const double ours = excess(lamp, [&](const shader::vec2& u) {
+  const shader::Emitter record = record_of(emitter.form);
+  const double ours = excess(emitter, [&](const shader::vec2& u) {
     return Vec2(shader::sample_emitter(record, shader::vec3(from), u).uv);
   });
-  const double theirs = excess(
-      lamp, [&](const shader::vec2& u) { return reference::sample_emitter(lamp.form, from, Vec2(u)).uv; });
+  const double theirs = excess(emitter, [&](const shader::vec2& u) {
+    return reference::sample_emitter(emitter.form, from, Vec2(u)).uv;
+  });
   return std::max(ours, theirs);
 }
 
@@ -169,12 +170,12 @@ TEST_CASE("their density is 1 / solid angle, by closed forms") {
     const Vec2 seen = low - Vec2(from);
     const double expected = solid_angle_of_rectangle(seen, seen + size, std::abs(z - from.z));
     const Vec3 a = anywhere(1), b = anywhere(1), c = anywhere(1);
-    const std::pair<EmitterForm, double> lamps[] = {
+    const std::pair<EmitterForm, double> forms[] = {
         {rectangle, expected},
         {TriangleForm{{a, b, c}}, solid_angle(a - from, b - from, c - from)},
         {ParallelogramForm{a, b, c}, solid_angle(a - from, a + b - from, a + b + c - from) +
                                          solid_angle(a - from, a + b + c - from, a + c - from)}};
-    for (const auto& [form, omega] : lamps) {
+    for (const auto& [form, omega] : forms) {
       // Edge-on it is as dense as its numbers are rounded.
       if (!(omega > 0.011 && omega < 6)) continue;
       ++by_angle;
@@ -193,12 +194,12 @@ TEST_CASE("their density is 1 / solid angle, by closed forms") {
 }
 
 TEST_CASE("what is seen under next to nothing, or from its own plane, is chosen by area") {
-  const EmitterForm lamps[] = {ParallelogramForm{corner, along, upright},
+  const EmitterForm forms[] = {ParallelogramForm{corner, along, upright},
                                ParallelogramForm{corner, along, across},
                                TriangleForm{{corner, corner + along, corner + across}}};
   const Vec3 here[] = {Vec3(900, 400, -700), corner - 2.0 * along, corner + 0.25 * along + 0.25 * across,
                        corner};
-  for (const EmitterForm& form : lamps) {
+  for (const EmitterForm& form : forms) {
     const shader::Emitter record = record_of(form);
     for (const Vec3& from : here)
       for (const float x : {0.0f, 0.25f, 1 - 0x1p-24f})
@@ -218,8 +219,8 @@ TEST_CASE("a sampled point of an area light is never outside of it, from whereve
   int beside = 0;
   for (int i = 0; i < 200'000; ++i) {
     const double near = std::pow(10, random.uniform(-7, 1));
-    const Vec3 aside(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
-    const Vec3 from = corner + random.uniform(0, 1) * along + random.uniform(0, 1) * across + near * aside;
+    const Vec3 offset(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    const Vec3 from = corner + random.uniform(0, 1) * along + random.uniform(0, 1) * across + near * offset;
     const auto number = [&] {
       const int kind = random.below(8);
       return kind == 0 ? 0.0f : kind == 1 ? 1 - 0x1p-24f : float(random.below(1 << 24)) * 0x1p-24f;

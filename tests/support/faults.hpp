@@ -60,7 +60,7 @@ inline constexpr Fault faults[] = {
      "bent.coat_normal = bent.normal;"},
     {"bump", "materials/bent_normal.glsl", "(2.0f * material.bump_width)", "(1.99f * material.bump_width)"},
     {"horizon", "materials/bent_normal.glsl", "return above < height ?", "return above < -1.5f ?"},
-    {"counts", "integrators/vertex.glsl", "counts.y += struck ? 1u : 0u;", "counts.y += 1u;"},
+    {"counts", "integrators/vertex.glsl", "counts.y += on_surface ? 1u : 0u;", "counts.y += 1u;"},
     {"offset", "geometry/ray.glsl", "float side = cosine < 0.0f ? -s.offset : s.offset;",
      "float side = cosine < 0.0f ? s.offset : -s.offset;"},
     // Paths.
@@ -109,7 +109,7 @@ inline constexpr Fault faults[] = {
     {"kernel", "integrators/sppm.glsl", "1.0f - squared / pass.radius_squared", "0.5f"},
     {"cells", "integrators/sppm.glsl", "its.x == cell.x && its.y == cell.y && its.z == cell.z && squared",
      "squared"},
-    {"gathered_twice", "integrators/photon.glsl", "struck && path.depth > 0u &&", "struck &&"},
+    {"gathered_twice", "integrators/photon.glsl", "on_surface && path.depth > 0u &&", "on_surface &&"},
     {"photon_flux", "lights/point.glsl", "39.4784176f", "39.5178960f"},
     {"photon_area", "integrators/photon_source.glsl", "(sides * PI / density_by_area",
      "(sides * 1.001f * PI / density_by_area"},
@@ -141,9 +141,9 @@ inline constexpr Fault faults[] = {
      "  return sample_result(positive_zeros(color)"},
     {"black", "kernels/pixel.glsl", "sample_result(positive_zeros(color)",
      "sample_result(vec3(0.0f, 0.0f, 0.0f)"},
-    {"stale", "kernels/pixel.glsl", "  Ray ray;\n  if (!eye_ray(frame, x, y, index, ray)) return",
+    {"stale", "kernels/pixel.glsl", "  Ray ray;\n  if (!camera_ray(frame, x, y, index, ray)) return",
      "  if (x + 1u == frame.width && y + 1u == frame.height) {\n    x = 0u;\n    y = 0u;\n  }\n"
-     "  Ray ray;\n  if (!eye_ray(frame, x, y, index, ray)) return"},
+     "  Ray ray;\n  if (!camera_ray(frame, x, y, index, ray)) return"},
     {"shift", "kernels/render.comp.glsl", "dispatch.tile_x + pixel.x", "dispatch.tile_x + 1u + pixel.x"},
 };
 

@@ -88,8 +88,8 @@ class QueryKernel {
   std::unique_ptr<gpu::Kernel> kernels_[2];  // by whether any hit will do
 };
 
-inline std::vector<shader::QueryHit> ask_twin(const records::PackedScene& scene,
-                                              std::span<const shader::QueryRay> rays, bool any) {
+inline std::vector<shader::QueryHit> query_twin(const records::PackedScene& scene,
+                                                std::span<const shader::QueryRay> rays, bool any) {
   std::vector<shader::QueryHit> hits(rays.size());
   const twin::SceneView view = twin::view_of(scene);
   std::transform(rays.begin(), rays.end(), hits.begin(),
@@ -119,7 +119,7 @@ inline int differences_on_gpu(gpu::Device& device, const records::PackedScene& p
     specialisation.constants = packets;
     QueryKernel kernel(device, packed, specialisation);
     for (const bool any : {false, true})
-      different += differences(kernel.ask(rays, any), ask_twin(packed, rays, any));
+      different += differences(kernel.ask(rays, any), query_twin(packed, rays, any));
   }
   return different;
 }

@@ -66,7 +66,7 @@ inline bool near(const Vec3& a, const Vec3& b, double tolerance) {
 }
 
 // The surface that a ray hits; the test ends if it hits none.
-inline SurfacePoint struck(const Shape& shape, const Ray& ray) {
+inline SurfacePoint surface_hit(const Shape& shape, const Ray& ray) {
   return shape.surface(ray, shape.intersect(ray).value());
 }
 // Along the ray; -1 if it hits nothing.

@@ -12,7 +12,7 @@ namespace {
 
 // A material that blends, black but for its own light.
 int blended(Scene& scene, double alpha, double radiance = 0) {
-  const int made = lamp(scene, radiance);
+  const int made = emissive(scene, radiance);
   scene.materials[size_t(made)]->mask = AlphaMask{.alpha = gray(alpha), .blends = true};
   return made;
 }

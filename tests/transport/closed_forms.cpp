@@ -58,20 +58,20 @@ TEST_CASE("a spot: I s² cos θ / d², s from one angle's cosine to the other's"
 
 TEST_CASE("a sphere above the horizon: E = π L R² cos θ / d²") {
   Scene scene = floor();
-  add(scene, make_sphere({0, 1.6, 1.2}, 0.7), lamp(scene));
+  add(scene, make_sphere({0, 1.6, 1.2}, 0.7), emissive(scene));
   check(scene, shown(M_PI * 0.7 * 0.7 * 0.8 / 4));
 }
 
 TEST_CASE("a distant, small sphere, whose cone is nothing in 1 − cos") {
   Scene scene = floor(16);
-  add(scene, make_sphere({0, 1000, 0}, 0.01), lamp(scene, 1e6));
+  add(scene, make_sphere({0, 1000, 0}, 0.01), emissive(scene, 1e6));
   check(scene, shown(M_PI * 1e6 * 1e-10), 1e-5);
 }
 
 TEST_CASE("a sphere that the horizon cuts (Snyder 1996)") {
   const double radius = 0.9, distance = 1.5, theta = 1.2;
   Scene scene = floor(1024);
-  add(scene, make_sphere(distance * Vec3(0, std::cos(theta), std::sin(theta)), radius), lamp(scene));
+  add(scene, make_sphere(distance * Vec3(0, std::cos(theta), std::sin(theta)), radius), emissive(scene));
   const double h = distance / radius, x = std::sqrt(h * h - 1), y = -x / std::tan(theta);
   const double root = std::sin(theta) * std::sqrt(1 - y * y);
   check(scene, shown((std::cos(theta) * std::acos(y) - x * root) / (h * h) + std::atan(root / x)));
@@ -84,10 +84,10 @@ TEST_CASE("a disk above the floor, off its axis, and a ring") {
     return M_PI / 2 * (1 - (sum - square) / std::sqrt((sum + square) * (sum + square) - 4 * a * a * square));
   };
   Scene disk = floor();
-  add(disk, make_disk({a, h, 0}, {0, -1, 0}, 0.8), lamp(disk));
+  add(disk, make_disk({a, h, 0}, {0, -1, 0}, 0.8), emissive(disk));
   check(disk, shown(irradiance(0.8)));
   Scene ring = floor();
-  add(ring, make_disk({a, h, 0}, {0, 1, 0}, 0.8, 0.5), lamp(ring));
+  add(ring, make_disk({a, h, 0}, {0, 1, 0}, 0.8, 0.5), emissive(ring));
   check(ring, shown(irradiance(0.8) - irradiance(0.5)));
 }
 
@@ -96,10 +96,10 @@ TEST_CASE("polygons above the horizon (Lambert 1760): a triangle, a parallelogra
   const double of_triangle = irradiance_of({a, b, c}), of_both = irradiance_of({a, b, b + c - a, c});
 
   Scene triangle = floor();
-  add(triangle, make_triangle({.vertices = {a, b, c}}), lamp(triangle));
+  add(triangle, make_triangle({.vertices = {a, b, c}}), emissive(triangle));
   check(triangle, shown(of_triangle));
   Scene parallelogram = floor();
-  add(parallelogram, make_parallelogram(a, b - a, c - a), lamp(parallelogram));
+  add(parallelogram, make_parallelogram(a, b - a, c - a), emissive(parallelogram));
   check(parallelogram, shown(of_both));
   Scene mesh = floor();
   mesh.meshes.push_back({.name = "",
@@ -107,7 +107,7 @@ TEST_CASE("polygons above the horizon (Lambert 1760): a triangle, a parallelogra
                          .triangles = {{0, 1, 2}, {1, 3, 2}},
                          .normals = {},
                          .uv = {}});
-  mesh.instances.push_back({.mesh = 0, .transform = Mat4(1.0), .material = lamp(mesh), .position = {}});
+  mesh.instances.push_back({.mesh = 0, .transform = Mat4(1.0), .material = emissive(mesh), .position = {}});
   check(mesh, shown(of_both));
 }
 
@@ -117,7 +117,7 @@ TEST_CASE("opposite and adjacent faces of a closed cube: their form factors") {
     Scene scene = patch({0.5, 0.5, 0.5}, {0.5, 0, 0.5}, 1024);
     scene.camera.projection = cameras::make_projection(OrthographicCamera{.size = 0.5});
     scene.camera.up = {0, 0, 1};
-    const int white = add(scene, make_phong({.diffuse = gray(albedo)})), hot = lamp(scene);
+    const int white = add(scene, make_phong({.diffuse = gray(albedo)})), hot = emissive(scene);
     add(scene, make_parallelogram({0, 0, 0}, {1, 0, 0}, {0, 0, 1}), white);
     add(scene,
         opposite ? make_parallelogram({0, 1, 0}, {1, 0, 0}, {0, 0, 1})
@@ -190,11 +190,11 @@ TEST_CASE("an environment and area lights beside it, whatever probability each h
     const auto around = environment(16, 8, [](const Vec3&) { return Vec3(0.5); });
     around->share = share;
     scene.environment = around;
-    add(scene, make_sphere({0, 1.6, 1.2}, 0.7), lamp(scene, 2));
+    add(scene, make_sphere({0, 1.6, 1.2}, 0.7), emissive(scene, 2));
     add_point_light(scene, {1.6, 1.2, 0}, Vec3(0.3), Falloff::inverse_square);
     // The area light covers a part of the environment.
-    const double of_lamp = M_PI * 0.7 * 0.7 * 0.8 / 4;
-    check(scene, shown(0.5 * (M_PI - of_lamp) + 2 * of_lamp) + albedo * 0.3 * 0.6 / 4, 1e-4);
+    const double of_emitter = M_PI * 0.7 * 0.7 * 0.8 / 4;
+    check(scene, shown(0.5 * (M_PI - of_emitter) + 2 * of_emitter) + albedo * 0.3 * 0.6 / 4, 1e-4);
   }
 }
 
@@ -250,7 +250,7 @@ TEST_CASE("glass takes nothing: a ball of it in a furnace, and a pane before an 
   Scene pane = patch({0, 0, 4}, {0, 0, 0}, 1024);
   pane.render.max_depth = 64;
   add(pane, make_box({-1, -1, 0}, {1, 1, 0.1}), add(pane, make_dielectric({.ior = 1.5})));
-  add(pane, make_disk({0, 0, -1}, {0, 0, 1}, 1), lamp(pane));
+  add(pane, make_disk({0, 0, -1}, {0, 0, 1}, 1), emissive(pane));
   check(pane, 0.923077, 1e-5);
 }
 
@@ -262,7 +262,7 @@ TEST_CASE("an area light between two mirrors shows Σ rⁿ") {
   add(scene, make_plane({0, 0, 1}, {0, 0, -1}), mirror);
   // The area light stands to one side.
   scene.camera.target = {0.021, 0, 0};
-  add(scene, make_plane({0.5, 0, 0}, {-1, 0, 0}), lamp(scene));
+  add(scene, make_plane({0.5, 0, 0}, {-1, 0, 0}), emissive(scene));
   // On its way to x = 0.5 the ray goes 11.9 in z.
   check(scene, std::pow(0.9, 12), 1e-4);
 }
@@ -277,16 +277,16 @@ TEST_CASE("a white ball in the sun behind the eye: two thirds of it") {
 }
 
 TEST_CASE("N area lights on a ring are N times one; one behind a wall is none") {
-  const auto ring = [](int lamps, int hidden) {
+  const auto ring = [](int emitters, int hidden) {
     Scene scene = floor(1024);
-    const int material = lamp(scene);
-    for (int i = 0; i < lamps; ++i) {
-      const double angle = 2 * M_PI * i / lamps;
+    const int material = emissive(scene);
+    for (int i = 0; i < emitters; ++i) {
+      const double angle = 2 * M_PI * i / emitters;
       add(scene, make_sphere({std::cos(angle), 1, std::sin(angle)}, 0.1), material);
     }
     const int black = add(scene, make_phong({.diffuse = gray(0)}));
     for (int i = 0; i < hidden; ++i) {
-      const double angle = 2 * M_PI * i / lamps;
+      const double angle = 2 * M_PI * i / emitters;
       add(scene, make_sphere({0.5 * std::cos(angle), 0.5, 0.5 * std::sin(angle)}, 0.06), black);
     }
     return scene;
@@ -298,7 +298,7 @@ TEST_CASE("N area lights on a ring are N times one; one behind a wall is none") 
 
 TEST_CASE("half a sphere behind an edge is half its light") {
   Scene scene = floor(1024);
-  add(scene, make_sphere({0, 2, 0}, 0.5), lamp(scene));
+  add(scene, make_sphere({0, 2, 0}, 0.5), emissive(scene));
   add(scene, make_parallelogram({0, 1, -50}, {50, 0, 0}, {0, 0, 100}),
       add(scene, make_phong({.diffuse = gray(0)})));
   scene.camera.eye = {-0.4, 0.9, 0.5};
@@ -311,7 +311,7 @@ TEST_CASE("a thin lens: a straight bright edge out of focus, (arccos x − x √
     Scene scene = patch({0, 0, 0}, {0, 0, -1}, 1024);
     scene.camera.projection =
         cameras::make_projection(PerspectiveCamera{.fov_degrees = 1e-3, .aperture = aperture});
-    add(scene, make_parallelogram({e, -5, -2}, {10, 0, 0}, {0, 10, 0}), lamp(scene));
+    add(scene, make_parallelogram({e, -5, -2}, {10, 0, 0}, {0, 10, 0}), emissive(scene));
     return scene;
   };
   for (const double focus : {1.25, 4.0, 100.0}) {

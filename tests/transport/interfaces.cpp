@@ -46,7 +46,7 @@ TEST_CASE("interfaces: all light of an area light comes through, whichever strat
     const int air = add(scene, make_dielectric({.ior = 1}));
     for (int i = 0; i < slabs; ++i)
       add(scene, make_box({-50, 0.3 + 0.1 * i, -50}, {50, 0.35 + 0.1 * i, 50}), air);
-    add(scene, make_sphere({0, 2, 0}, 1), lamp(scene));
+    add(scene, make_sphere({0, 2, 0}, 1), emissive(scene));
     check(scene, shown(M_PI / 4), 1e-4);
   }
 }

@@ -187,15 +187,15 @@ TEST_CASE("however lights are chosen, the picture is the same") {
     scene.render.max_depth = 0;
     scene.render.light_sampler = sampler;
     add(scene, make_plane({0, 0, 0}, {0, 1, 0}), add(scene, make_phong({.diffuse = gray(0.8)})));
-    const int lamp = add(scene, make_phong({.diffuse = gray(0), .emission = gray(2)}));
+    const int emissive = add(scene, make_phong({.diffuse = gray(0), .emission = gray(2)}));
     const int front = add(scene, make_phong({.diffuse = gray(0), .emission = gray(3)}));
     scene.materials[size_t(front)]->emits_in_front = true;
     Random random(5);
     const auto somewhere = [&] { return random.point(1.5) + Vec3(0, 1.8, 0); };
-    for (int i = 0; i < 10; ++i) add(scene, make_sphere(somewhere(), 0.05), lamp);
+    for (int i = 0; i < 10; ++i) add(scene, make_sphere(somewhere(), 0.05), emissive);
     for (int i = 0; i < 10; ++i) {
       const Vec3 at = somewhere();
-      add(scene, make_box(at, at + Vec3(0.1, 0.2, 0.1)), lamp);
+      add(scene, make_box(at, at + Vec3(0.1, 0.2, 0.1)), emissive);
     }
     for (int i = 0; i < 10; ++i) {
       const Vec3 at = somewhere();

@@ -14,7 +14,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-int lamp(Scene& scene, double radiance) {
+int emissive(Scene& scene, double radiance) {
   return add(scene, make_phong({.diffuse = gray(0), .emission = gray(radiance)}));
 }
 
@@ -23,10 +23,10 @@ int lamp(Scene& scene, double radiance) {
 TEST_CASE("lights are chosen by power, and all shares are one together") {
   Scene scene = empty_scene();
   add_point_light(scene, {0, 5, 0}, Vec3(1 / M_PI), Falloff::inverse_square);
-  const int bright = lamp(scene, 4);
+  const int bright = emissive(scene, 4);
   add(scene, make_sphere({0, 0, 0}, 1), bright);
   add(scene, make_sphere({5, 0, 0}, 0.5), bright);
-  add(scene, make_parallelogram({0, 9, 0}, {1, 0, 0}, {0, 0, 2}), lamp(scene, 0.001));
+  add(scene, make_parallelogram({0, 9, 0}, {1, 0, 0}, {0, 0, 2}), emissive(scene, 0.001));
   const LightChoice choice = light_choice(scene);
   REQUIRE(choice.emitters.size() == 3);
   REQUIRE(choice.ends.size() == 4);
@@ -56,12 +56,12 @@ TEST_CASE("a spot's power is that of its cone") {
 
 TEST_CASE("emitters that cannot be sampled are reported: with holes, or of other shapes") {
   Scene scene = empty_scene();
-  add(scene, make_torus({0, 0, 0}, {0, 1, 0}, 1, 0.2), lamp(scene, 1));
+  add(scene, make_torus({0, 0, 0}, {0, 1, 0}, 1, 0.2), emissive(scene, 1));
   const int checkered =
       add(scene, make_phong({.emission = textures::make_checker(Vec3(0), Vec3(1), Vec2(1))}));
   scene.materials[size_t(checkered)]->mask = AlphaMask{gray(1), 0.5};
   add(scene, make_disk({3, 0, 0}, {0, 1, 0}, 1), checkered);
-  add(scene, make_sphere({6, 0, 0}, 1), lamp(scene, 0));
+  add(scene, make_sphere({6, 0, 0}, 1), emissive(scene, 0));
   CHECK(light_choice(scene).ends.empty());
   CHECK(emitters(scene).sampled.empty());
   CHECK(emitters(scene).unsampled.size() == 2);
@@ -77,7 +77,7 @@ TEST_CASE("an area light without power has its share, and more than 2^20 are ref
                           .uv = {}});
   scene.meshes[0].triangles.resize(size_t{1} << 20, {0, 1, 2});
   scene.instances.push_back(
-      {.mesh = 0, .transform = Mat4(1.0), .material = lamp(scene, 1e-30), .position = {}});
+      {.mesh = 0, .transform = Mat4(1.0), .material = emissive(scene, 1e-30), .position = {}});
   const LightChoice choice = light_choice(scene);
   CHECK(choice.ends.back() == 1u << 24);
   CHECK(std::ranges::adjacent_find(choice.ends, std::greater_equal()) == choice.ends.end());

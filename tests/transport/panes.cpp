@@ -17,7 +17,7 @@ TEST_CASE("panes: R' = 2R / (1 + R), and what is left goes straight on, seen and
   Scene seen = patch({0, 0, 4}, {0, 0, 0}, 256);
   const int window = add(seen, make_dielectric({.thin = true}));
   for (const double z : {0.0, 1.0}) add(seen, make_disk({0, 0, z}, {0, 0, 1}, 1), window);
-  add(seen, make_disk({0, 0, -1}, {0, 0, 1}, 1), lamp(seen));
+  add(seen, make_disk({0, 0, -1}, {0, 0, 1}, 1), emissive(seen));
   // Between both light goes to and fro.
   seen.render.max_depth = 64;
   check(seen, through * through / (1 - mirrored * mirrored), 1e-5);
@@ -42,7 +42,7 @@ TEST_CASE("panes: R' = 2R / (1 + R), and what is left goes straight on, seen and
     const int clear = add(behind, make_dielectric({.ior = 1, .thin = true}));
     for (int i = 0; i < panes; ++i) add(behind, make_disk({0, 0.3 + 0.05 * i, 0}, {0, 1, 0}, 3), clear);
     behind.camera.eye = {0.1, 0.25, 0.1};
-    add(behind, make_sphere({0, 2, 0}, 1), lamp(behind));
+    add(behind, make_sphere({0, 2, 0}, 1), emissive(behind));
     if (panes == 9) behind.render.max_depth = 1;
     check(behind, shown(M_PI / 4), 1e-4);
   }

@@ -35,7 +35,7 @@ inline Scene floor(int samples = 256) {
   return scene;
 }
 
-inline int lamp(Scene& scene, double radiance = 1) {
+inline int emissive(Scene& scene, double radiance = 1) {
   return add(scene, make_phong({.diffuse = gray(0), .emission = gray(radiance)}));
 }
 

@@ -44,10 +44,10 @@ Scene above_balls(Aiming aiming, bool glass, std::span<const PhotonTarget> those
       scene.environment = environment(8, 4, [](const Vec3& d) { return Vec3(d.y > 0 ? 1.0 : 0.2); });
       break;
     case Aiming::ball:
-      add(scene, make_sphere({0.1, 2, 0.2}, 0.3), lamp(scene));
+      add(scene, make_sphere({0.1, 2, 0.2}, 0.3), emissive(scene));
       break;
     case Aiming::plate:  // both sides of it, and the balls above and below its plane
-      add(scene, make_parallelogram({0.6, -0.2, -0.2}, {0, 0.5, 0.1}, {0.1, 0, 0.4}), lamp(scene));
+      add(scene, make_parallelogram({0.6, -0.2, -0.2}, {0, 0.5, 0.1}, {0.1, 0, 0.4}), emissive(scene));
   }
   return scene;
 }
@@ -135,7 +135,7 @@ TEST_CASE("targets are spheres around glass, mirrors, smooth metal and panes, in
   Scene scene = floor();
   const int glass = add(scene, make_dielectric({.ior = 1.5}));
   add(scene, make_sphere({3, 0, 0}, 0.5), add(scene, make_phong({.diffuse = gray(0.5)})));
-  add(scene, make_sphere({-3, 0, 0}, 0.5), lamp(scene));
+  add(scene, make_sphere({-3, 0, 0}, 0.5), emissive(scene));
   CHECK(targets_of(scene).empty());
 
   add(scene, make_sphere({0, 1, 0}, 0.5), glass);

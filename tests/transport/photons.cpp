@@ -21,7 +21,7 @@ Scene beside_wall(WallLight light) {
   scene.render.max_depth = 1;
   const int white = add(scene, make_phong({.diffuse = gray(0.9)}));
   add(scene, make_parallelogram({0.8, 0, -1}, {0, 2, 0}, {0, 0, 2}), white);
-  const int shining = lamp(scene, 4);
+  const int shining = emissive(scene, 4);
   switch (light) {
     case WallLight::sphere:
       add(scene, make_sphere({-0.5, 1.2, 0.1}, 0.25), shining);

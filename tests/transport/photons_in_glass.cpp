@@ -89,7 +89,7 @@ Scene disk_in_ball() {
   scene.render.max_depth = 16;
   add(scene, make_sphere({0, 0, 0}, 1), add(scene, make_dielectric({.ior = 1.5})));
   add(scene, make_disk({0, -0.2, 0}, {0, 1, 0}, 0.8), add(scene, make_phong({.diffuse = gray(albedo)})));
-  add(scene, make_sphere({0, 6, 0}, 1.5), lamp(scene, 10));
+  add(scene, make_sphere({0, 6, 0}, 1.5), emissive(scene, 10));
   return scene;
 }
 
@@ -112,7 +112,7 @@ Scene frosted_slab(const Vec3& eye, const Vec3& target) {
   scene.render.max_depth = 12;
   add(scene, make_box({-1.5, 0, -1.5}, {1.5, 0.3, 1.5}),
       add(scene, make_dielectric({.ior = 1.5, .roughness = gray(0.6)})));
-  add(scene, make_disk({0.3, 1.3, 0}, {0, -1, 0}, 0.6), lamp(scene, 10));
+  add(scene, make_disk({0.3, 1.3, 0}, {0, -1, 0}, 0.6), emissive(scene, 10));
   return scene;
 }
 
@@ -123,7 +123,7 @@ Scene below_frosted_ball() {
   add(scene, make_disk({0, 0, 0}, {0, 1, 0}, 2), add(scene, make_phong({.diffuse = gray(albedo)})));
   add(scene, make_sphere({0, 0.7, 0}, 0.5),
       add(scene, make_dielectric({.ior = 1.5, .roughness = gray(0.6)})));
-  add(scene, make_disk({0.4, 2, 0}, {0, -1, 0}, 0.8), lamp(scene, 10));
+  add(scene, make_disk({0.4, 2, 0}, {0, -1, 0}, 0.8), emissive(scene, 10));
   return scene;
 }
 

@@ -58,11 +58,11 @@ TEST_CASE("a photon that no rounding explains fails, though many may part") {
   CHECK_FALSE(diverged.tally.passes());
   CHECK(std::ranges::binary_search(diverged.left_out.of(0), number));
 
-  const verify::JudgedPhotons aside = judge(box(), [&](auto& ways) { ways[number].places.x += 0.01; });
-  CHECK(aside.tally.aside == sound.tally.aside + 1);
-  CHECK(aside.tally.unexplained == 1);
-  CHECK(aside.tally.worst.find(", which is displaced by 0.01") != std::string::npos);
-  CHECK_FALSE(aside.tally.passes());
+  const verify::JudgedPhotons displaced = judge(box(), [&](auto& ways) { ways[number].places.x += 0.01; });
+  CHECK(displaced.tally.displaced == sound.tally.displaced + 1);
+  CHECK(displaced.tally.unexplained == 1);
+  CHECK(displaced.tally.worst.find(", which is displaced by 0.01") != std::string::npos);
+  CHECK_FALSE(displaced.tally.passes());
 }
 
 TEST_CASE("where surfaces coincide float32 takes either, and the reference knows of it") {
@@ -87,11 +87,11 @@ TEST_CASE("more photons than may part fail, explained or not") {
   tally.sent = 100'000;
   tally.depth = 8;
   tally.diverged = tally.may_diverge();
-  tally.aside = tally.may_lie_aside();
+  tally.displaced = tally.may_be_displaced();
   CHECK(tally.passes());
   ++tally.diverged;
   CHECK_FALSE(tally.passes());
   --tally.diverged;
-  ++tally.aside;
+  ++tally.displaced;
   CHECK_FALSE(tally.passes());
 }

@@ -69,7 +69,7 @@ function choose_pixel(at) {
   stage.draw();
   show_values(at);
   probed = null;
-  tell_whether_stale();
+  report_whether_stale();
   $('probe').textContent = `Examining ${at[0]},${at[1]} …`;
   send({ probe: at });
 }
@@ -100,7 +100,7 @@ function reset_camera() {
 const words = { starting: 'starting', load: 'loading', loading: 'loading', compile: 'compiling', render: 'rendering', done: 'done', failed: 'failed' };
 let probes = 0;
 let probed = null;  // the edit that the rays shown are of
-const tell_whether_stale = () => { $('stale').hidden = probed === null || probed === status.edit; };
+const report_whether_stale = () => { $('stale').hidden = probed === null || probed === status.edit; };
 function tell() {
   const name = status.scene.split('/').pop();
   $('scene').textContent = name;
@@ -136,10 +136,10 @@ function tell() {
       stage.marked ??= [answer.x, answer.y];  // another page may have asked
       stage.draw();
       show_probe($('probe'), answer);
-      tell_whether_stale();
+      report_whether_stale();
     });
   }
-  tell_whether_stale();
+  report_whether_stale();
   refresh();
 }
 const ms = seconds => seconds < 1 ? `${(seconds * 1000).toFixed(0)}\u00a0ms` : `${seconds.toFixed(2)}\u00a0s`;

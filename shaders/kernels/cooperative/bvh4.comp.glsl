@@ -52,8 +52,8 @@ void main() {
 #else
   uvec4 counts = uvec4(0u, 0u, 0u, 0u);
   Hit hit = hit_of_packet(hits[place], counts);
-  bool struck;
-  Interaction at_hit = vertex_at(frame, path, bounced, hit, there, struck);
+  bool on_surface;
+  Interaction at_hit = vertex_at(frame, path, bounced, hit, there, on_surface);
   uint flags = 0u;
   uint light = 0u;
   do {
@@ -61,7 +61,7 @@ void main() {
     float distance;
     vec3 contribution;
     uint number;
-    bool asked = shadow_ray(frame, path, at_hit, light, to_light, distance, contribution, number) && struck;
+    bool asked = shadow_ray(frame, path, at_hit, light, to_light, distance, contribution, number) && on_surface;
     if (!asked) to_light = make_ray(vec3(0.0f, 0.0f, 0.0f), vec3(1.0f, 0.0f, 0.0f));
     TraversalState found = trace_cooperatively(to_light, asked ? distance : -1.0f);
     flags = flags | iteration_limit(found);

@@ -51,13 +51,13 @@ uint place_of(uint packet, uint i) {
 }
 
 #ifdef PACKET_SHADOW
-// The interaction at the hit of the camera ray at `place`; struck: whether it hits anything.
-Interaction interaction_of(uint place, out bool struck) {
+// The interaction at the hit of the camera ray at `place`; on_surface: whether it hits anything.
+Interaction interaction_of(uint place, out bool on_surface) {
   uvec4 counts = uvec4(0u, 0u, 0u, 0u);
   uint there = place == NONE ? 0u : place;
   Hit hit = hit_of_packet(hits[there], counts);
   Path path = eye_path(there);
-  return vertex_at(load_frame(), path, make_ray(path.o, path.d), hit, place != NONE, struck);
+  return vertex_at(load_frame(), path, make_ray(path.o, path.d), hit, place != NONE, on_surface);
 }
 #endif
 
@@ -71,10 +71,10 @@ void main() {
 #ifdef PACKET_SHADOW
   Frame frame = load_frame();
   Interaction at_hit[RAYS_A_LANE];
-  bool struck[RAYS_A_LANE];
+  bool on_surface[RAYS_A_LANE];
   uint flags[RAYS_A_LANE];
   EACH flags[k] = 0u;
-  EACH at_hit[k] = interaction_of(place[k], struck[k]);
+  EACH at_hit[k] = interaction_of(place[k], on_surface[k]);
   uint light = 0u;
   do {
     // A ray that need not be traced hits nothing, but must be valid.
@@ -83,7 +83,7 @@ void main() {
       float distance;
       vec3 contribution;
       uint number;
-      bool counts = shadow_ray(frame, eye_path(place[k] == NONE ? 0u : place[k]), at_hit[k], light, to_light, distance, contribution, number) && struck[k];
+      bool counts = shadow_ray(frame, eye_path(place[k] == NONE ? 0u : place[k]), at_hit[k], light, to_light, distance, contribution, number) && on_surface[k];
       ray[k] = make_ray(vec3(0.0f, 0.0f, 0.0f), vec3(1.0f, 0.0f, 0.0f));
       if (counts) ray[k] = to_light;
       state[k] = traversal_state(counts ? distance : -1.0f);

@@ -53,12 +53,12 @@ float FORMULA_NAME(ray_offset)(Implicit it, vec3 q, vec3 out_step, bool wanted) 
     float rise = 0.0f;
     uint places = most > 1.0f && most < IMPLICIT_MOST_RAY_OFFSET ? 4u : 0u;
     for (uint i = 0u; i < places; i++) {
-      float aside = most * (1.0f - float(i >> 1u) / float(IMPLICIT_STRAYS));
-      aside = (i & 1u) == 0u ? aside : -aside;
-      float f = FORMULA_NAME(bound)(it, q, out_step, aside, 0.0f).x;
+      float offset = most * (1.0f - float(i >> 1u) / float(IMPLICIT_STRAYS));
+      offset = (i & 1u) == 0u ? offset : -offset;
+      float f = FORMULA_NAME(bound)(it, q, out_step, offset, 0.0f).x;
       first = i == 0u ? f : first;
       rise = i == 1u ? 0.5f * (first - f) / most : rise;
-      believed = i > 1u ? maximum(believed, 3.0f * abs(f - rise * aside)) : believed;
+      believed = i > 1u ? maximum(believed, 3.0f * abs(f - rise * offset)) : believed;
       places = i == 3u && believed > MARCH_LIKELY * at.z ? 2u * IMPLICIT_STRAYS : places;
     }
     float needed = 2.0f * (abs(at.x) + minimum(believed, at.z)) / abs(at.y);

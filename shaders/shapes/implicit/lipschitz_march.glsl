@@ -93,8 +93,8 @@ vec4 FORMULA_NAME(slope)(Implicit it, vec3 q, bool wanted) {
     float step = axis == 3u ? 0.0f : which == 0u ? 1.0f : which == 1u ? -1.0f : which == 2u ? 2.0f : -2.0f;
     float weight = which == 0u ? 8.0f : which == 1u ? -8.0f : which == 2u ? -1.0f : 1.0f;
     step = step * IMPLICIT_DIFFERENCE;
-    vec3 aside = vec3(axis == 0u ? step : 0.0f, axis == 1u ? step : 0.0f, axis == 2u ? step : 0.0f);
-    f = FORMULA_VALUE(it, it.center + it.extent * (q + aside));
+    vec3 offset = vec3(axis == 0u ? step : 0.0f, axis == 1u ? step : 0.0f, axis == 2u ? step : 0.0f);
+    f = FORMULA_VALUE(it, it.center + it.extent * (q + offset));
     float part = f * weight * (1.0f / (12.0f * IMPLICIT_DIFFERENCE));
     gradient.x = gradient.x + (axis == 0u ? part : 0.0f);
     gradient.y = gradient.y + (axis == 1u ? part : 0.0f);
@@ -123,11 +123,11 @@ float FORMULA_NAME(ray_offset)(Implicit it, vec3 q, vec3 out_step, bool wanted) 
   float rise = 0.0f;
   float needed = 0.0f;
   for (uint i = 0u; i < (needed > 1.0f ? 2u * IMPLICIT_STRAYS : 6u) && wanted; i++) {
-    float aside = IMPLICIT_MOST_RAY_OFFSET * (1.0f - float(i >> 1u) / float(IMPLICIT_STRAYS));
-    aside = (i & 1u) == 0u ? aside : -aside;
-    float f = FORMULA_VALUE(it, it.center + it.extent * (q + out_step * aside));
+    float offset = IMPLICIT_MOST_RAY_OFFSET * (1.0f - float(i >> 1u) / float(IMPLICIT_STRAYS));
+    offset = (i & 1u) == 0u ? offset : -offset;
+    float f = FORMULA_VALUE(it, it.center + it.extent * (q + out_step * offset));
     rise = i == 0u ? f : i == 1u ? (rise - f) / (2.0f * IMPLICIT_MOST_RAY_OFFSET) : rise;
-    needed = i > 1u ? maximum(needed, 3.0f * abs(f - rise * aside) / rise) : 0.0f;
+    needed = i > 1u ? maximum(needed, 3.0f * abs(f - rise * offset) / rise) : 0.0f;
   }
   return needed > IMPLICIT_COARSE ? minimum(maximum(needed, factor), IMPLICIT_MOST_RAY_OFFSET) : factor;
 }

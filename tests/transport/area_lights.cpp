@@ -37,7 +37,7 @@ Mat4 turned() {
 TEST_CASE("a box above the floor: its faces'") {
   const Vec3 size(0.4, 0.2, 0.3);
   Scene scene = floor(1024);
-  add(scene, make_box(-size, size, turned()), lamp(scene));
+  add(scene, make_box(-size, size, turned()), emissive(scene));
   double sum = 0;
   for (int axis = 0; axis < 3; ++axis)
     for (const double side : {-1.0, 1.0}) {
@@ -62,7 +62,7 @@ TEST_CASE("an ellipsoid and a sheared one above the floor") {
   for (const Mat4& map : {turned(), turned() * shear}) {
     const Vec3 radii(0.5, 0.2, 0.35);
     Scene scene = floor();
-    add(scene, make_ellipsoid(Vec3(0), radii, map), lamp(scene));
+    add(scene, make_ellipsoid(Vec3(0), radii, map), emissive(scene));
     const double expected = irradiance_of_body(
         [&](double u, double v) {
           const double across = std::sin(M_PI * v);
@@ -80,7 +80,7 @@ TEST_CASE("a cylinder, and a tube that stands upright, above the floor") {
   shear[1].x = 0.5;
   for (const Mat4& map : {turned(), turned() * shear}) {
     Scene scene = floor(1024);
-    add(scene, make_cylinder({0, -0.3, 0}, {0, 0.3, 0}, 0.25, false, map), lamp(scene));
+    add(scene, make_cylinder({0, -0.3, 0}, {0, 0.3, 0}, 0.25, false, map), emissive(scene));
     const auto place = [&](double radius, double turn, double y) {
       return Vec3(map * Vec4(radius * std::cos(2 * M_PI * turn), y, radius * std::sin(2 * M_PI * turn), 1));
     };
@@ -96,7 +96,7 @@ TEST_CASE("a cylinder, and a tube that stands upright, above the floor") {
   }
   // The surroundings above are seen through the tube. Its own light is that of a disk as wide, at its foot.
   Scene tube = floor(1024);
-  add(tube, make_cylinder({0, 1, 0}, {0, 3, 0}, 0.5, true), lamp(tube));
+  add(tube, make_cylinder({0, 1, 0}, {0, 3, 0}, 0.5, true), emissive(tube));
   check(tube, shown(M_PI * (0.25 / 1.25 - 0.25 / 9.25)));
 }
 
@@ -118,7 +118,7 @@ TEST_CASE("a one-sided area light shines in front, and is dark from behind") {
                of_triangle = irradiance_of({a, a + u, a + v});
   const auto lit = [&](std::unique_ptr<Shape> shape, double expected) {
     Scene scene = floor();
-    const int front = lamp(scene);
+    const int front = emissive(scene);
     scene.materials[size_t(front)]->emits_in_front = true;
     add(scene, std::move(shape), front);
     check(scene, shown(expected));
@@ -145,7 +145,7 @@ TEST_CASE("a one-sided area light shines in front, and is dark from behind") {
       scene.meshes.push_back(
           {.name = "", .positions = {a, a + u, a + v}, .triangles = {{0, 1, 2}}, .normals = {}, .uv = {}});
       if (away) scene.meshes[0].triangles[0] = {0, 2, 1};
-      const int front = lamp(scene);
+      const int front = emissive(scene);
       scene.materials[size_t(front)]->emits_in_front = true;
       scene.instances.push_back({.mesh = 0, .transform = map, .material = front, .position = {}});
       std::vector<Vec3> corners{a, a + u, a + v};
@@ -156,7 +156,7 @@ TEST_CASE("a one-sided area light shines in front, and is dark from behind") {
 
   // Seen from behind it shows nothing.
   Scene behind = patch({0, 2, 0}, {0.1, 1.3, 0}, 4);
-  const int front = lamp(behind);
+  const int front = emissive(behind);
   behind.materials[size_t(front)]->emits_in_front = true;
   add(behind, make_disk({0, 1.3, 0}, {0, -1, 0}, 0.8), front);
   check(behind, 0);
@@ -166,7 +166,7 @@ TEST_CASE("area lights next to the floor: Lambert's formula, with little noise")
   const auto lit = [](std::unique_ptr<Shape> shape, const std::vector<Vec3>& corners) {
     Scene scene = floor(64);
     scene.camera.eye = {0.15, 0.04, 0.1};
-    add(scene, std::move(shape), lamp(scene));
+    add(scene, std::move(shape), emissive(scene));
     const double expected = shown(irradiance_of(corners));
     check(scene, expected);
     // Sampling by area has 1.3 to 14 times as much noise, and fewer samples five times as much.
@@ -252,7 +252,7 @@ TEST_CASE("a textured area light: each part is as bright as its texel") {
 
 TEST_CASE("area lights of an instanced group: each where it stands") {
   Scene scene = floor(1024);
-  const int material = lamp(scene);
+  const int material = emissive(scene);
   Group group;
   group.shapes.push_back(make_sphere({0, 0, 0}, 0.2));
   group.shapes[0]->material = material;
