@@ -75,7 +75,7 @@ JudgedPhotons judge_photons(const Scene& scene,
       const Apart photon{number, a[number], b[number]};
       if (!photon.diverged() && photon.displacement() <= displacement) continue;
       apart.push_back(photon);
-      ++(photon.diverged() ? tally.diverged : tally.displacement);
+      ++(photon.diverged() ? tally.diverged : tally.displaced);
     }
     std::vector<uint32_t>& left_out = judged.left_out.by_sample.emplace_back();
     for (const Apart& photon : apart) left_out.push_back(photon.number);
