@@ -80,6 +80,10 @@ class SceneOptions {
   std::array<std::string, 6> values_;  // of options.cpp's table, --spp first
 };
 
+// The allowed values of an option that overrides a choice in the scene (--integrator, --triangle); of others
+// none.
+std::vector<std::string> value_choices(std::string_view option);
+
 // "3,4" as {3, 4}; Error (bad_input) for anything else.
 std::pair<int, int> parse_pixel(const std::string& text);
 

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "host/cli/command.hpp"
 #include "host/executors/tuning.hpp"
 #include "host/program/help.hpp"
 
@@ -34,7 +35,7 @@ OptionRow row_of(const CLI::Option& option) {
   if (option.get_items_expected_min() == 0) return row;  // a flag
   row.value = option.get_option_text();
   if (row.value.empty()) row.value = option.get_type_name();
-  if (option.check_lname("tune")) row.choices = tuning_settings();
+  row.choices = option.check_lname("tune") ? tuning_settings() : value_choices(option.get_name());
   return row;
 }
 

@@ -40,10 +40,13 @@ constexpr std::array value_options = {
     ValueOption{"--seed", "N", "render", "seed", "Seed of all random numbers"},
     ValueOption{"--triangle", "METHOD", "render", "triangle", "Triangle intersection"}};
 
+const reading::Key& key_of(const ValueOption& option) {
+  return *std::ranges::find(loader::find_section(option.section)->keys, option.key, &reading::Key::name);
+}
+
 // "Samples a pixel: an integer from 1 to 65536.", by the key's row.
 std::string description_of(const ValueOption& option) {
-  const std::span<const reading::Key> keys = loader::find_section(option.section)->keys;
-  std::string values = describe(*std::ranges::find(keys, option.key, &reading::Key::name));
+  std::string values = describe(key_of(option));
   std::erase(values, '"');
   return fmt::format("{}: {}.", option.text, values);
 }
@@ -82,6 +85,14 @@ void sanitize(executors::ExecutorOptions& options, const std::string& list) {
 }
 
 }  // namespace
+
+std::vector<std::string> value_choices(std::string_view name) {
+  const auto* const option =
+      std::ranges::find_if(value_options, [&](const ValueOption& each) { return each.name == name; });
+  if (option == value_options.end()) return {};
+  const auto choices = key_of(*option).choices;
+  return {choices.begin(), choices.end()};
+}
 
 std::pair<int, int> parse_pixel(const std::string& text) {
   int pixel[2];

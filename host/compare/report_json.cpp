@@ -174,7 +174,7 @@ Json json(const Report& report) {
           {"gate_r", list(report.raster)},
           {"photons", report.photons ? Json{{"sent", report.photons->sent},
                                             {"diverged", report.photons->diverged},
-                                            {"may_part", report.photons->may_diverge()},
+                                            {"may_diverge", report.photons->may_diverge()},
                                             {"displaced", report.photons->displaced},
                                             {"may_be_displaced", report.photons->may_be_displaced()},
                                             {"unexplained", report.photons->unexplained},

@@ -48,13 +48,20 @@ std::string own_name(const std::string& option) {
   return option;
 }
 
-// One line about a long option that is written with one dash, as other programs have it, and which CLI11
-// reads as -s with the value "pp"; "" if there is none.
+// One line about an option with one dash that CLI11 reads as another: -spp as -s with the value "pp", and
+// -q=3, where -q is a flag, as the flags -q, -= and -3. "" if there is none.
 std::string single_dash_message(const CLI::App& app, std::span<char* const> words) {
   const CLI::App& command = named_command(app);
   for (const std::string_view word : words) {
     const std::string name(word.substr(0, word.find('=')));
-    if (name.size() < 3 || name[0] != '-' || name[1] == '-') continue;
+    if (name.size() < 2 || name[0] != '-' || name[1] == '-') continue;
+    if (name.size() == 2) {
+      const CLI::Option* const flag = word.size() > 2 ? command.get_option_no_throw(name) : nullptr;
+      if (flag && flag->get_items_expected_min() == 0)
+        return fmt::format("{} takes no value: write {} (see {} {}--help)", name, name, app.get_name(),
+                           words_before(command));
+      continue;
+    }
     const std::string meant = own_name("-" + name);
     if (command.get_option_no_throw(meant))
       return fmt::format("unknown option '{}'; did you mean '{}'? (see {} {}--help)", name, meant,

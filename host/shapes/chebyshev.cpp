@@ -40,7 +40,7 @@ bool ChebyshevSeries::ends(double tolerance) const {
 }
 
 // No Chebyshev polynomial is above 1, and no derivative of the k-th above k².
-double ChebyshevSeries::ray_offset() const {
+double ChebyshevSeries::clearance() const {
   double rest = 0;
   for (size_t k = 1; k <= degree; ++k) rest += std::fabs(c_[k]);
   return std::fabs(c_[0]) - rest;

@@ -19,7 +19,7 @@ class ChebyshevSeries {
   // `tolerance`.
   bool ends(double tolerance) const;
   // The distance that it keeps from zero; negative if it may reach zero.
-  double ray_offset() const;
+  double clearance() const;
   bool monotone() const;
 
  private:

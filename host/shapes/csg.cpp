@@ -298,7 +298,7 @@ above, and let joined shapes overlap. Faces at exactly the same t are crossed to
 left. If two surfaces coincide, the visible one belongs to the first part: first by kind in the order of this
 page, then by its position in the file.
 
-**Source.** Roth: Ray Casting for Modeling CsgObjects, Computer Graphics and Image Processing 18, 1982.
+**Source.** Roth: Ray Casting for Modeling Solids, Computer Graphics and Image Processing 18, 1982.
 )";
 
 constexpr std::string_view operations[] = {"union", "intersection"};

@@ -84,7 +84,7 @@ class SeriesSearch {
     const ChebyshevSeries series(values);
     const bool ends = series.ends(1e-10 * size + 1e-14 * largest_);
     const bool narrow = (to - from) / unit_ < least_gap;
-    if (series.ray_offset() > (ends ? 1e-9 : 0.8) * size && (values[0] < 0) == inside) return std::nullopt;
+    if (series.clearance() > (ends ? 1e-9 : 0.8) * size && (values[0] < 0) == inside) return std::nullopt;
     if (narrow || (ends && series.monotone())) {
       if ((values[0] < 0) == inside) return std::nullopt;
       return narrowed(from, to, inside);

@@ -106,6 +106,7 @@ TEST_CASE("bash completes commands, options and the values that they list") {
   CHECK(completed_by_bash(script, {"eyeray", "render", "--exp"}) == Words{"--exposure"});
   CHECK(completed_by_bash(script, {"eyeray", "render", "a.toml", "--tune", "ra"}) ==
         Words{"rays=packets", "rays=lanes"});
+  CHECK(completed_by_bash(script, {"eyeray", "verify", "a.toml", "--integrator", "w"}) == Words{"whitted"});
   // To bash, the text beside = is a separate word.
   CHECK(completed_by_bash(script, {"eyeray", "render", "a.toml", "--tune", "rays", "="}) ==
         Words{"packets", "lanes"});

@@ -103,6 +103,7 @@ TEST_CASE("a wrong command line is one line that says what was meant, and code 2
        "unknown option '-spp'; did you mean '--spp'? (see eyeray render --help)"},
       {{"render", "-seed", scene},
        "unknown option '-seed'; did you mean '--seed'? (see eyeray render --help)"},
+      {{"render", scene, "-q=3"}, "-q takes no value: write -q (see eyeray render --help)"},
       {{"verify", scene, "-samples=4"},
        "unknown option '-samples'; did you mean '--spp'? (see eyeray verify --help)"},
       {{"render", scene, "--tune", "rays"}, "--tune must be KEY=VALUE, such as rays=lanes, not 'rays'"},

@@ -1,4 +1,4 @@
-// CsgObjects in scene files: parts, materials, transforms and batches.
+// CSG objects in scene files: parts, materials, transforms and batches.
 #include <fmt/format.h>
 
 #include "host/loader/scene_file.hpp"

@@ -1,4 +1,4 @@
-// CsgObjects against numbers worked out by hand.
+// CSG objects against numbers worked out by hand.
 #include <fmt/format.h>
 
 #include <numbers>

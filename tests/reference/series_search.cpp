@@ -21,10 +21,10 @@ TEST_CASE("a Chebyshev series knows how far it stays from zero, and whether it t
   };
   const ChebyshevSeries cubic = series([](double x) { return 3 + x * x * x; });
   CHECK(cubic.ends(1e-14));
-  CHECK(cubic.ray_offset() == doctest::Approx(2));
+  CHECK(cubic.clearance() == doctest::Approx(2));
   CHECK_FALSE(cubic.monotone());  // flat in the middle
   CHECK(series([](double x) { return 3 * x + x * x * x / 2; }).monotone());
-  CHECK(series([](double x) { return x * x - 0.5; }).ray_offset() < 0);
+  CHECK(series([](double x) { return x * x - 0.5; }).clearance() < 0);
   CHECK(series([](double x) { return std::exp(x); }).ends(1e-12));
   CHECK_FALSE(series([](double x) { return std::fabs(x - 0.1); }).ends(1e-3));
 }
