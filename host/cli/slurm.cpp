@@ -118,7 +118,7 @@ void print(const slurm::Array& array, const slurm::ArrayState& state,
               state.done ? ", and the whole task is done" : "");
   if (!state.queue.empty()) print_lines(stderr, "in the queue, as {}:\n", array.job_name);
   for (const std::string& line : state.queue) print_lines(stderr, "  {}\n", line);
-  if (!state.output.empty()) print_lines(stderr, "why shares are missing: {}\n", state.output.string());
+  if (!state.output.empty()) print_lines(stderr, "output of the failed jobs: {}\n", state.output.string());
   for (const std::string& line : state.failures) print_lines(stderr, "  {}\n", line);
   if (!submitted.empty())
     print_lines(stderr, "submitted {}; squeue, sacct and scancel know them by --name={}\n",

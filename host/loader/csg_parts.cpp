@@ -9,7 +9,7 @@ namespace eyeray::engine::loader {
 std::string why_no_part(const Section& section) {
   switch (section.kind) {
     case Section::Kind::mesh:
-      return "a mesh cannot be part of a CSG object: it may not enclose a volume";
+      return "a mesh cannot be part of a CSG object, because nothing ensures that it encloses a volume";
     case Section::Kind::group:
     case Section::Kind::instance:
       return "a group cannot be part of a CSG object; use a [[csg.csg]] to move several parts together";

@@ -140,7 +140,7 @@ TEST_CASE("a node without Vulkan says so where the command says it does") {
   array.add(array.merged());
   array.said({}, {{"EYERAY_VULKAN_LOADER", "/nowhere/libvulkan.so.1"}});
   CHECK(array.ended().at("missing").size() == 3);
-  CHECK(array.run({"--no-submit"}).err.find("why shares are missing: " + array.work("1.output")) !=
+  CHECK(array.run({"--no-submit"}).err.find("output of the failed jobs: " + array.work("1.output")) !=
         std::string::npos);
   CHECK(read_text(array.work("1.output")).find("Vulkan") != std::string::npos);
 }
