@@ -43,7 +43,7 @@ struct DevCommand {
 
   std::string device_;
   bool watching_ = false;
-  std::shared_ptr<void> compiling_;  // the line that reports it
+  std::shared_ptr<void> compiling_;  // the line that reports that kernels compile
 };
 
 // "::error file=a.glsl,line=3,col=5::message", as GitHub's workflows read it.

@@ -103,7 +103,7 @@ session::Result MergeCommand::merge(shards::PartSet& set) const {
   return picture;
 }
 
-// All of them, for callers that check before the picture is wanted.
+// Reports all faults, for callers that check the parts before the picture is wanted.
 ExitCode MergeCommand::report_faults(const shards::PartSet& set) const {
   const shards::PartFaults& faults = set.faults();
   if (json) print_json(to_json(faults, set));

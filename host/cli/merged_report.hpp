@@ -11,7 +11,7 @@ namespace eyeray::engine::cli {
 
 using program::Json;
 
-// A report's entry on its share: the number of scenes, and a name of the suite and its options.
+// A report's entry on its share: the number of scenes, and the text that names the suite and its options.
 Json shard_of_report(const render::Shard& shard, size_t scenes, const std::string& suite);
 
 // The report of all scenes, in their order, as one machine writes it. Error (bad_input) that names files

@@ -79,8 +79,8 @@ class BoundedDecoder : public Decoder {
     return take(values * points.num_points()) && Decoder::DecodeAllAttributes() && !damaged_;
   }
 
-  // Called for each attribute that is predicted over the mesh, when its method is known, and its values are
-  // next. Without an answer it would be read as if by another one.
+  // Draco calls this for each attribute that is predicted over the mesh, when the method is known and the
+  // values are next. After a null result, Draco would read them as if by another method.
   const draco::MeshAttributeIndicesEncodingData* GetAttributeEncodingData(int attribute) const override {
     const auto* data = Decoder::GetAttributeEncodingData(attribute);
     if (!data || !attributes_) return data;

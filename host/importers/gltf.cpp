@@ -30,7 +30,7 @@ std::set<std::string> as_set(const std::vector<std::string>& names) {
   return {names.begin(), names.end()};
 }
 
-// A mesh and objects in a scene may be multiplied by each other.
+// Limit on a file's instances: a few meshes and nodes may multiply into many.
 constexpr size_t most_instances = size_t{1} << 20;
 
 class GltfReader {

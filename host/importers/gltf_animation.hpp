@@ -1,5 +1,5 @@
-// The animations of a glTF file: the file's nodes as one of them has them at a moment. Private to the
-// importers. Source: Khronos Group: glTF 2.0 Specification (2.0.1), 3.11 and appendix C.
+// The animations of a glTF file: the state that an animation gives the file's nodes at a moment. Private to
+// the importers. Source: Khronos Group: glTF 2.0 Specification (2.0.1), 3.11 and appendix C.
 #pragma once
 
 #include <map>

@@ -36,10 +36,10 @@ class GltfBuffers {
   // From now on the elements of these accessors are those given here, packed, of the accessor's own type
   // and count; those of all other accessors are their bufferViews' again.
   void supply(std::map<size_t, std::string> elements);
-  // Counts elements that are read, which a short file may name without end. InputError, of `owner`, where
-  // they are more than a file of this size can mean …
+  // Counts elements that are read, of which even a short file may name any number. InputError, of `owner`,
+  // if they are more than a file of this size can mean …
   void claim(const GltfObject& owner, uint64_t elements);
-  // … but so many more where some of it is coded.
+  // … but allows so many more, for data that are coded.
   void allow(uint64_t elements) { allowed_elements_ += elements; }
   // Size in bytes of the data read so far, in the form in which it was read.
   uint64_t byte_size() const;

@@ -8,8 +8,7 @@ namespace eyeray::engine::importers {
 
 namespace {
 
-// Checks the planes of one form of a camera. `sound`: whether the form's other values that must be above 0
-// are.
+// Checks the planes of one form of a camera. `sound`: true if its other values are in range.
 void check_planes(const GltfObject& form, bool sound, GltfBreaches& breaches) {
   if (!sound || (form.has("zfar") && !(form.number("zfar", 0) > form.number("znear", 0))))
     breaches.add("cameras whose aspectRatio, ymag, znear or zfar is out of range, which is ignored",

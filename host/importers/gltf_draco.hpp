@@ -21,7 +21,7 @@ class GltfDraco {
 
   // Supplies the buffers with the elements of the primitive's accessors that its Draco data have, and returns
   // the corners of its triangles, three each. Where it is not coded: the accessors are as they are, and
-  // nothing is returned. InputError for data that are damaged, or other than in the accessors.
+  // nothing is returned. InputError for data that are damaged, or contradict the accessors.
   std::optional<std::vector<uint32_t>> open(const GltfObject& primitive);
 
  private:

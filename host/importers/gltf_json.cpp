@@ -20,7 +20,7 @@ std::optional<uint64_t> as_count(const Json& json) {
   return static_cast<uint64_t>(value);
 }
 
-// True if a reader of glTF 2.0 may read a file for this version: "MAJOR.MINOR", up to 2.0.
+// True if a reader of glTF 2.0 may read a file that requires this version: "MAJOR.MINOR", up to 2.0.
 bool is_readable(std::string_view version) {
   return version == "2.0" || version.starts_with("1.") || version.starts_with("0.");
 }

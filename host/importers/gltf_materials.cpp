@@ -303,7 +303,7 @@ std::optional<GltfObject> GltfMaterials::base_texture(const GltfObject& material
   return old ? old->object("diffuseTexture") : std::nullopt;
 }
 
-// The base colour's first: an alpha takes the first uv.
+// The base colour's texture comes first: an alpha takes the first uv.
 std::vector<GltfObject> GltfMaterials::textures_of(const GltfObject& material) {
   std::vector<GltfObject> textures;
   const auto add = [&](const std::optional<GltfObject>& texture) {

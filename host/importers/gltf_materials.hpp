@@ -69,7 +69,7 @@ class GltfMaterials {
 
   Surface surface(const GltfObject& material);
   TexturePtr emission(const GltfObject& material);
-  // `stand_in`: its look in Whitted's pictures.
+  // `stand_in`: the material that Whitted's pictures show instead.
   std::unique_ptr<Material> principled(const GltfObject& source, const Surface& surface,
                                        std::unique_ptr<Material> stand_in);
   // The stand-in of a transmissive material in Whitted's pictures.

@@ -31,7 +31,7 @@ uint64_t least_bytes(const Coding& coding) {
   return 1 + coding.stride * blocks + std::max<uint64_t>(32, coding.stride);
 }
 
-// Checks the library's own assumptions too.
+// Checks the values of the extension, also those that the library takes for granted.
 void check(const GltfObject& view, const GltfObject& object, const Coding& coding) {
   const bool attributes = coding.mode == "ATTRIBUTES";
   const uint64_t stride = coding.stride;
@@ -76,7 +76,7 @@ void check_version(const GltfObject& object, const Coding& coding, std::string_v
   }
 }
 
-// True if they could be decoded.
+// True if the bytes could be decoded.
 bool decode(const Coding& coding, std::string_view coded, std::string& decoded) {
   const auto* bytes = reinterpret_cast<const unsigned char*>(coded.data());
   if (coding.mode == "TRIANGLES")

@@ -13,7 +13,7 @@ namespace eyeray::engine::importers {
 Mat4 gltf_transform(const GltfObject& owner, const char* key, const Vec3& translation, const Vec4& rotation,
                     const Vec3& scale, GltfBreaches& breaches);
 
-// True if the map of a matrix is no rotation with a scale along each axis.
+// True if the matrix is not a rotation combined with a scale along each axis.
 bool shears(const Mat3& matrix);
 
 // The nodes at the top of the scene that is shown, or of a file without scenes those without a parent.

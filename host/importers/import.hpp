@@ -73,8 +73,8 @@ bool is_mesh_file(const std::filesystem::path& file);
 // of the files.
 ImportedScene import_file(const std::filesystem::path& file, const ImportOptions& options = {});
 
-// Imports from memory, for tests. `name` stands in messages, and its ending gives the format of `bytes`.
-// References to other files are refused.
+// Imports from memory, for scenes in memory and for tests. `name` stands in messages, and its ending gives
+// the format of `bytes`. References to other files are refused.
 ImportedScene import_bytes(std::string bytes, const std::string& name, const ImportOptions& options = {});
 
 // The material of meshes whose file names none: a light grey, or white if vertices have colours.

@@ -15,8 +15,8 @@ namespace eyeray::engine::importers {
 
 namespace {
 
-// A new vertex is compared with this many vertices that share its position but differ in normal or uv. If
-// more share a position, some are made twice, but importing takes no longer.
+// A new vertex is compared with at most this many vertices at its position, which may differ in normal or
+// uv. If there are more, some vertices are made twice, but importing takes no longer.
 constexpr int most_compared = 8;
 
 // Corners are counted in 32 bits.
@@ -103,7 +103,7 @@ std::vector<Vec3> MeshBuilder::face_normals(const RawTriangles& raw) {
   return normals;
 }
 
-// Texture coordinates and colours of single faces are the same if their values are.
+// Texture coordinates and colours that belong to single faces are the same if their values are.
 bool MeshBuilder::is_same(const Source& a, const Source& b) const {
   const auto same = [](const auto& values, uint32_t i, uint32_t k) {
     return i == k || (i != no_index && k != no_index && values[i] == values[k]);

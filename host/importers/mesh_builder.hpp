@@ -61,8 +61,9 @@ class MeshBuilder {
   // `pool` is changed: its normals are made unit, those that have no direction 0.
   MeshBuilder(VertexPool& pool, MeshCounts& counts);
 
-  // Leaves out unhittable triangles; gives each corner whose normal is wrong that of its face. Where there
-  // are no normals and `smooth` (degrees) is above 0, makes them. Vertices that no face has are dropped.
+  // Leaves out triangles that no ray can hit. A corner with a wrong normal gets the normal of its face. If
+  // there are no normals and `smooth` (degrees) is above 0, makes them. Vertices that no face has are
+  // dropped.
   Mesh build(const RawTriangles& raw, double smooth);
 
  private:

@@ -79,7 +79,7 @@ void Triangulator::cut_ears() {
   uint32_t at = 0;
   uint32_t tried = 0;
   for (uint32_t left = n; left > 3;) {
-    // Without an ear the polygon crosses itself or has collinear corners: clip the next corner.
+    // If there is no ear, the polygon crosses itself or has collinear corners: clip any corner.
     if (!is_ear(at) && tried < left) {
       ++tried;
       at = after_[at];

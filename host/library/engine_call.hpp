@@ -30,12 +30,12 @@ class InsideCall {
 };
 
 // Runs `work`, alone in this process: the engine's device, signals and time-outs are the process's. Any
-// engine's exception becomes a v0::Error; an exception of a user's callback goes through. `stop`, where there
+// exception of the engine becomes a v0::Error; one of a user's callback goes through. `stop`, where there
 // is one, ends the wait for other calls and the work: v0::Error (cancelled). v0::Error (bad_input) inside
 // another call, as from its `progress`.
 void call_engine(const std::function<void()>& work, const std::atomic<bool>* stop = nullptr);
 
-// Makes a call that returns a result.
+// Runs `work` as call_engine does, and returns its result.
 template <typename Work>
 auto run_engine(const Work& work, const std::atomic<bool>* stop = nullptr) {
   std::optional<decltype(work())> answer;

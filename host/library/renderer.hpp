@@ -33,7 +33,7 @@ Rect rect_of(const v0::Rect& crop);
 // The options for executors. For the backend gpu they name the renderer's device, which is opened now if it
 // is not yet.
 executors::ExecutorOptions executor_options(v0::Renderer::Data& renderer, bool gpu);
-// For render::RenderOptions: `progress` called, and its no a request of `cancellation`.
+// The callback for render::RenderOptions: calls `progress`, and requests `cancellation` if it returns false.
 std::function<void(const render::Progress&)> progress_of(
     const std::function<bool(const v0::Progress&)>& progress, const v0::Cancellation& cancellation);
 // Runs `work` as call_engine does. A device that was lost on the way is not used again.

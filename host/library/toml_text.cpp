@@ -42,8 +42,8 @@ std::string lines(const v0::Table& table) {
 
 namespace eyeray::inline v0 {
 
-// to_chars writes the shortest that is read back the same. One without point and exponent is read as an
-// integer, which every key that wants a number takes, and keys that want an integer take from 3.0.
+// to_chars writes the shortest text that is read back the same. A text without point and exponent is read as
+// an integer, which every key that wants a number takes, and keys that want an integer take from 3.0.
 std::string Value::of_floating(double value) {
   if (std::isnan(value)) return "nan";
   if (std::isinf(value)) return value > 0 ? "inf" : "-inf";

@@ -155,7 +155,7 @@ Animation apply_animation(toml::table& root, DiagnosticLog& log) {
                       .shutter_steps = int(reader.integer("shutter_steps"))};
   root.erase(settings.name);
 
-  // Out of the tree first: the keys they move change it.
+  // Take the tracks out of the tree first: the values that they set change it.
   toml::array tracks;
   if (toml::node* const list = root.get(track.name)) tracks = std::move(*list->as_array());
   root.erase(track.name);

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 constexpr size_t deepest_include = 16;
 
-// Lays `over` upon `below`: its keys win, and it sets the table's position.
+// Lays `over` upon `below`: the keys of `over` win, and the table's position is that of `over`.
 void merge_settings(toml::table& over, toml::table& below) {
   for (auto&& [key, node] : below) {
     if (!over.contains(key.str())) over.insert_or_assign(key, std::move(node));

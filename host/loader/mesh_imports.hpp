@@ -35,8 +35,8 @@ class MeshImports {
   // The moment that animated files are shown at, in seconds; 0 until it is set.
   void show(double seconds) { seconds_ = seconds; }
 
-  // The contents of the file that the file `from` names. The pointer stays valid. The moment in `playing` is
-  // ignored. Error, one sentence, if it cannot be read; the same one each time.
+  // The contents of the file `name`, as the file `from` writes it. The pointer stays valid. The moment in
+  // `playing` is ignored. Error, one sentence, if the file cannot be read; the same one each time.
   Loaded load(const std::string& name, std::optional<double> smooth, importers::Playing playing,
               const std::string& from);
 
@@ -59,7 +59,7 @@ class MeshImports {
     ExitCode code = ExitCode::ok;
     bool shown = false;
   };
-  // The way of reading a file: by its canonical path.
+  // A file, by its canonical path, and the way to read it.
   struct Wanted {
     std::filesystem::path file;
     std::optional<double> smooth;

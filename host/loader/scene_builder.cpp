@@ -197,7 +197,7 @@ void Builder::add_placed(const toml::table& holder, const Placing& group) {
   }
 }
 
-// The area lights that are such shapes: Scene::shapes stay in registry order.
+// Adds the area lights of this shape, so that Scene::shapes stay in registry order.
 void Builder::add_area_lights(std::string_view shape) {
   for (const auto& [named, table] : area_lights_) {
     const Section& light = named->section;
@@ -289,7 +289,7 @@ size_t Builder::for_each_placed(const Section& section, const toml::table& table
   for (size_t i = 0; i < batch.count; ++i) {
     placed.name = {group.name.index, false};
     if (const std::string_view name = written_name(table, batch, i); !name.empty()) {
-      // All elements of a batch share one name.
+      // If the batch does not list names, all its elements share the table's name, with numbers.
       const bool shared = batch.lists && !batch.lists->contains("name");
       placed.name = {scene_.names.add(name, shared ? uint32_t(i + 1) : 0, group.name.index), true};
     }

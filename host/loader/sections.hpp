@@ -62,10 +62,10 @@ std::span<const std::string_view> placed_names();
 // The keys that all shapes in a CSG object share, as CSG objects do: a part without a material takes that of
 // the object around it.
 std::span<const reading::Key> part_keys();
-// The table in a CSG object's of the parts taken away.
+// The table within a CSG object's table that has the parts taken away.
 inline constexpr std::string_view minus_key = "minus";
 
-// The key that lists the files to include, and the one that holds the batch of placements.
+// The key that lists the files to include, and the one that holds the batch of a placed table.
 inline constexpr std::string_view include_key = "include";
 inline constexpr std::string_view batch_key = "batch";
 

@@ -31,8 +31,8 @@ void blank(std::string& text, const Statement& statement);
 // More parts than any key of a scene has. A tree as deep as keys can be long would overflow the stack.
 inline constexpr int most_key_parts = 16;
 
-// About how much a tree of the files of one scene may take, in units of 80 bytes: as the largest scene that
-// eyeray generates, 256 MiB of numbers in lists.
+// About how much a tree of the files of one scene may take, in units of 80 bytes: as much as that of the
+// largest scene that eyeray generates, 256 MiB of numbers in lists.
 struct TreeBudget {
   size_t left = size_t{1} << 25;
 };

@@ -16,8 +16,8 @@ namespace eyeray::engine::loader {
 // same folder that the user may have meant.
 std::string read_scene_text(const std::filesystem::path& file);
 
-// The tree of `text`, whose positions bear `name`. A statement with a syntax error is reported and left out,
-// and the log marked as damaged, and also a text for which the budget has too little left.
+// The tree of `text`, whose positions bear `name`. A statement with a syntax error is reported and left out.
+// A text for which the budget has too little left is reported, and has no tree. Both mark the log as damaged.
 toml::table parse_toml(std::string_view text, const std::string& name, TreeBudget& budget,
                        DiagnosticLog& log);
 

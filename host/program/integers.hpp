@@ -8,7 +8,7 @@
 
 namespace eyeray::engine::program {
 
-// Whole numbers with a separator between them, as many as `numbers` holds; true if `text` is that.
+// Reads whole numbers with a separator between them, as many as `numbers` holds. False if `text` differs.
 bool parse_integers(std::string_view text, char separator, std::span<int> numbers);
 
 // "640x480" as {640, 480}; Error (bad_input) for anything else.

@@ -31,7 +31,7 @@ struct Reporter {
   std::string name;  // of the program
   bool json;
 
-  // Reports once why the program ends: the cause and its consequence may both have a word.
+  // Reports once why the program ends, since the cause and its consequence may both call this.
   void operator()(const Error& error) const {
     static std::atomic_flag said;
     if (said.test_and_set()) return;

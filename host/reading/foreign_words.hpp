@@ -7,8 +7,8 @@
 
 namespace eyeray::engine::reading {
 
-// The one of `names` that was most likely meant by `word`, a word of POV-Ray, pbrt, Mitsuba or Blender for
-// the same. Else one that it may be a slip for (nearest_name); "" when there is none.
+// The one of `names` that was most likely meant by `word`. That is one that POV-Ray, pbrt, Mitsuba or Blender
+// call so; else one of which `word` may be a typing error (nearest_name); "" when there is none.
 std::string suggest_name(std::string_view word, std::span<const std::string_view> names);
 
 }  // namespace eyeray::engine::reading

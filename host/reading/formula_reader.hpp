@@ -10,8 +10,8 @@
 
 namespace eyeray::engine::reading {
 
-// Keys by which a table gives the text of a formula, and its constants. `code`, with a separate doc, is
-// another.
+// Keys by which a table gives the text of a formula, and its constants. Another is `code`, whose doc each
+// table writes itself.
 inline constexpr Key formula_file_key{
     .name = "file",
     .type = KeyType::formula_file,

@@ -19,8 +19,8 @@ std::string show(double value) {
   return text;
 }
 
-// " above 0 and below 180", " above 0, at most 64", " from 0 to below 90", " from 1 to 65536", " of at least
-// 0"; "" where every number will do.
+// " above 0 and below 180", " above 0, at most 64", " from 0 to below 90", " from 1 to 65536",
+// " of at least 0"; "" where every number will do.
 std::string describe_range(const Key& key) {
   const bool low = std::isfinite(key.min), high = std::isfinite(key.max);
   const std::string min = low ? show(key.min) : "", max = high ? show(key.max) : "";
