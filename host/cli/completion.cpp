@@ -92,7 +92,7 @@ std::string zsh_command(const CommandRow& command) {
   return text + "      esac ;;\n  esac\n}\n\n";
 }
 
-// When fish is to offer a command's options.
+// The condition under which fish offers a command's options and subcommands.
 std::string fish_condition(const CommandRow& command) {
   if (command.words.empty()) return "__fish_use_subcommand";
   std::string condition, word;

@@ -32,7 +32,7 @@ struct Generated {
   std::string mesh_keys = {};                          // of its [[mesh]], beside `file`
 };
 
-// Error (bad_input) beyond the most that a mesh may have.
+// Error (bad_input) for more triangles than a mesh may have.
 void check_triangles(double triangles);
 
 // Writes the mesh, then the scene, so that no scene names a missing mesh, and prints a summary. `make` is

@@ -16,7 +16,7 @@ class AssetFiles {
  public:
   // For a file in memory: every asset is refused.
   AssetFiles() = default;
-  // Names are relative to the folder of `file`; where else than in its tree they may lie.
+  // Names are relative to the folder of `file`. `allowed_folders`: where else than in its tree they may lie.
   AssetFiles(const std::filesystem::path& file, std::span<const std::filesystem::path> allowed_folders);
 
   // The path of the asset. `/` and `\` both separate folders. Error (bad_input) when it lies outside.

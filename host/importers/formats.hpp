@@ -19,7 +19,8 @@ struct MeshFile {
   Playing playing;
 };
 
-// Each fills all but `files`. InputError for a fault in the file, Error for one in files it refers to.
+// Each fills all but `files`. InputError for a fault in the file; Error if a file that it refers to is
+// refused or cannot be read.
 ImportedScene import_obj(MeshFile& file);
 ImportedScene import_ply(MeshFile& file);
 ImportedScene import_gltf(MeshFile& file);  // .gltf and .glb, distinguished by their first bytes

@@ -101,7 +101,7 @@ std::string_view GltfBuffers::buffer(size_t index) {
   return bytes.substr(0, length);
 }
 
-// `source` is a bufferView, or the coding in one.
+// `source` is a bufferView, or the object in one that describes its coded bytes.
 std::string_view GltfBuffers::range(const GltfObject& source) {
   const auto owner = source.index("buffer", buffers_.size());
   if (!owner) source.fail("has no buffer");

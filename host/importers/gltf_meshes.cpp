@@ -34,8 +34,8 @@ std::vector<IndexTriangle> assemble(uint64_t mode, const std::vector<uint32_t>& 
   return triangles;
 }
 
-// True if a normal's length is not 1. Rounding alone makes a deviation of 0.007 if normals are in bytes. A
-// normal of length 0 is counted elsewhere.
+// True if a normal's length is clearly not 1. Rounding alone makes a deviation of 0.007 if normals are in
+// bytes. A normal of length 0 is counted elsewhere.
 bool is_no_unit(const Vec3& normal) {
   const double length = glm::length(normal);
   return length > 0 && !(std::abs(length - 1) < 0.01);

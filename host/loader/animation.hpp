@@ -17,8 +17,8 @@ std::span<const reading::Key> track_keys();
 extern const std::string_view track_manual;
 
 // Takes [animation] and every [[track]] out of the tree, and puts each track's value at the frame shown where
-// it belongs, as -D does. Returns the scene's part of them. Faults go to the log: with a value, at the
-// keyframe before it.
+// it belongs, as -D does. Returns the parts that the scene keeps. Faults go to the log, those of a value at
+// its keyframes.
 Animation apply_animation(toml::table& root, DiagnosticLog& log);
 
 // The moment that is shown.

@@ -45,7 +45,7 @@ class GroupPlan {
     bool is_scene = false;
     struct Member {
       Node* group;
-      double count;  // its copies in one of these
+      double count;  // the number of its copies in one of these nodes
     };
     std::vector<Member> members;
     double own = 0;       // its own shapes and meshes, …

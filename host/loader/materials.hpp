@@ -24,7 +24,8 @@ class Materials {
   // The index in Scene::materials of one that emits this radiance, in front or on both sides, and reflects
   // nothing.
   int emitter(const Vec3& radiance, bool in_front);
-  // Reports where a scene that is otherwise whole has too many of them, or some that are unused.
+  // Reports too many materials that light passes through, and unused ones, in a scene that is otherwise
+  // whole.
   void check() const;
 
  private:

@@ -21,7 +21,7 @@ class MeshImports {
  public:
   // Names in one of `sources` (the scene, first, and its includes) are relative to the folder of the file
   // that they stand in. Names that stand in no file (an override) are relative to the scene's. `trees`:
-  // folders for the files that mesh files name.
+  // folder trees that may contain the files that mesh files name.
   MeshImports(const AllowedFolders& folders, std::vector<std::filesystem::path> trees,
               std::vector<std::filesystem::path> sources, image::PixelBudget& budget)
       : folders_(&folders), trees_(std::move(trees)), sources_(std::move(sources)), budget_(budget) {}

@@ -19,7 +19,7 @@ toml::array list(const Vec3& v) {
   return toml::array{v.x, v.y, v.z};
 }
 
-// More vertices than these are framed by the boxes of their meshes.
+// If there are more vertices, the boxes of their meshes are framed instead.
 constexpr size_t most_points = 4'000'000;
 
 // Calls visit(p) for points in the world that span all instances.

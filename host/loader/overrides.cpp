@@ -60,7 +60,7 @@ class Assignment {
  private:
   void fail(std::string message) { log_.error(at_, std::move(message)); }
 
-  // The override reads as if the text's value stood in a file, all in one line.
+  // Parses as if the text's value stood at its position in a file, all of it in one line.
   toml::table parse_in_place(const std::string& text) const {
     const size_t value = text.find('=') + 1;
     const auto lines = size_t(std::max(0, value_at_.line - 1));

@@ -1,4 +1,4 @@
-// The frame of each of our programs around its command line.
+// The parts that all our programs share around their command lines.
 #pragma once
 
 #include <functional>

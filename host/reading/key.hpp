@@ -50,7 +50,7 @@ struct Key {
   std::span<const std::string_view> choices = {};
   bool optional = false;       // may be absent without a default: check has()
   bool below_max = false;      // the maximum itself is out of range
-  std::string_view hint = {};  // of a choice: for a value that is none and that nothing is near to
+  std::string_view hint = {};  // of a choice: for a value that is none of the choices, and near to none
 };
 
 // Describes a value of this key, for messages and the manual: "an integer from 1 to 65536", "a number above
