@@ -62,7 +62,7 @@ class Judge {
   }
 
   // Looks into the pixels that differ, some hundreds at a time, spread over the picture: those of each gate
-  // until that has failed, independent of other findings.
+  // until that gate has failed, whatever the others find.
   void explain(const Reference& around) {
     const size_t parts = of_outcome(Outcome::unexamined, true).size() / examined_at_once + 1;
     for (size_t part = 0; part < parts; ++part) {

@@ -106,8 +106,8 @@ bool bounds_hold(std::span<const Neighbour> neighbours, const FirstHit& value, c
   if (!found) return false;
 
   if (value.primitive < 0) return std::isinf(value.t) && value.t > 0;
-  // Towards a rim all run like a square root: they may lie as far beyond the last point as the points are
-  // apart.
+  // Towards a rim all these values run like a square root: they may lie as far beyond the neighbours' range
+  // as that is wide.
   const double beyond = silhouette ? 1 : 0;
   return t.hold(glm::dvec1(value.t), tolerance, beyond) && position.hold(value.position, tolerance, beyond) &&
          normal.hold(value.normal, tolerances.normal, beyond) &&

@@ -1,5 +1,5 @@
 // A pixel may differ from the reference where the reference itself jumps. It is rendered again at points up
-// to 0.004 pixels away, and a value within the range of those is explained.
+// to 0.004 pixels away, and a value within the range of the results is explained.
 #pragma once
 
 #include <functional>
@@ -20,9 +20,9 @@ struct Neighbour {
     Counts counts{0.0};
   };
   std::vector<Sample> samples = {{}};
-  // The same number of variants of each sample, one after the other. Rays start as far off surfaces, and
-  // displaced sideways as far, as float32 may put them, or take the darkest or the brightest texel that near.
-  // May be empty.
+  // The same number of variants of each sample, one after the other. In them, rays start as far off surfaces,
+  // and displaced sideways as far, as float32 may put them, or take the darkest or the brightest value of a
+  // texture that near. May be empty.
   std::vector<Sample> rounded;
   uint64_t first_surfaces = 0;  // a fingerprint of the primitives that the samples' camera rays hit
   uint64_t first_colors = 0;    // a fingerprint of the surface's own colour where each hits it
@@ -45,7 +45,8 @@ struct PathReference {
   int variants = 1;
   std::function<double(Pixel pixel)> rounding;  // Neighbour's
   std::function<std::string(uint32_t event)> describe;
-  // Samples of the same number gather the same photons within this of their points; 0: none do.
+  // Samples of the same number gather the same photons within this distance of the points that they show; 0:
+  // none do.
   double shared = 0;
 };
 

@@ -40,7 +40,7 @@ Vec3 rgb_from_ycxcz(const Vec3& ycxcz) {
   return rgb_from_xyz * (white * Vec3(y + ycxcz.y / 500, y, y - ycxcz.z / 200));
 }
 
-// The cube root of a positive number, exact to the last bits: three of Halley's steps from a guess by the
+// The cube root of a positive number, accurate to its last bits: three of Halley's steps from a guess by the
 // exponent's third. It takes half the time of std::cbrt, which took a sixth of FLIP's time.
 double cube_root(double x) {
   double root = std::bit_cast<double>(std::bit_cast<uint64_t>(x) / 3 + 0x2a9f7893782da1ce);

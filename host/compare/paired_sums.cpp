@@ -32,7 +32,7 @@ Sums sums_of(const Frame& value, const Frame& reference, const Rect& tile) {
 }
 
 // The largest number of the tile's pixels that show a point within that distance of the point of one of them.
-// All pixels are counted, or an even selection of many: neighbours have nearly equal numbers.
+// That one is each pixel in turn, or one of an even selection of many: neighbours have nearly equal numbers.
 double most_near(const Frame& frame, const Rect& tile, double distance) {
   constexpr int sampled_along = 16;
   std::vector<Vec3> places;

@@ -16,17 +16,17 @@ struct PairedSum {
 };
 
 inline constexpr int paired_tile = 8;  // pixels
-// The share of Σ|reference| that rounding may add up to. All rays that leave a surface near an area light may
-// start nearer to it, or farther away, by 24 ε of the eye's distance (docs/numerics.md).
+// The share of Σ|reference| that rounding may add up to. The rays that leave a surface near an area light may
+// all start nearer to it, or all farther away, by 24 ε of the eye's distance (docs/numerics.md).
 inline constexpr double paired_rounding = 5e-5;
 inline constexpr double paired_false_alarms = 1e-3;  // of all sums of a picture together, at most
 
-// The sum that is farthest beyond its limit, or nearest to it. The limit is rounding and √(2 ln(2 n / a)) √(m
-// Σ(value − reference)²), for n sums and the rate of false alarms a. It holds for differences that are
-// symmetric around zero, whatever their distribution (Hoeffding 1963, on the signs alone), if at most m of
-// them have one cause and so one sign (Cauchy and Schwarz). This m is 1, unless samples of the same number
-// share everything within `shared` of the points that their pixels show, as photons do. Then m is the number
-// of pixels, of a tile or of all, that lie so near to one of them.
+// The sum that is farthest beyond its limit, or nearest to it. The limit is the share for rounding plus
+// √(2 ln(2 n / a)) √(m Σ(value − reference)²), for n sums and the rate of false alarms a. It holds for
+// differences that are symmetric around zero, whatever their distribution (Hoeffding 1963, on the signs
+// alone), if at most m of them have one cause and so one sign (Cauchy and Schwarz). This m is 1, unless
+// samples of the same number share everything within `shared` of the points that their pixels show, as
+// photons do. Then m is the largest number of pixels, of a tile or of all, that lie so near to one of them.
 PairedSum worst_paired_sum(const Frame& value, const Frame& reference, double shared = 0);
 
 }  // namespace eyeray::engine::compare

@@ -1,4 +1,5 @@
-// Values that are wrong in any comparison. The raw floats are checked, before anything else.
+// Values that are wrong by themselves, without any comparison. The raw floats are checked, before anything
+// else.
 #pragma once
 
 #include "host/compare/frame.hpp"

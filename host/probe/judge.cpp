@@ -47,7 +47,7 @@ class Judge {
     for (size_t i = 0; i < executors.size(); ++i) (is_exact(i) ? exact_ : reference_).push_back(i);
   }
 
-  // True if anything is beyond tolerance, the surroundings not yet known.
+  // True if anything is beyond tolerance of the reference at the pixel itself.
   bool any_beyond() const {
     return std::ranges::any_of(overlay_.rays(), [&](const Ray& ray) {
       return misses(ray) || std::ranges::any_of(ray.lines, [&](const Line& line) {
@@ -96,8 +96,8 @@ class Judge {
     return line ? reference(*line) : nullptr;
   }
 
-  // By how much a coordinate may be off, along this ray and where it comes from. As compare::t_tolerance;
-  // from a surface rays start up to eight times as far off as that is uncertain (geometry/ray.glsl).
+  // The tolerance of a coordinate along this ray and at its origin: compare::t_tolerance. Rays start up to
+  // eight times as far off a surface as its position is uncertain (geometry/ray.glsl).
   double coordinate_tolerance(const Ray& ray) const {
     double reach = 0, t_scale = 0;
     for (const char* point : {"origin", "position", "first_hit_position"})
@@ -130,7 +130,7 @@ class Judge {
   }
 
   // True if the hit of this ray, or of one before it, is another primitive somewhere around the pixel. There
-  // all runs like a square root, and may lie as far beyond the samples as those are apart.
+  // all values run like a square root, and may lie as far beyond the range around the pixel as it is wide.
   bool at_rim(const Ray& ray) const {
     for (const Ray* at = &ray; at->kind != RayKind::pixel; at = &overlay_.rays()[at->parent]) {
       const Line* const primitive = find_line(*at, "primitive");
@@ -140,7 +140,8 @@ class Judge {
     return false;
   }
 
-  // True if executor i's value is not the reference's: within tolerance, or `around` the pixel.
+  // True if executor i's value is neither the reference's within tolerance nor, if `around`, within tolerance
+  // of the reference's range around the pixel.
   bool beyond(const Ray& ray, const Line& line, size_t i, bool around) const {
     const ProbedValue* const other = reference(line);
     if (!other || !line.values[i]) return false;

@@ -52,9 +52,9 @@ class Overlay {
  public:
   explicit Overlay(size_t executors);
 
-  // The tree of an executor; all of them come before those around.
+  // Adds the tree of an executor. All these trees must come before those of add_around.
   void add(size_t executor, const RayTree& tree);
-  // The reference's at the pixel, and at a point around it.
+  // Adds a tree of the reference, at the pixel or at a point around it.
   void add_around(const RayTree& tree);
 
   // The pixel first, each ray after its parent.

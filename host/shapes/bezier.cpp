@@ -145,8 +145,8 @@ class Bezier final : public Shape {
   }
 
  private:
-  // The normal. If the derivatives are parallel, as where an edge is one point, it is the normal next to it
-  // towards the middle.
+  // The normal at a point. If the derivatives are parallel there, as where an edge is one point, the normal
+  // is that of a point next to it, towards the middle.
   Vec3 normal(const BezierPoint& at, const Vec2& uv) const {
     Vec3 n = glm::cross(at.along_u, at.along_v);
     const double size = glm::dot(at.along_u, at.along_u) + glm::dot(at.along_v, at.along_v);

@@ -76,7 +76,7 @@ class Search {
       const Vec2 before = part.range.to - part.range.from;
       if (!clip(part, 0) || !clip(part, 1)) continue;
       const Vec2 size = part.range.to - part.range.from;
-      // A search that takes so long grazes, and is as precise as that allows.
+      // If the search takes so long, the ray grazes the patch, and the hit is as precise as that allows.
       const double blur = cuts < many_cuts ? 1 : 1e4;
       if (std::max(size.x, size.y) > small * blur && extent(part) > room_ * blur) {
         // If clipping gains little, the ray may hit the piece several times.
@@ -119,7 +119,7 @@ class Search {
     return magnitude(high - low);
   }
 
-  // Cuts off, on either side along `axis`, the part the ray cannot hit. True if anything is left.
+  // Cuts off, on either side along `axis`, the part that the ray cannot hit. True if anything is left.
   bool clip(Part& part, int axis) const {
     // Distances from a line through the ray, along which the other parameter grows.
     const BezierNet& p = part.net;

@@ -83,9 +83,9 @@ Bend bend(const BezierNet& net) {
     result.along_u = std::max(result.along_u, magnitude(spread(by_u[i])));
     result.along_v = std::max(result.along_v, magnitude(spread(by_v[i])));
   }
-  // The variation of each derivative along the other parameter, in units of the derivative by u, is as long
-  // as the piece is along v, and vice versa. A piece next to an edge that is one point does not improve if
-  // halved along u.
+  // The variation of each derivative along the other parameter, in units of the derivative by u, is
+  // proportional to the length of the piece along v, and vice versa. So halving along u does not improve a
+  // piece next to an edge that is one point.
   const bool u_is_shorter = glm::length(middle.along_u) < glm::length(middle.along_v);
   for (size_t k = 0; k < 3; ++k) {
     for (const auto& derivative : {std::array{by_u[0][k], by_u[1][k], by_u[2][k], by_u[3][k]},

@@ -153,7 +153,7 @@ ShapeForm Csg::form() const {
   return form;
 }
 
-// Takes up nodes of the same operation, and is no more than an only operand.
+// Merges operands of the same operation into the node. If there is only one operand, returns it.
 Csg::Node Csg::node_of(bool all, std::vector<Node> operands) {
   Node node{false, 0, all, {}};
   for (Node& operand : operands) {
@@ -178,7 +178,7 @@ Csg::Node Csg::node_of_operand(size_t i, bool complement) const {
   return {true, parts_[i][0], false, {}};
 }
 
-// By De Morgan: complements stand at leaves, as their own flag has it.
+// By De Morgan's laws, complements are only at leaves, whose `removed` marks them.
 Csg::Node Csg::node(bool complement) const {
   std::vector<Node> operands;
   for (size_t i = 0; i < operands_.size(); ++i) operands.push_back(node_of_operand(i, complement));
@@ -227,8 +227,8 @@ void Csg::pack(records::Packer& packer) const {
   packer.add_vertices(nodes);
   packer.add_vertices(leaves);
 
-  // Each crossing takes one iteration over all leaves; most leaves are crossed twice. Before, each leaf is
-  // read and intersected.
+  // Each crossing takes one pass over all leaves; most leaves are crossed twice. Before the first, the box of
+  // each leaf is tested, and each leaf is queried.
   packer.add_iterations((2 * leaves_.size() + 1) * (leaves_.size() + nodes.size() + 2) + 2 * leaves_.size());
   const auto [center, half] = center_and_half(bounds());
   packer.add(records::Packer::primitive(shader::KIND_csg, material, records::to_vec4(packer.relative(center)),

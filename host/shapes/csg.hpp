@@ -65,7 +65,7 @@ class Csg final : public Shape {
     double radius;
   };
   std::vector<Ball> balls_;                   // around the operands, removed ones last
-  std::vector<std::vector<uint32_t>> parts_;  // by operand, removed ones last: their parts here
+  std::vector<std::vector<uint32_t>> parts_;  // by operand, removed ones last: the numbers of its parts here
 };
 
 }  // namespace eyeray::engine::shapes

@@ -1,4 +1,4 @@
-// The cube from −1 to 1 in object space: a box, or a cut of another shape. In the shaders it is
+// The cube from −1 to 1 in object space: a box, or the cube that cuts another shape. In the shaders it is
 // geometry/cube.glsl.
 #pragma once
 

@@ -22,7 +22,7 @@ constexpr double least_width = 1e-14;
 // The search gives up after so many values: along a surface that is flat on the ray, none ends.
 constexpr int most_values = 400000;
 
-// ShadingData through a segment, from its start on.
+// Searches a segment, from its start on, by a bound of f's slope.
 class LipschitzSearch {
  public:
   // `rate`: how fast f can change along the ray; `unit`: by how much a length of 1 changes the ray's
@@ -80,7 +80,7 @@ class SeriesSearch {
     for (const double v : values) size = std::max(size, std::fabs(v));
     largest_ = std::max(largest_, size);
 
-    // Nothing, or the answer by the signs at the ends, where the series knows.
+    // No change, or one if the signs at the ends differ, where the series decides.
     const ChebyshevSeries series(values);
     const bool ends = series.ends(1e-10 * size + 1e-14 * largest_);
     const bool narrow = (to - from) / unit_ < least_gap;

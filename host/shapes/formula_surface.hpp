@@ -15,11 +15,11 @@ class FormulaSurface {
   double value(const Vec3& q) const;
   // By differences of the fourth order, steps of 1e-4.
   Vec3 gradient(const Vec3& q) const;
-  // The first point from `start` to `end` at which the sign is another than at `start`. Between two points no
-  // more than the stretch that the values there clear of roots, by the Lipschitz constant, is left out; so
-  // none is passed by, but pairs of roots closer than 1e-8. Where there is no such constant, Chebyshev series
-  // replace it. Its steps end too, so that the search ends for any function: then `iteration_limit`, and
-  // there is no change up to s.
+  // The first point from `start` to `end` at which the sign is another than at `start`. By the Lipschitz
+  // constant, the values at two points exclude roots on a stretch between them, and only such stretches are
+  // left out. So no change is missed, except pairs of roots closer than 1e-8. Where there is no such
+  // constant, Chebyshev series replace it. The number of steps is limited, so that the search ends for any
+  // function. At the limit `iteration_limit` is set, and there is no change up to s.
   struct Change {
     double s;
     double beyond;  // a point past it that has the other sign

@@ -145,9 +145,9 @@ class Implicit final : public ObjectShape {
   static constexpr int most_crossed = 1000;
   static constexpr size_t typical_steps = 96;  // of a ray in the shaders
 
-  // The surface's, and the cube's faces where they are within it; v shows if the ray comes in. Each is
-  // sought from where f has the other sign for certain, so that they alternate. Where the search gives up, as
-  // after too many, the ray is within from there on, or without.
+  // Crossings of the surface, and of the cube's faces where they are within it; v is 1 if the ray enters.
+  // Each is sought from where f has the other sign for certain, so that they alternate. Where the search
+  // gives up, as after too many, the ray is within from there on, or without.
   Crossings crossings(const Ray& ray) const override {
     Crossings all;
     const auto span = cube::span(ray);

@@ -107,7 +107,7 @@ Form in_cube(const QuadricValues& values, const Vec3& min, const Vec3& max) {
   return form;
 }
 
-// 1 if f is surely above 0 in the whole cube, −1 if below, else 0. Decides all quadrics without products.
+// 1 if f is surely above 0 in the whole cube, −1 if surely below, else 0. Exact for f without products.
 int sign_in_cube(const Form& form) {
   const QuadricValues& f = form.values;
   const double products = std::fabs(f.product.x) + std::fabs(f.product.y) + std::fabs(f.product.z);

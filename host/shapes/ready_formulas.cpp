@@ -104,11 +104,10 @@ double steepest_distance(Parameters) {
 }
 
 // White and Nylander's bulb: z → z⁸ + p, eight times both angles of spherical coordinates about y; they are
-// doubled thrice, by polynomials. It is where |z| ≤ 1 after so many iterations. |z|'s slope has no useful
-// bound:
-// intervals find it. The bounds by min, max and clamp hold in real numbers anyway; intervals learn them from
-// there. Each bound leaves some room: float32 rounds by less, and so never takes the slope of a bound for
-// that of f.
+// doubled thrice, by polynomials. The bulb is where |z| ≤ 1 after so many iterations. |z|'s slope has no
+// useful bound, so intervals find the bulb. The bounds by min, max and clamp hold in real numbers anyway;
+// intervals need them in the text. Each bound leaves some room: float32 rounds by less, and so never takes
+// the slope of a bound for that of f.
 constexpr std::string_view mandelbulb = R"glsl(
 float f(vec3 p) {
   float origin = length(p);

@@ -198,7 +198,7 @@ class RegionCheck {
                     second.start.vertex + 1, first.start.vertex + 1));
   }
 
-  // Two consecutive edges touch only at the vertex between them.
+  // Two consecutive edges may touch only at the vertex between them.
   bool check_turn(const Edge& before, const Edge& after, double room) {
     if (distance(after.to, before.from, before.to) > room &&
         distance(before.from, after.from, after.to) > room)
@@ -207,7 +207,7 @@ class RegionCheck {
                                          after.start.vertex + 1));
   }
 
-  // An outline that neither crosses nor touches another one lies within it with all or none of its vertices.
+  // An outline that neither crosses nor touches another lies within it with all of its vertices or with none.
   bool is_nested() {
     for (size_t k = 1; k < flat_.size(); ++k) {
       if (winding(flat_[0], flat_[k][0]) == 0)

@@ -1,5 +1,5 @@
-// Stretches of one ray's line, and their parts in sets of points: lists of Spans in order, none touching
-// another. Where two crossings are at the same t, the rest of them is that of the lower part.
+// Operations on sets of points, by their stretches of one ray's line: lists of Spans in order, none touching
+// another. Where two crossings are at the same t, the one that remains is that of the lower part.
 #pragma once
 
 #include <vector>

@@ -144,7 +144,7 @@ class Image final : public Texture {
 };
 
 TexturePtr parse(TableReader& table) {
-  if (table.failed()) return nullptr;  // a fault of the file would hide one here
+  if (table.failed()) return nullptr;  // an error of the file would hide those found here
   const auto [wrap_u, wrap_v] = table.choice2("wrap");
   ImageTexture wanted;
   wanted.name = table.string("image");

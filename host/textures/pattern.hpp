@@ -33,7 +33,7 @@ constexpr Key colors_key(std::string_view fallback) {
 
 class Pattern : public Texture {
  public:
-  // `parameters`: as in the .glsl.
+  // `parameters`: as the pattern's .glsl defines them.
   Pattern(const TableReader& table, uint32_t kind, const Vec4& parameters = Vec4(0));
 
   Vec3 at(const TextureContext& place) const final;

@@ -12,8 +12,7 @@ namespace fs = std::filesystem;
 namespace eyeray::engine::verify {
 namespace {
 
-// The words that this process was started with, as a shell takes them.
-// The command as a shell runs it, in any folder.
+// The command that this process was started with, as a shell runs it from any folder.
 std::string own_command_line() {
   const std::vector<std::string> words = own_command();
   std::string line = fmt::format("cd {} && {}", shell_word(fs::current_path().string()),

@@ -1,4 +1,4 @@
-// The files a failed comparison leaves behind, so that it can be looked into.
+// The files that a failed comparison leaves behind, so that it can be looked into.
 #pragma once
 
 #include <filesystem>

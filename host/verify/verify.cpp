@@ -119,7 +119,7 @@ void name_hits(const Scene& scene, compare::Report& report) {
   }
 }
 
-// Draws gate R's picture to compare with, on the device that renders.
+// Draws the triangles that gate R compares with, on the device that renders.
 std::optional<raster::Witness> draw(const Scene& scene, const Rect& area, const Options& options) {
   if (!options.raster) return std::nullopt;
   return std::make_optional<raster::Witness>(scene, area,

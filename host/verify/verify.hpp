@@ -24,7 +24,7 @@ struct Options {
   std::optional<double> max_explained;                     // instead of the scene's
   int64_t ulp = 0;                                         // the bound of gate A
   bool raster = false;                                     // compare with the rasteriser, too: gate R
-  // Gets the compared frames, at last: as Page::add. May be empty.
+  // Called at the end with the compared frames, as Page::add is. May be empty.
   std::function<void(const compare::Report&, std::span<const compare::Frame>,
                      std::span<const std::vector<compare::PixelOutcome>>)>
       witness;
