@@ -174,7 +174,8 @@ class PathJudge {
     sample.cause = moved ? around.cause(color, tolerances_) : Cause::rounding;
   }
 
-  // Another path: some path of the reference's, nearby, must be the same up to where they part, and there.
+  // If the path diverges, some path of the reference nearby must have the same events, up to and including
+  // the event at which it diverges.
   void judge_diverged(Apart& sample, int angles, bool between) const {
     sample.outcome = Outcome::unexplained;
     const Pixel pixel = pixel_of(sample.sample);

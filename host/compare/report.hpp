@@ -60,7 +60,7 @@ struct GoldenResult {
 };
 
 // Gate D for photons: those that go another way than the reference's, or the same way to other points, which
-// all executors then leave out. Of each the reference has to know by its own rounding.
+// all executors then leave out. The reference must explain each by its own rounding.
 struct PhotonTally {
   int64_t sent = 0;
   int64_t diverged = 0;

@@ -15,7 +15,8 @@ struct GgxAlbedo {
   double mean_edge;
 };
 
-// Over the microfacets that are seen: of one direction, without means. In [0, 1] both.
+// The albedo of one direction, over the microfacets seen from there, without means. Both arguments are in
+// [0, 1].
 GgxAlbedo ggx_albedo_integral(double cosine, double roughness);
 // The albedos of `places` directions, in even steps of √cosine from 0 to 1, with means.
 std::vector<GgxAlbedo> ggx_albedo_row(int places, double roughness);
