@@ -52,9 +52,9 @@ inline float uintBitsToFloat(uint x) { return __builtin_bit_cast(float, x); }
 #endif
 
 // PROBE shows a value to `eyeray probe`, as a line `name = value` of the ray that is traced: a float, int, uint, bool or vector of
-// floats. It may stand wherever a statement may. PROBE_RAY: the values below belong to a new ray (records.h, RAY_…), of a shadow ray with
-// its light's number, after so many reflections and refractions. PROBE_BACK: to the last one there again, with NONE to the pixel.
-// Where nobody looks nothing is left of them; kernels/probe.glsl and the twin define them otherwise.
+// floats. It may stand wherever a statement may. PROBE_RAY: the values after it belong to a new ray (records.h, RAY_…), of a shadow ray
+// with its light's number, after so many reflections and refractions. PROBE_BACK: to the last one there again, with NONE to the pixel.
+// Without a probe nothing is left of them; kernels/probe.glsl and the twin define them otherwise.
 #ifndef PROBE
 #define PROBE(name, value)
 #define PROBE_RAY(kind, number, depth)

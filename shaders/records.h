@@ -100,7 +100,7 @@ INLINE Primitive primitive_of(uvec4 head, vec4 a, vec4 b, vec4 c) {
 // A node is two children. Quantised, a child is 16 bytes, its planes integers: lower | upper << 16 for x, y and z, then its reference;
 // else it is 32: lower.xyz as floats, its reference, upper.xyz, -.
 // A node of kernels/cooperative/bvh4.comp.glsl is four quantised children, one of kernels/cooperative/packet.glsl as many as a subgroup has lanes; those that are not there
-// are NONE.
+// refer to NONE.
 // A child refers to a node, to 1 … 8 primitives, LEAF | slot << 3 | count − 1, or to an instance, INSTANCE_LEAF | index.
 struct Bvh {
   vec3 origin;  // a plane at q stands at origin + q · step

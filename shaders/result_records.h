@@ -103,8 +103,8 @@ struct PathState {
   uint unused;
 };
 
-// A value of a pixel's rays that a probe records, 32 bytes. `name` of the first record of the buffer is the number of records if all had
-// room.
+// A value of a pixel's rays that a probe records, 32 bytes. `name` of the buffer's first record is the number that there would be if all
+// had room.
 struct ProbeRecord {
   uint name;  // PROBED_name (features.h), or PROBE_OPENS_RAY, PROBE_RETURNS
   uint line;  // of the shader's file

@@ -1,4 +1,4 @@
-// The directional albedo of GGX: the share of light reflected by a rough mirror that no other microfacet blocks. From a table
+// The directional albedo of GGX: the share of light that a rough mirror reflects and no other microfacet blocks. From a table
 // (host/optics/ggx_albedo.hpp), which is smooth in √cosine and roughness.
 #ifndef GGX_ALBEDO_GLSL
 #define GGX_ALBEDO_GLSL
@@ -7,8 +7,8 @@
 
 SHADER_BEGIN
 
-// .x: the loss of a perfect mirror by other microfacets, since float32 cannot distinguish a smooth one's albedo from 1. `.y`: its albedo
-// weighted by Schlick's (1 − cosine)⁵ at the microfacets; .z and .w: means of both over the half sphere, by cosine.
+// `.x`: the loss of a perfect mirror by other microfacets, since float32 cannot distinguish a smooth one's albedo from 1. `.y`: its albedo
+// weighted by Schlick's (1 − cosine)⁵ at the microfacets. `.z`, `.w`: means of both over the half sphere, by cosine.
 vec4 ggx_albedo(float cosine, float roughness) { return albedo_between(0u, GGX_ALBEDOS, cosine, roughness); }
 
 // The total reflection of a glossy layer, including light reflected between its microfacets (Kulla and Conty, "Revisiting Physically

@@ -1,5 +1,5 @@
-// A rough mirror: light that its microfacets reflect at each other before it leaves, which is even. Kulla and Conty, "Revisiting Physically
-// Based Shading at Imageworks" (SIGGRAPH 2017).
+// A rough mirror: light that leaves it evenly, after its microfacets have reflected it at each other. Kulla and Conty,
+// "Revisiting Physically Based Shading at Imageworks" (SIGGRAPH 2017).
 #ifndef MULTIPLE_GLSL
 #define MULTIPLE_GLSL
 #include "bsdf/bsdf_record.glsl"

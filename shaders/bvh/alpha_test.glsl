@@ -1,5 +1,5 @@
-// There is no surface where a material's alpha is below its cutoff, or on the back of a one-sided one: the search goes on. A ray hits a surface
-// of alpha_mode "blend" with a probability of its alpha (Enderton et al., "Stochastic Transparency", I3D 2010).
+// There is no surface where a material's alpha is below its cutoff, or on the back of a one-sided surface: the search goes on. A ray hits
+// a surface of alpha_mode "blend" with a probability of its alpha (Enderton et al., "Stochastic Transparency", I3D 2010).
 #ifndef ALPHA_TEST_GLSL
 #define ALPHA_TEST_GLSL
 #include "geometry/corners.glsl"

@@ -13,7 +13,7 @@ SHADER_BEGIN
 #define LEAVE_INSTANCE 0xfffffffeu  // waits below the entries that an instance's BVH puts on the stack
 
 // A ray as a BVH's boxes see it: it passes the plane at q at t = q · scale − near (− far, on the way out). Both are off by more
-// than the error of any shape's t. That grows with how far the ray's start and the BVH's boxes reach; and where there are
+// than the error of any shape's t. The error grows with how far the ray's start and the BVH's boxes reach; and where there are
 // instances, with how the maps into and out of them make errors grow.
 struct BoxRay {
   vec3 scale;
@@ -85,7 +85,7 @@ Child load_child(uint node, uint which, BoxRay ray) {
 }
 
 // Distances as the bits of floats. Signed integers order them as floats do where they are not negative. A negative distance, behind
-// the ray, stays below all others. That is all the comparisons here need, and it costs a CPU less.
+// the ray, stays below all that are not. That is all the comparisons here need, and it costs a CPU less.
 int lesser(int a, int b) { return b < a ? b : a; }
 int greater(int a, int b) { return b > a ? b : a; }
 

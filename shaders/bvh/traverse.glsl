@@ -83,7 +83,7 @@ uint optical_depth_of(Primitive primitive, bool is_csg, Ray ray, float t_max, bo
 }
 
 #ifdef SCENE_PRIMITIVES
-// Records a hit if ids come in ascending order: the first of equal ones stays.
+// Records an intersection where ids come in ascending order: of hits at the same t the first stays.
 void record_in_order(INOUT(TraversalState) state, float t, vec2 uv, uint slot, uint id, uint optical_depth, bool any) {
   if (any) {
     record_intersection(state, t, uv, slot, id, NONE, optical_depth, true);
@@ -108,7 +108,7 @@ void record_in_bvh(INOUT(TraversalState) state, float t_shape, vec2 uv, uint slo
 #define INTERSECT_KIND(name, number) \
   if (BVH_HOLDS(number, primitive)) t = name##_intersect(primitive, local.ray, uv);
 
-// One that does not wait.
+// Intersects a shape that does not wait.
 void intersect_slot(INOUT(TraversalState) state, uint slot, LocalRay local, bool any) {
   Primitive primitive = load_primitive(slot);
   vec2 uv = vec2(0.0f, 0.0f);
@@ -139,8 +139,8 @@ bool is_deferred(uint slot) {
   return deferred;
 }
 
-// Traverses the TLAS, and of every instance on the way. A driver that runs both sides of every branch runs a loop's body as often as the ray that
-// needs it most. So a ray that comes to a deferred shape waits there until the other rays have come to one as well, or are done.
+// Traverses the TLAS, and the BVH of every instance on the way. A driver that runs both sides of every branch runs a loop's body as often
+// as the ray that needs it most. So a ray that comes to a deferred shape waits there until the others have come to one too, or are done.
 void traverse(INOUT(TraversalState) state, LocalRay world, bool any) {
   LocalRay local = world;
   BoxRay boxes = box_ray(local.ray, load_bvh(0u));
@@ -150,7 +150,7 @@ void traverse(INOUT(TraversalState) state, LocalRay world, bool any) {
 #if HAS_DEFERRED_SHAPES
     do {
 #endif
-      // Go down to a leaf, nearer child first. Back from an instance or a deferred shapes, a leaf may be next.
+      // Go down to a leaf, nearer child first. Back from an instance or a deferred shape, a leaf may be next.
       if (HAS_INSTANCES + HAS_DEFERRED_SHAPES == 0 || at < LEAF) do {
         COUNT_NODE(state);
         Child a = load_child(at, 0u, boxes);
@@ -167,7 +167,7 @@ void traverse(INOUT(TraversalState) state, LocalRay world, bool any) {
         move_stack(stack, both, !hits_a && !hits_b, swap ? a.refers_to : b.refers_to);
       } while (at < LEAF);
 
-      // Test the primitives of this leaf, and of those that wait on top of the stack. From a deferred one on, the rest of a leaf is one.
+      // Test the primitives of this leaf, and of those that wait on top of the stack. From a deferred one on, the rest is again a leaf.
       if (at < INSTANCE_LEAF) {
         bool waits = false;
         do {

@@ -1,4 +1,4 @@
-// Light from all around, as a picture has it, and points in that chosen by how bright they are. Between the centres of four texels lies
+// Light from all around, as a picture has it, and its points, chosen by how bright they are. Between the centres of four texels lies
 // a cell, in which the density of the chosen points is the same by solid angle (records.h, Environment).
 #ifndef ENVIRONMENT_GLSL
 #define ENVIRONMENT_GLSL
@@ -87,7 +87,7 @@ uint environment_chosen_by(float u, uint first, uint stride, uint count) {
   return low;
 }
 
-// Rows are counted from the nearer pole: the distance to that has all its digits.
+// Rows are counted from the nearer pole: the distance to it has all its digits.
 bool nearer_below(Frame frame, uint row) { return 2u * row > frame.environment_height; }
 
 // The distances of a row's borders from the nearer pole, in rows, the nearer border first.

@@ -1,8 +1,8 @@
 // A corner and the edges from there (emitters/emitter_sample.glsl), at a right angle.
 //
 // Points that are even by solid angle, row by row: Ureña, Fajardo and King, "An Area-Preserving Parametrization for Spherical Rectangles"
-// (EGSR 2013). Here without its angles and arc cosines, of which float32 keeps three digits if it is seen edge-on. In the rectangle's own
-// space, the point in the middle, a strip lies between y0 and y1 and beyond x, on to infinity. Its solid angle T is that of a
+// (EGSR 2013). Here without its angles and arc cosines, of which float32 keeps three digits for a rectangle seen edge-on. In its
+// own space, the point in the middle, a strip lies between y0 and y1 and beyond x, on to infinity. Its solid angle T is that of a
 // triangle with one corner at the end of the x axis. Solved for x, with γ the angles of y0 and y1 to the y axis and λ = γ0 − γ1:
 //   x / z = sin(λ − T) / (2 √(sin(T/2) sin(λ − T/2) sin(γ1 + T/2) sin(γ0 − T/2))).
 // Strips beyond both ends are measured, and the lesser one followed: nothing cancels.
@@ -15,8 +15,8 @@ SHADER_BEGIN
 float rectangle_width(Emitter e) { return e.b.w; }  // the lengths of the edges
 float rectangle_height(Emitter e) { return e.c.w; }
 
-// Under a smaller solid angle it is sampled by area, which is then as uniform: a small one far off the axis would lose digits to its
-// distance.
+// Seen under a smaller solid angle, a rectangle is sampled by area, which is then as even: a small one far to one side would lose digits
+// to its distance.
 #define LEAST_SPHERICAL_RECTANGLE 0.01f
 
 struct SphericalRectangle {

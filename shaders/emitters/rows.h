@@ -1,4 +1,4 @@
-// Every kind of surface that a point can choose a point on to be lit from; see shapes/rows.h. A row states whether such a surface may
+// Every kind of surface on which a lit point can choose a point that lights it; see shapes/rows.h. A row states whether such a surface may
 // light itself, as the inside of a sphere does.
 #ifndef EMITTERS
 #define EMITTERS(X)       \

@@ -1,4 +1,4 @@
-// Planes have no edges, and cut all objects that they pass through: a spawned ray is kept on its side of each plane.
+// Planes have no edges, and cut all objects that they pass through: a spawned ray stays on the side of each from which its parent came.
 #ifndef CLEAR_OF_PLANES_GLSL
 #define CLEAR_OF_PLANES_GLSL
 #include "geometry/edges.glsl"

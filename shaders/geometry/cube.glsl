@@ -91,7 +91,7 @@ vec3 inward_of_cut(Primitive s, vec3 p, vec3 gradient, float room) {
   return inward;
 }
 
-// Seen from outside u runs to the right and v up; on top up is −z, below +z.
+// Seen from outside u runs to the right and v up. On the top face up is −z, on the bottom +z.
 UvField cube_uv(vec3 p, vec2 face) {
   float u = face.x == 0.0f ? -p.z * face.y : face.x == 1.0f ? p.x : p.x * face.y;
   float v = face.x == 1.0f ? -p.z * face.y : p.y;

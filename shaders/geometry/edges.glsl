@@ -27,9 +27,9 @@ vec2 inner_step(Surface surface, vec2 uv, float room) {
               inside_ends(uv.y, 0.0f, 1.0f, room * sqrt(dot3(surface.v_gradient, surface.v_gradient)))) - uv;
 }
 
-// `inward`, a displacement along a surface, and the rest until value + gradient · displacement ≤ −room · |gradient|: then the start is on
-// the inner side of another surface, and clear of it. It goes along the edge that it has been moved away from before, if any. `n`: the unit normal of the
-// surface itself.
+// `inward`, a displacement along a surface, plus the part missing to value + gradient · displacement ≤ −room · |gradient|: then the start
+// is on the inner side of another surface, and clear of it. That part goes along the edge from which `inward` moves away, if any.
+// `n`: the unit normal of the surface itself.
 vec3 inward_of_face(vec3 inward, vec3 n, float value, vec3 gradient, float room) {
   float squared = dot3(gradient, gradient);
   float missing = (value + dot3(gradient, inward)) + room * sqrt(squared);

@@ -35,8 +35,8 @@ ObjectRay from_nearest(ObjectRay ray) {
 }
 
 // Distances in object space are not the world's, but t and s are. A ray from afar is followed from its point nearest to the centre: values
-// computed from there are as small as the shape, so that nothing cancels. In the world first: the map's error by the direction's
-// rounding does not count on the long way then. `reach`: the farthest that the shape's points are from its centre. Without branches, so that compilers
+// computed from there are as small as the shape, so that nothing cancels. In the world first: then the map's effect on the direction's
+// rounding does not count on the long way. `reach`: the farthest that the shape's points are from its centre. Without branches, so that compilers
 // share the code that all callers need: another kind of leaf of a CSG object, or the same for its next crossing.
 ObjectRay object_ray(Primitive s, Ray ray, float reach) {
   vec3 from_center = ray.o - object_center(s);
@@ -51,8 +51,8 @@ ObjectRay object_ray(Primitive s, Ray ray, float reach) {
   bool is_far = dot3(r.o, r.o) > 4.0f * reach * reach;
   r.t = is_far ? far.t : r.t;
   r.o = is_far ? far.o : r.o;
-  // A ray that passes far from the shape misses before squares overflow. So does a direction so short that its squares are lost; a unit vector's are
-  // not.
+  // A ray that passes far from the shape misses before squares overflow. So does a direction so short that its squares are lost, as no unit
+  // vector's are.
   bool passes = dot3(r.o, r.o) <= 4.0f * reach * reach && dot3(r.d, r.d) >= 1.0e-30f;
   r.o = passes ? r.o : vec3(0.0f, 4.0f * reach, 0.0f);
   r.d = passes ? r.d : vec3(1.0f, 0.0f, 0.0f);

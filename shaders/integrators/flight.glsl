@@ -62,7 +62,7 @@ Flight flight_of(Frame frame, Path path, Hit hit) {
 }
 
 #if HAS_SCATTERING
-// The point of the medium where that ends. Its normals are towards where the ray came from.
+// The point of the medium where the flight ends. Its normals are towards where the ray came from.
 Interaction scattered_at(Path path, Flight flight) {
   Interaction at;
   at.surface = no_surface();
@@ -99,7 +99,7 @@ Interaction first_interaction(Path path, Ray ray, Hit hit, Flight flight, INOUT(
   return interaction_at(ray, hit, path.media, flags);
 }
 
-// For kernels that trace shadow rays alone: the vertex that the path has behind `hit`, if it is `there`; on_surface: whether it has one.
+// For kernels that trace shadow rays alone: the vertex that the path has behind `hit`, if it is `there`; on_surface: whether there is one.
 Interaction vertex_at(Frame frame, Path path, Ray ray, Hit hit, bool there, OUT(bool) on_surface) {
   uint flags = 0u;
   Flight flight = flight_of(frame, path, hit);

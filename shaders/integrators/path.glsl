@@ -51,7 +51,7 @@ bool on_its_side(Interaction at, vec3 d, vec3 i) {
   return on_side;
 }
 
-// The power heuristic of a choice with density p that could also have density q. The ratio is squared: densities may be too large.
+// The power heuristic of a sample of density p that another technique takes with density q. The ratio is squared: densities may be too large.
 float power_heuristic(float p, float q) {
   float ratio = q / p;
   return 1.0f / (1.0f + ratio * ratio);
@@ -98,7 +98,7 @@ vec3 normal_for_lights(Interaction at) {
   return all_around ? vec3(0.0f, 0.0f, 0.0f) : at.seen.normal;
 }
 
-// A light's light at the point: from `direction`, if nothing blocks `ray`.
+// The light that arrives at the point from one light: from `direction`, if nothing blocks `ray`.
 struct Arriving {
   vec3 direction;
   Ray ray;

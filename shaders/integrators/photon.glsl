@@ -26,7 +26,7 @@ float bent_both_ways(Interaction at, vec3 d) {
   return (out_true / maximum(out_bent, 1.0e-6f)) * (in_bent / maximum(in_true, 1.0e-6f));
 }
 
-// Flux is radiance times area times solid angle. So in a medium it is index² times as much as for radiance / index².
+// Flux is radiance times area times solid angle. So in a medium flux is index² times the value that radiance / index² gives.
 float squared_index(uint media) {
   if (HAS_MEDIA == 0) return 1.0f;
   float ior = load_medium(innermost_medium(media)).ior;

@@ -39,7 +39,7 @@ vec3 middle_of(Emitter e) {
   return middle;
 }
 
-// The density of such positions by area. On flat emitters they are chosen from their own plane, and so by area.
+// The density of these start points by area. On flat emitters they are chosen from their own plane, and so by area.
 float density_by_area(Emitter e, vec3 middle, EmitterSample place) {
   vec3 way = place.p - middle;
   float squared = maximum(dot3(way, way), 1.0e-30f);

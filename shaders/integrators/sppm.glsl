@@ -1,6 +1,6 @@
 // Photon mapping, each sample anew (Knaus and Zwicker, "Progressive Photon Mapping: A Probabilistic Approach", TOG 2011): lights emit
 // photons, which are scattered and stored on surfaces. A path goes from the eye, by the sharp part of each BSDF, until the wide part of
-// one ends it. The light that the wide part scatters comes from one light, by a shadow ray, or by two surfaces or more, by photons
+// one ends it. The light that the wide part scatters comes from one light, by a shadow ray, or by way of two surfaces or more, by photons
 // nearby.
 #ifndef SPPM_GLSL
 #define SPPM_GLSL

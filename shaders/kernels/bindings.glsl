@@ -1,6 +1,6 @@
-// The buffers, which the entries share. Those that grow with the scene, and the frame, are texel buffers where TEXEL_BUFFERS is
-// set:
-// a storage buffer's range can be as small as 128 MiB, and a CPU driver loads texels faster.
+// The buffers, which the entries share.
+// Those that grow with the scene, and the frame, are texel buffers where TEXEL_BUFFERS is set: a storage buffer's range can be as small
+// as 128 MiB, and a CPU driver loads texels faster.
 #ifndef BINDINGS_GLSL
 #define BINDINGS_GLSL
 #include "records.h"
@@ -55,7 +55,7 @@ layout(std430, binding = BINDING_PHOTON_PASS) readonly restrict buffer PhotonPas
 layout(std430, binding = BINDING_EMITTER_MEDIA) readonly restrict buffer EmitterMedia { uint emitter_media[]; };
 #ifdef SENDS_PHOTONS
 layout(std430, binding = BINDING_PHOTONS) writeonly restrict buffer Photons { Photon photons[]; };
-// The number of stored items, or of those that would be if all had room.
+// The number of photons stored, or that would be stored if all had room.
 layout(std430, binding = BINDING_NEXT_LIST) restrict buffer NextList { uint next_list[]; };
 #else
 layout(std430, binding = BINDING_PHOTONS) readonly restrict buffer Photons { Photon photons[]; };

@@ -235,7 +235,7 @@
 #define STORED_HITS 0
 #endif
 //   FIRST_HITS            first hits instead of samples
-//   AUXILIARY             the inputs of a denoiser from them (integrators/auxiliary.glsl).
+//   AUXILIARY             the denoiser's inputs from the samples (integrators/auxiliary.glsl).
 //   SENDS_PHOTONS         photons are sent out and stored, where other kernels gather them.
 //   QUERY_ANY             any hit will do
 //   LISTED                the pixels of a list

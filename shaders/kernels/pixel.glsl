@@ -48,7 +48,7 @@ AuxiliaryResult render_auxiliary(Frame frame, uint x, uint y, uint index) {
   return result;
 }
 
-// Through the middle of the pixel, from that of the lens; of surfaces that blend, it hits those of the pixel's first sample.
+// Through the middle of the pixel, from that of the lens; of surfaces that blend, it hits those that the pixel's first sample hits.
 HitResult first_hit(Frame frame, uint x, uint y) {
   vec2 place = vec2(float(x) + 0.5f, float(y) + 0.5f);
   vec2 lens = vec2(0.0f, 0.0f);

@@ -1,4 +1,4 @@
-// Moves a vertex to its projection by the host, in float64, for the triangles of `eyeray verify --raster`.
+// Moves a vertex to the point where the host has projected it, in float64, for the triangles of `eyeray verify --raster`.
 #version 450
 
 layout(location = 0) in vec3 place;

@@ -1,5 +1,5 @@
-// Entry: a tile of the picture. One sample of each pixel, or with LISTED of those in a list; or with FIRST_HITS the hit of the ray through
-// the centre of each, with AUXILIARY the sample's inputs of a denoiser.
+// Entry: a tile of the picture. One sample of each pixel, or with LISTED of those in a list. With FIRST_HITS the hit of the ray through the
+// centre of each. With AUXILIARY the values that a denoiser needs of the sample.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require

@@ -1,4 +1,4 @@
-// The phase function of a medium, by Henyey and Greenstein ("Diffuse Radiation in the Galaxy", Astrophysical Journal 93, 1941), g is
+// The phase function of a medium, by Henyey and Greenstein ("Diffuse Radiation in the Galaxy", Astrophysical Journal 93, 1941); g is
 // the mean cosine of the scattering angle.
 #ifndef PHASE_GLSL
 #define PHASE_GLSL

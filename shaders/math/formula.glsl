@@ -9,7 +9,7 @@ SHADER_BEGIN
 #define NOT_A_NUMBER uintBitsToFloat(0x7fc00000u)
 #define INFINITE uintBitsToFloat(0x7f800000u)
 
-// Turns that the loops of a formula may make in one call, longer ones counting more; none goes on after that (docs/implicit-surfaces.md).
+// Iterations that a formula's loops may take in one call, longer ones counting more; none goes on after that (docs/implicit-surfaces.md).
 #define FORMULA_ITERATIONS 10000u
 
 // One argument.

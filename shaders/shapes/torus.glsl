@@ -58,7 +58,7 @@ float torus_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   since = ray.side == SIDE_UNKNOWN ? begin : start + (ray.after - r.t) / slowness;
 #endif
 
-  // The extrema of the quartic: the roots of its derivative, a cubic. Between them it has one root or none.
+  // The extrema of the quartic: the roots of its derivative, a cubic. Between them the quartic has one root or none.
   float p = k - 2.0f * a;
   float q = 2.0f * b;
   float largest = torus_cubic_root(p, abs(q));

@@ -134,7 +134,7 @@ vec3 triangle_inward(Primitive s, vec3 weights, float room) {
   return up * rise + along * minimum(maximum(slide, m.y), -m.z - rise);
 }
 
-// The values of a vertex behind its normal: u and colour, in vec4.
+// The index, in vec4, of the values that a vertex has behind its normal, u and colour.
 uint beside_normal(uvec4 corners) { return (corners.w & CORNERS_COLORS) != 0u ? 2u : 1u; }
 
 Surface triangle_surface(Primitive s, Ray ray, Hit hit) {

@@ -1,4 +1,4 @@
-// From a texture and a point on a surface to its colour, or its alpha: calls the kind of texture, of those that the scene's materials have.
+// From a texture and a point on a surface to its colour, or its alpha: calls the kind, of those that materials have in that slot.
 #ifndef TEXTURE_GLSL
 #define TEXTURE_GLSL
 #include "materials/rows.h"

@@ -1,6 +1,6 @@
 // Coherent rays, PACKET at a time: the lanes of a subgroup traverse the BVH together, each with several rays. While they are
-// far from anything they may hit, they go as one shaft. Then the lanes test different boxes: of the children of a node, as
-// many as there are lanes (pack/collapse.cpp), or of the primitives of a leaf. Then they are rays again.
+// far from anything they may hit, they go as one shaft. Then it is the lanes that test different boxes: of a node's children, as
+// many as there are lanes (pack/collapse.cpp), or of a leaf's primitives. Only after that are they rays again.
 // A ray has the hit that `search` finds (bvh/traverse.glsl), since neither depends on the order.
 //   ANY   whether any hit will do
 #ifndef PACKET_GLSL
@@ -37,7 +37,7 @@ uint at;        // the next entry
 // A leaf, with a primitive a lane.
 uint first_slot;
 Primitive mine;
-int key;  // the distance along the shaft of its box, and in the last bits the lane; FAR_AWAY if it does not, and once it is tested
+int key;  // the distance along the shaft to its box, and in the last bits the lane; FAR_AWAY if the shaft misses, and once it is tested
 // The pairs of this lane's rays and the leaf's primitives that may hit: bit k of each RAYS_A_LANE bits is ray k, and the bits of lane
 // 0's primitive are lowest.
 uint passing;
@@ -208,7 +208,7 @@ bool any_hits(vec3 lower, vec3 upper) {
   return in_any_lane(any);
 }
 
-// Goes on to the waiting node. Leaves in `key` which primitives of this leaf the shaft hits, if any ray hits the box around them.
+// Goes on to the next waiting node. Leaves in `key` which primitives of this leaf the shaft hits, if any ray hits the box around them.
 void visit_leaf() {
   first_slot = (at & ~LEAF) >> 3u;
   bool there = at != TRAVERSAL_DONE && lane <= (at & 7u);

@@ -65,9 +65,9 @@ Shaft make_shaft(uint major, float z0, float z1, vec2 low0, vec2 low1, vec2 high
 
 int passed_at(Side side, float x) { return floatBitsToInt(x * side.scale + side.shift); }
 
-// The distance along the shaft of its first hit with the box, as the bits of a float; FAR_AWAY if it does not, or only beyond `limit`.
-// lower, upper:
-// from the BVH's origin, not permuted.
+// The distance along the shaft of its first hit with the box, as the bits of a float.
+// FAR_AWAY if it misses the box, or hits it only beyond `limit`.
+// lower, upper: from the BVH's origin, not permuted.
 int entry_of(Shaft shaft, vec3 lower, vec3 upper, int limit) {
   vec3 low = permute(lower, shaft.major);
   vec3 high = permute(upper, shaft.major);

@@ -77,7 +77,7 @@ struct BezierSection {
   float z;
   float slope;  // of z, and of u and v, over w
   vec2 uv_slope;
-  float off;  // squared distance at which it was taken
+  float off;  // squared distance from here to the point where the patch was evaluated
 };
 
 // At w, near (u, v), of the piece `range`. `tilt`: of the ray along w and along the normal; where w begins. Beyond its borders, where the patch may fold,
@@ -102,7 +102,7 @@ BezierSection bezier_section(BezierNet net, vec4 range, vec3 tilt, float w, vec2
   return section;
 }
 
-// The same, if `wanted`, as near as float32 comes to it: each time the distance off counts by its square.
+// The section at w, if `wanted`, as near as float32 comes to it: each iteration squares the distance that it is off.
 BezierSection bezier_settle(BezierNet net, vec4 range, vec3 tilt, float w, vec2 uv, float fine, bool wanted) {
   BezierSection at;
   at.w = w;
@@ -152,7 +152,7 @@ BezierSection bezier_on_arc(BezierSection a, BezierSection b, BezierArc arc, flo
   return at;
 }
 
-// A value is doubted that comes as near to 0 as that, four times over, where it turns or nearly does.
+// An arc is doubted where z turns or nearly does, less than four times the effect of z's next two degrees away from 0.
 BezierArc bezier_arc(BezierSection a, BezierSection b, BezierSection half_way, float grain) {
   BezierArc arc;
   float length = b.w - a.w;
