@@ -264,7 +264,7 @@ struct LightNode {
   float radius;
   vec3 axis;  // that their normals are not far from
   float power;
-  float cos_spread;  // of the largest angle between the two
+  float cos_spread;  // of the largest angle between the axis and a normal
   float cos_reach;   // and of that between a normal and a way that light goes
   uint child;        // its own pair of children; or LEAF | the light, as emitters are counted
   uint both_sides;   // 1 where light also goes along the normals' opposites

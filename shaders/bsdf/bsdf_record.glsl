@@ -34,9 +34,9 @@ struct Bsdf {
   float roughness;         // of layer and metal, of rough glass and of a rough pane
 #if HAS_GLOSSY
   Fresnel layer;           // that light goes through to the diffuse lobe and back
-  float layered;           // the share of the surface that mirrors by it
+  float layered;           // the share of the surface that mirrors by the layer
   Fresnel metal;
-  float metallic;          // the share of the surface that mirrors by that
+  float metallic;          // the share of the surface that mirrors by the metal
   vec4 albedo;             // ggx_albedo towards the viewer
 #endif
 #if HAS_COAT

@@ -5,7 +5,7 @@
 
 SHADER_BEGIN
 
-// Schlick's from f0 at right angles to f90 edge-on, or that of a conductor of index f0 + i f90.
+// Schlick's reflectance from f0 at normal incidence to f90 edge-on, or that of a conductor of index f0 + i f90.
 struct Fresnel {
   vec3 f0;
   vec3 f90;

@@ -42,7 +42,7 @@ Layers layers_towards_viewer(Bsdf bsdf) {
   return left;
 }
 
-// For choosing lobes. A photon's viewer is not known then.
+// The layers for choosing lobes. A photon's viewer is not known then.
 Layers layers_for_choice(Bsdf bsdf) {
   Layers left = layers_towards_viewer(bsdf);
 #if HAS_COAT || HAS_SHEEN
@@ -54,7 +54,7 @@ Layers layers_for_choice(Bsdf bsdf) {
   return left;
 }
 
-// For light from i, or a photon that leaves by i; behind the surface, layers lie on that side.
+// The layers for light from i, or for a photon that leaves by i; behind the surface, layers lie on that side.
 Layers layers_between(Bsdf bsdf, vec3 i) {
 #if HAS_COAT || HAS_SHEEN
   if (bsdf.adjoint) {

@@ -1,5 +1,5 @@
 // A rough pane, infinitely thin: light goes through it without being bent, and is blurred as if mirrored to the other side
-// (KHR_materials_transmission). What its microfacets throw at each other goes through evenly, but for the share that they mirror.
+// (KHR_materials_transmission). Light that its microfacets reflect at each other goes through evenly, but for the mirrored share.
 #ifndef THIN_GLSL
 #define THIN_GLSL
 #include "bsdf/bsdf_record.glsl"

@@ -19,7 +19,7 @@ struct BoxRay {
   vec3 scale;
   vec3 near;
   vec3 far;
-  uvec3 turn;  // by axis: by how many bits to turn a word of two planes so that the one the ray enters by is where coded_plane looks
+  uvec3 turn;  // by axis: the bits by which a word of two planes is rotated so that coded_plane reads the plane of entry
 };
 #define TURN_FORWARD 7u
 #define TURN_BACKWARD 23u  // where the ray runs towards lower coordinates

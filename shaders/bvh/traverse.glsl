@@ -97,7 +97,7 @@ void record_in_order(INOUT(TraversalState) state, float t, vec2 uv, uint slot, u
   }
 }
 #else
-// A primitive of the BVH that `local` is in, whose shape the ray hits at t_shape.
+// Records a primitive of the BVH that `local` is in, whose shape the ray hits at t_shape.
 void record_in_bvh(INOUT(TraversalState) state, float t_shape, vec2 uv, uint slot, Primitive primitive, bool is_csg, LocalRay local, bool any) {
   float t = alpha_test(primitive, id_of(local, primitive), local.instance, local.ray, t_shape, uv);
   uint optical_depth = local.optical_depth;

@@ -9,7 +9,7 @@ float disk_hole(Emitter e) { return e.a.w; }  // the square of its radius, the h
 
 EmitterSample disk_emitter_sample(Emitter e, vec3 from, vec2 u) {
   vec2 at = on_disk(u);
-  // Out of the hole, by which each ring keeps its share of the area.
+  // Move the point out of the hole, so that each ring keeps its share of the area.
   float squared = at.x * at.x + at.y * at.y;
   float hole = disk_hole(e);
   float grow = squared == 0.0f ? 1.0f : sqrt((hole + squared * (1.0f - hole)) / squared);

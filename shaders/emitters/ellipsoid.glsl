@@ -6,7 +6,7 @@
 
 SHADER_BEGIN
 
-// There, a sphere.
+// The ellipsoid in object space: a sphere.
 Primitive unit_sphere() {
   return primitive_of(uvec4(0u, 0u, 0u, 0u), vec4(0.0f, 0.0f, 0.0f, 1.0f), vec4(0.0f, 1.0f, 0.0f, 0.0f), vec4(1.0f, 0.0f, 0.0f, 1.0f));
 }
@@ -24,13 +24,13 @@ EmitterSample ellipsoid_emitter_sample(Emitter e, vec3 from, vec2 u) {
 float ellipsoid_emitter_density(Emitter e, vec3 from, EmitterSample place) {
   ObjectMap map = object_map(e);
   vec3 from_there = map_into_object(map, from - map.center);
-  // Outside, solid angles there and here.
+  // From outside: solid angles in object space and in the world.
   vec3 direction = normalize3(place.p - from);
   vec3 stretched = map_into_object(map, direction);
   float squared = dot3(stretched, stretched);
   float cone = 1.0f / (2.0f * PI * versine(1.0f / dot3(from_there, from_there)));
   float by_angle = cone / (abs(map.volume) * (squared * sqrt(squared)));
-  // Inside, areas.
+  // From inside: areas.
   vec3 image = map_normal(map, normal_in_object(map, place.normal));
   float by_area = density_of_area(4.0f * PI * sqrt(dot3(image, image)), from, place);
   return sphere_is_seen_from_outside(unit_sphere(), from_there) ? by_angle : by_area;

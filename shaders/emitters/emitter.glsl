@@ -19,7 +19,7 @@ EmitterSample sample_emitter(Emitter e, vec3 from, vec2 u) {
   return place;
 }
 
-// By solid angle at `from`, that sample_emitter chooses `place`.
+// The density, by solid angle at `from`, with which sample_emitter chooses `place`.
 float emitter_density(Emitter e, vec3 from, EmitterSample place) {
   float density = 0.0f;
 #define DENSITY_OF_EMITTER(name, number, itself) \

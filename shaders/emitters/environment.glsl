@@ -45,7 +45,7 @@ vec3 environment_radiance(Frame frame, vec3 d) {
   return upper + (lower - upper) * at.down;
 }
 
-// The numbers of 2^24 that choose a cell of its row, or a row: from where those before end.
+// The numbers, of 2^24, that choose a cell of its row, or a row. They begin where those before end.
 struct Stretch {
   uint begin;
   uint end;
@@ -98,7 +98,7 @@ vec2 environment_borders(Frame frame, uint row) {
 
 float half_angle_per_row(Frame frame) { return 0.5f * PI / float(frame.environment_height); }
 
-// By solid angle, of directions in that cell.
+// The density, by solid angle, of directions in that cell.
 float environment_cell_density(Frame frame, uint column, uint row) {
   vec2 borders = environment_borders(frame, row);
   // The difference of two cosines, as a product: it does not cancel.

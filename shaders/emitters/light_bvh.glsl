@@ -50,7 +50,7 @@ float light_node_importance(LightNode node, vec3 p, vec3 n) {
   return inside ? near : shines ? near * cosines : 0.0f;
 }
 
-// By `number` of the `count` that choose the BVH.
+// Picks a light by `number`, one of the `count` that choose the BVH.
 LightPick pick_by_light_bvh(vec3 p, vec3 n, uint number, uint count) {
   LightPick pick;
   pick.light = NONE;

@@ -6,10 +6,10 @@
 
 SHADER_BEGIN
 
-// Such that it brings as much as the light without an angle, π times its intensity.
+// The radiance at which it brings as much light as one without an angle: π times its intensity.
 vec3 disk_radiance(LightSample light) { return light.color / (light.versine * (2.0f - light.versine)); }
 
-// By solid angle, the same in all of it.
+// The density by solid angle, the same in all of the disk.
 float disk_density(LightSample light) { return 1.0f / (2.0f * PI * light.versine); }
 
 vec3 disk_direction(LightSample light, vec2 u) {

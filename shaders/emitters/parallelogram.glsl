@@ -1,4 +1,4 @@
-// A corner and the edges from there (emitters/emitter_sample.glsl), at no right angle: emitters/rectangle.glsl
+// A corner and the edges from there (emitters/emitter_sample.glsl), at no right angle (for that: emitters/rectangle.glsl)
 #ifndef EMITTER_PARALLELOGRAM_GLSL
 #define EMITTER_PARALLELOGRAM_GLSL
 #include "emitters/spherical_triangle.glsl"

@@ -62,7 +62,7 @@ ObjectRay object_ray(Primitive s, Ray ray, float reach) {
 
 vec3 at_hit(ObjectRay ray, Hit hit) { return ray.o + ray.d * (hit.t - ray.t); }
 
-// Around all points up to `extent` from the centre of object space along its axes.
+// The box around all points up to `extent` from the centre of object space along its axes.
 void object_box(Primitive s, vec3 extent, OUT(vec3) lower, OUT(vec3) upper) {
   vec4 x = bits_to_floats(load_vertex(s.extra));
   vec4 y = bits_to_floats(load_vertex(s.extra + 1u));

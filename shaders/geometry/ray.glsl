@@ -18,7 +18,7 @@ struct Ray {
   float reach;   // how far the coordinates reach that the ray was mapped from, in the space that it is in now; 0 in the world
 #endif
 #if HAS_CSG
-  // A ray that seeks the next crossing of a leaf of a CSG object: that behind which t, and on which side of the leaf the ray is until then.
+  // A ray that seeks the next crossing of a leaf of a CSG object: the t behind which it seeks, and its side of the leaf until then.
   float after;
   uint side;
 #endif
@@ -92,7 +92,7 @@ void set_gradients(INOUT(Surface) surface, vec3 u_gradient, vec3 v_gradient) {
 #endif
 }
 
-// The same, from how p moves with u and with v.
+// Sets the gradients from the derivatives of p by u and by v.
 void set_tangents(INOUT(Surface) surface, vec3 along_u, vec3 along_v) {
   vec3 n = cross3(along_u, along_v);
   float squared = dot3(n, n);

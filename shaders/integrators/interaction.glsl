@@ -108,7 +108,7 @@ vec3 scattered_origin(Interaction at, vec3 d, bool before) {
 
 vec3 reflected_direction(Interaction at) { return normalize3(at.d + at.seen.normal * (2.0f * at.context.cos_view)); }
 
-// Only asked for where refraction is possible.
+// Called only where refraction is possible.
 vec3 refracted_direction(Interaction at) {
   float eta = at.context.ior_from / at.context.ior_to;
   float cos_view = at.context.cos_view;

@@ -121,7 +121,7 @@ Arriving nothing_arriving(Interaction at) {
   return arriving;
 }
 
-// From one light or surface, chosen at random.
+// The light from one light or surface, chosen at random.
 Arriving emitter_arriving(Frame frame, Path path, Interaction at, float chance) {
   LightPick pick = pick_light(frame, at.seen.p, normal_for_lights(at), chance);
   uint light = pick.light;
@@ -192,7 +192,7 @@ Arriving light_arriving(Frame frame, Path path, Interaction at) {
 bool shadow_ray_to(Frame frame, Path path, Interaction at, Arriving arriving, vec3 i_local, LobeValue lobes, OUT(Ray) ray, OUT(float) distance, OUT(vec3) contribution, OUT(uint) light) {
   ray = arriving.ray;
   light = arriving.light;
-  // So that from afar, where t is rounded by more than the emitter's own offset, it does not stand in its own way.
+  // Shortened, so that from afar, where t is rounded by more than the emitter's own offset, the emitter does not block its own light.
   distance = arriving.distance * (1.0f - 9.5367432e-7f);
   bool on_side = on_its_side(at, arriving.direction, i_local);
 #if HAS_SCATTERING
@@ -249,7 +249,7 @@ ScatterEvent lobe_event(Interaction at, LobeShares shares, LocalFrame local, vec
   return event;
 }
 
-// In the one direction that is mirrored, or refracted.
+// The event of the one direction that is mirrored, or refracted.
 ScatterEvent specular_event(Interaction at, LobeShares shares, LocalFrame local, bool refracted) {
   ScatterEvent event;
   event.d = reflected_direction(at);
@@ -267,7 +267,7 @@ ScatterEvent specular_event(Interaction at, LobeShares shares, LocalFrame local,
 }
 
 #if HAS_PANES
-// Straight through a pane. As long as these are not too many, it is no vertex: `density` is that of the direction so far.
+// The event of going straight through a pane. As long as these are not too many, it is no vertex: `density` is that of the direction so far.
 ScatterEvent passing_event(Interaction at, LobeShares shares, float density) {
   ScatterEvent event;
   event.d = at.d;
@@ -293,7 +293,7 @@ ScatterEvent medium_event(Interaction at, LocalFrame local, vec2 u) {
 }
 #endif
 
-// The path after that; `straight`: past a pane that is no vertex. The vertex behind the last is there for its light alone.
+// The path after the event; `straight`: past a pane that is no vertex. The vertex behind the last is there for its light alone.
 Path path_after(Path path, Interaction at, ScatterEvent event, bool straight) {
   Path next = path;
   next.d = event.d;
@@ -316,7 +316,7 @@ Path path_after(Path path, Interaction at, ScatterEvent event, bool straight) {
   return next;
 }
 
-// By one of the lobes that have shares.
+// The continuation by one of the lobes that have shares.
 Continuations scatter_by(Frame frame, Path path, Interaction at, LobeShares shares) {
   LocalFrame local = local_frame(at);
   vec2 choice = path_pair(frame, path, PAIR_SCATTER);

@@ -14,7 +14,7 @@ vec3 cell_of(vec3 place) { return vec3(floor(place.x), floor(place.y), floor(pla
 
 bool in_cells(vec3 place) { return max_component(abs3(place)) < MOST_CELLS; }
 
-// Cells far apart may share one.
+// The key of a cell. Cells far apart may share one.
 uint cell_key(vec3 cell, uint mask) {
   return pcg_hash(uint(int(cell.x)) + pcg_hash(uint(int(cell.y)) + pcg_hash(uint(int(cell.z))))) & mask;
 }

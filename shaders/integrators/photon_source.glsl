@@ -82,8 +82,8 @@ PhotonSource from_around(Frame frame, PhotonPass pass, vec2 start, vec2 heading,
 #endif
 
 #if HAS_MEDIUM_EXTENT && HAS_ABSORPTION
-// Light from infinitely far away has come through the medium around all before its photon starts. A photon of which
-// that leaves little is rare instead: it starts with the probability `survival`, by a random number.
+// Light from infinitely far away has come through the medium around all before its photon starts. If the
+// medium leaves little of a photon, it is rare instead: it starts with the probability `survival`, by a random number.
 vec3 after_upstream(Frame frame, PhotonSource source, float chance) {
   vec3 left = medium_transmittance(0u, medium_length(frame, 0u, source.o, -source.d, T_MISS));
   float survival = max_component(left);

@@ -37,7 +37,7 @@ vec3 gathered(Frame frame, Path path, Interaction at) {
         // The light comes from where the photon's own surface has it: from behind, too, where the surface transmits.
         bool before = is_before(at, photon.direction);
         float facing = dot3(photon.normal, before ? n : -n);
-        // Another cell's with the same key is that cell's to count.
+        // A photon of another cell with the same key counts in that cell only.
         vec3 its = cell_of(photon.position * pass.cells);
         bool counts = its.x == cell.x && its.y == cell.y && its.z == cell.z && squared < pass.radius_squared &&
                       abs(dot3(apart, n)) < pass.height && facing > 0.9f && photon.depth + path.depth <= frame.max_depth;
@@ -56,7 +56,7 @@ vec3 gathered(Frame frame, Path path, Interaction at) {
 vec3 gathered(Frame frame, Path path, Interaction at) { return vec3(0.0f, 0.0f, 0.0f); }
 #endif
 
-// A point of a medium is no surface to gather on: there paths go on as those that are traced alone.
+// A point of a medium is no surface to gather on: there paths go on as in plain path tracing.
 vec3 sppm_emitted(Frame frame, Path path, Interaction at) {
   vec3 light = path_emitted(frame, path, at);
   if (!in_medium(at)) light = light + gathered(frame, path, at);

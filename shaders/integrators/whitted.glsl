@@ -18,7 +18,7 @@ vec3 whitted_emitted(Frame frame, Path path, Interaction at) {
   return color;
 }
 
-// To light i, where that is in front.
+// The shadow ray to light i; true if the light is in front.
 bool whitted_shadow_ray(Frame frame, Path path, Interaction at, uint i, OUT(Ray) ray, OUT(float) distance, OUT(vec3) contribution, OUT(uint) light) {
   LightSample s = sample_light(load_light(i), at.seen.p);
   float cosine = dot3(at.seen.normal, s.direction);
@@ -30,7 +30,7 @@ bool whitted_shadow_ray(Frame frame, Path path, Interaction at, uint i, OUT(Ray)
   return cosine > 0.0f && dot3(side_normal(at.seen), s.direction) > 0.0f;
 }
 
-// Reflection and refraction, each where it counts for enough. Of both the refracted ray is next.
+// Reflection and refraction, each where it counts for enough. If both do, the refracted ray is next.
 Continuations whitted_scatter(Frame frame, Path path, Interaction at) {
   Continuations all = no_continuation(path);
   bool deeper = path.depth < frame.max_depth;

@@ -3,8 +3,8 @@
 #define EYE_PATH_GLSL
 #include "kernels/pixel.glsl"
 
-// The sample's path through the pixel at `place` of the tile. Where the camera sees nothing there is a ray all the same, whose hit nobody
-// asks for.
+// The sample's path through the pixel at `place` of the tile. Where the camera sees nothing there is a ray all the same, whose hit is
+// not used.
 Path eye_path(uint place) {
   uint row = quotient(place, dispatch.tile_width);
   uint x = dispatch.tile_x + (place - row * dispatch.tile_width) * dispatch.stride;

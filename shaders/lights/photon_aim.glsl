@@ -1,4 +1,4 @@
-// Half of the photons of a light are aimed: at spheres around objects that focus light, glass and mirrors, which few unaimed photons would
+// Half of the photons of a light are aimed: at spheres around objects that focus light (glass and mirrors), which few unaimed photons would
 // hit. Jensen's projection maps do this too ("Global Illumination Using Photon Maps", 1996). Here there are no cells and no bias: a
 // photon's flux is divided by the density of both ways together, by which it may have come (Veach's balance heuristic, of one sample).
 #ifndef PHOTON_AIM_GLSL
@@ -79,7 +79,7 @@ Aimed aimed(PhotonPass pass, AimFrom from, vec3 by_chance) {
     sum = sum + window.size;
     if (window.size > 0.0f) all.windows += 1u;
   }
-  // Each as likely as it is large.
+  // Choose a window with a probability proportional to its size.
   uint chosen = NONE;
   float left = from.chance * (sum / AIMED);
   if (sum > 0.0f && from.chance < AIMED) {
@@ -108,7 +108,7 @@ float aimed_weight(Aimed it, float own) {
   return own > 0.0f ? own / ((1.0f - AIMED) * own + AIMED * it.density) : 0.0f;
 }
 
-// For the photon's trail.
+// The value of EVENT_AIM for the photon's trail.
 uint aim_event(Aimed it) { return 32u * it.windows + it.around; }
 
 // Emission from direction d: a point on a disk as wide as the scene, so far off that the whole scene is in front of it. The flux is that of

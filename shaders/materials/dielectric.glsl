@@ -8,7 +8,7 @@
 SHADER_BEGIN
 
 float pane_ior(Material material) { return material.a.x; }
-float pane_reflectance(Material material) { return material.a.y; }  // R' at right angles
+float pane_reflectance(Material material) { return material.a.y; }  // R' at normal incidence
 
 Scattering dielectric_scattering(Material material, ScatteringContext context) {
   Scattering s = no_scattering();

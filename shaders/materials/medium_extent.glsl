@@ -71,7 +71,7 @@ float medium_length(Frame frame, uint media, vec3 o, vec3 d, float t) {
   return t;
 }
 
-// The t at which that is `length`.
+// The t at which medium_length is `length`.
 float medium_distance(Frame frame, uint media, vec3 o, vec3 d, float length) {
 #if HAS_MEDIUM_EXTENT
   if (frame.has_medium_extent != 0u && innermost_medium(media) == 0u) return extent_distance(frame, o, d, length);

@@ -80,7 +80,7 @@ vec3 bound_square(vec3 x) {
   return bound_rounded(x.x * x.x + bent, 2.0f * (x.x * x.y), bent + x.z * (2.0f * size + x.z), 2.0f * (size * size));
 }
 
-// Between its chord and the tangent parallel to it.
+// The bound of 1 / x: between its chord and the tangent parallel to the chord.
 vec3 bound_reciprocal(vec3 x) {
   float low = bound_low(x);
   float high = bound_high(x);
@@ -191,7 +191,7 @@ vec3 bound_angle(vec3 y, vec3 x) {
   return !jumps && radius < 1.0f && bound_low(along) > 0.0f ? turned : vec3(0.0f, 0.0f, 3.1415930f);
 }
 
-// Constant, or one step of the stairs, or the ramp that they are on.
+// The bound of floor(x): constant, or one step of the stairs, or the ramp that they are on.
 vec3 bound_floor(vec3 x) {
   float low = floor(bound_low(x));
   float high = floor(bound_high(x));
@@ -215,7 +215,7 @@ uint bound_both(uint x, uint y) { return (x & y & TRUTH_YES) | ((x | y) & TRUTH_
 uint bound_either(uint x, uint y) { return ((x | y) & TRUTH_YES) | (x & y & TRUTH_NO); }
 uint bound_opposite(uint x) { return x == TRUTH_YES ? TRUTH_NO : x == TRUTH_NO ? TRUTH_YES : TRUTH_EITHER; }
 
-// Around both where the condition is not certain.
+// The bound of a choice: around both values where the condition is not certain.
 vec3 bound_choose(uint condition, vec3 x, vec3 y) {
   float apart = 0.5f * (abs(x.x - y.x) + abs(x.y - y.y));
   vec3 around = bound_rounded(0.5f * (x.x + y.x), 0.5f * (x.y + y.y), apart + maximum(x.z, y.z),

@@ -81,7 +81,7 @@ float fn_tanh(float x) {
   return abs(x) < 0.5f ? fn_sinh(x) / fn_cosh(x) : x < 0.0f ? -y : y;
 }
 
-// More of them.
+// More arguments.
 float fn_min(float x, float y) { return minimum(x, y); }
 float fn_max(float x, float y) { return maximum(x, y); }
 float fn_mod(float x, float y) { return x - y * floor(x / y); }
@@ -106,7 +106,7 @@ uint natural_divide(uint x, uint y) {
 }
 uint whole_remainder(uint x, uint y) { return y == 0u ? 0u : x - whole_divide(x, y) * y; }
 uint natural_remainder(uint x, uint y) { return y == 0u ? 0u : x - natural_divide(x, y) * y; }
-// With the sign of y.
+// The remainder with the sign of y.
 uint whole_modulo(uint x, uint y) {
   uint rest = whole_remainder(x, y);
   return rest != 0u && int(rest ^ y) < 0 ? rest + y : rest;

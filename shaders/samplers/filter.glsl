@@ -10,7 +10,7 @@ SHADER_BEGIN
 // The share of a Gaussian filter that its cut-off keeps: it ends at three standard deviations, where e^(−9/2) is left.
 #define GAUSS_KEPT 0.98889100f
 
-// Evenly on a disk, then each ring as far out as the filter has as much within. From the middle, in widths.
+// A point even on a disk, then moved out to where the filter has the same share within. From the middle, in widths.
 vec2 gaussian_place(vec2 u) {
   vec2 at = on_disk(u);
   float within = at.x * at.x + at.y * at.y;

@@ -35,7 +35,7 @@ BezierRow bezier_row(uint first) {
 
 vec4 bezier_patch(Primitive s) { return bits_to_floats(load_vertex(s.extra + 12u)); }
 
-// Seen from `o` along three axes.
+// The point p as seen from `o` along three axes.
 vec3 bezier_along(vec3 p, vec3 o, vec3 x, vec3 y, vec3 z) {
   vec3 from_o = p - o;
   return vec3(dot3(from_o, x), dot3(from_o, y), dot3(from_o, z));

@@ -109,7 +109,7 @@ LeafCrossings test_immediate(Primitive leaf, Ray ray) {
 }
 
 #if HAS_DEFERRED_LEAVES
-// The next crossing of one whose kind searches for it.
+// The next crossing of a leaf whose kind searches for it.
 LeafCrossings test_deferred(Primitive leaf, Ray ray) {
   float t = T_MISS;
 #define ASK_ONCE(name, number)                 \

@@ -43,7 +43,7 @@ float torus_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   float a = d.x * d.x + d.z * d.z;
   float b = o.x * d.x + o.z * d.z;
 
-  // From the ray's start, or where it enters a ball about the torus, to where it leaves that.
+  // From the ray's start, or where it enters a ball about the torus, to where it leaves the ball.
   float reach = 1.01f * (1.0f + minor);
   float half_chord = reach * reach - dot3(o, o);
   float end = sqrt(maximum(half_chord, 0.0f));

@@ -211,7 +211,7 @@ vec2 second_uv(Primitive s, Hit hit, vec2 uv) {
 #endif
 
 #if HAS_COLORS
-// The factor of the material's colour from a mesh's vertices; white if they have none, and on other shapes.
+// The factor for the material's colour from a mesh's vertices; white if they have none, and on other shapes.
 vec3 vertex_color(Primitive s, Hit hit) {
   if (kind_of(s) != KIND_triangle || s.extra == NONE) return vec3(1.0f, 1.0f, 1.0f);
   uvec4 corners = load_vertex(s.extra);
@@ -222,7 +222,7 @@ vec3 vertex_color(Primitive s, Hit hit) {
   return (a * ((1.0f - hit.uv.x) - hit.uv.y) + b * hit.uv.x) + c * hit.uv.y;
 }
 
-// Their alpha, likewise. Where all three are equal, that very value.
+// The alpha of a mesh's vertices; 1 if they have none, and on other shapes. Where all three are equal, that very value.
 float vertex_alpha(Primitive s, vec2 uv) {
   if (kind_of(s) != KIND_triangle || s.extra == NONE) return 1.0f;
   uvec4 corners = load_vertex(s.extra);

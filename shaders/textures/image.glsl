@@ -39,7 +39,7 @@ uint texel_codes(Texture texture, uint column, uint row) {
   return load_texel(image_first_texel(texture) + (image_height(texture) - 1u - row) * image_width(texture) + column);
 }
 
-// Linear RGB of it.
+// The texel's linear RGB.
 vec3 texel_color(Texture texture, uint column, uint row) {
   uint table = (image_flags(texture) & IMAGE_LINEAR) != 0u ? TEXELS_LINEAR : TEXELS_SRGB;
   uint texel = texel_codes(texture, column, row);
@@ -48,8 +48,8 @@ vec3 texel_color(Texture texture, uint column, uint row) {
               uintBitsToFloat(load_texel(table + ((texel >> 16u) & 255u))));
 }
 
-// The four texels whose mean is an image at (u, v), by how near their centres are, which lie at half-integers; or nearest, all of the one
-// that holds (u, v). The point within a copy is found first, in the image's own unit, where that costs no precision.
+// The four texels whose mean, weighted by how near their centres are, is the image at (u, v); centres lie at half-integers. With
+// IMAGE_NEAREST only the one that holds (u, v) counts. The point within a copy is found first, in the image's own unit, where that costs no precision.
 struct TexelQuad {
   uint left;
   uint right;
@@ -82,7 +82,7 @@ TexelQuad texels_at(Texture texture, vec2 uv) {
   return place;
 }
 
-// The texture coordinates that it reads.
+// The texture coordinates that the image reads.
 vec2 image_uv(Texture texture, TextureContext place) {
 #if HAS_SECOND_UV
   if (reads_second_uv(texture)) return place.second_uv;

@@ -22,7 +22,7 @@ vec3 pattern_place(Texture texture, vec3 p) {
   return vec3(dot3(vec3(x), p) + x.w, dot3(vec3(y), p) + y.w, dot3(vec3(z), p) + z.w);
 }
 
-// From colour to colour; two at one share are a step.
+// Interpolates from colour to colour; two at one share are a step.
 vec3 pattern_color(Texture texture, float share) {
   vec4 before = pattern_word(texture, 4u);
   vec3 color = vec3(before);
@@ -73,7 +73,7 @@ float gradient_noise(vec3 p) {
   return value;
 }
 
-// Octaves of it, each twice as fine as the one before and half as strong.
+// Octaves of the noise, each twice as fine as the one before and half as strong.
 float turbulence(vec3 p, float octaves) {
   float sum = 0.0f;
   float scale = 1.0f;

@@ -22,7 +22,7 @@
 #define EACH_ROW [[unroll]] for (int i = 0; i < STACK_ROWS; i++)
 
 uint lane;    // of the ray's four
-uint first;   // the subgroup's lane where they begin
+uint first;   // the subgroup's lane where these four begin
 uint member;  // of a group
 uint group;   // the subgroup's lane where it begins
 uint source;  // the lane whose ray these four trace
@@ -43,7 +43,7 @@ vec2 of_source(vec2 v) { return vec2(of_source(v.x), of_source(v.y)); }
 vec3 of_source(vec3 v) { return vec3(of_source(v.x), of_source(v.y), of_source(v.z)); }
 uvec3 of_source(uvec3 v) { return uvec3(of_source(v.x), of_source(v.y), of_source(v.z)); }
 
-// Over the four lanes.
+// The least x of the four lanes.
 int least(int x) {
   x = lesser(x, subgroupShuffleXor(x, 1u));
   return lesser(x, subgroupShuffleXor(x, 2u));
@@ -206,8 +206,8 @@ uint traverse_together(BoxRay own, int own_limit) {
   return start;
 }
 
-// Each lane brings a ray and gets its answer; in between, its four lanes trace theirs one after the other. Nothing counts that is not
-// nearer than t_max; without a ray that is −1.
+// Each lane brings a ray and gets its answer; in between, its four lanes trace theirs one after the other. Only hits nearer than
+// t_max count; a lane without a ray passes −1.
 TraversalState trace_cooperatively(Ray own, float t_max) {
   BoxRay own_boxes = box_ray(own, load_bvh(0u));
   TraversalState own_state = traversal_state(t_max);

@@ -119,7 +119,7 @@ void choose_members(Line first, float closeness) {
 vec2 min_of(vec2 a, vec2 b) { return vec2(minimum(a.x, b.x), minimum(a.y, b.y)); }
 vec2 max_of(vec2 a, vec2 b) { return vec2(maximum(a.x, b.x), maximum(a.y, b.y)); }
 
-// Around all members, from where the first of them starts, or the BVH begins, to where the last may hit something.
+// Makes a shaft around all members, from where the first of them starts, or the BVH begins, to where the last may hit something.
 void make_shaft_of_members(uint way) {
   bool backward = (way & 1u) != 0u;
   float forward = backward ? -1.0f : 1.0f;
@@ -254,7 +254,7 @@ void look_at_primitive(uint from) {
   work += 1u;
 }
 
-// The whole test.
+// The whole test of one ray with one primitive.
 float intersect_primitive(Primitive primitive, Ray r, out vec2 uv) {
   r.major = shaft.major;
   uv = vec2(0.0f, 0.0f);
@@ -300,7 +300,7 @@ void visit_leaves() {
   do { intersect_passing(); } while (any_passes());
 }
 #else
-// All rays with the primitive of lane `from`, the only one with any that pass.
+// Intersects all rays with the primitive of lane `from`, the only one with any that pass.
 void intersect_passing(uint from) {
   Primitive primitive = from_lane(mine, from & (LANES - 1u));
   uint bits = passing >> (uint(RAYS_A_LANE) * (from & (LANES - 1u)));

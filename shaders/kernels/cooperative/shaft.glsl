@@ -34,7 +34,7 @@ struct Shaft {
   Side high_y;
 };
 
-// One that does not lean is made to lean by `slack`: it stands off by twice as much.
+// A side that does not lean is made to lean by `slack`: it stands off by twice as much.
 Side make_side(float at_begin, float at_end, float slack, bool low) {
   float stand_off = low ? -2.0f * slack : 2.0f * slack;
   float lean = at_end - at_begin;
@@ -46,8 +46,8 @@ Side make_side(float at_begin, float at_end, float slack, bool low) {
   return side;
 }
 
-// From z0 to z1 != z0. low and high: the least and the greatest x and y of any ray at z0 and at z1. Rays are straight, so in between
-// none is outside of the lines between those.
+// The shaft from z0 to z1 != z0. low and high: the least and the greatest x and y of any ray at z0 and at z1. Rays are straight, so in
+// between none is outside of the lines between those.
 Shaft make_shaft(uint major, float z0, float z1, vec2 low0, vec2 low1, vec2 high0, vec2 high1, float slack) {
   Shaft shaft;
   shaft.major = major;

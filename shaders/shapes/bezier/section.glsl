@@ -80,8 +80,8 @@ struct BezierSection {
   float off;  // squared distance from here to the point where the patch was evaluated
 };
 
-// At w, near (u, v), of the piece `range`. `tilt`: of the ray along w and along the normal; where w begins. Beyond its borders, where the patch may fold,
-// the piece goes on as its tangent planes.
+// The section of the piece `range` at w, near (u, v). `tilt`: of the ray along w and along the normal; where w begins. Beyond its borders,
+// where the patch may fold, the piece goes on as its tangent planes.
 BezierSection bezier_section(BezierNet net, vec4 range, vec3 tilt, float w, vec2 uv) {
   vec2 within = bezier_within(range, uv);
   BezierPoint at = bezier_at(net, within.x, within.y);
@@ -152,7 +152,7 @@ BezierSection bezier_on_arc(BezierSection a, BezierSection b, BezierArc arc, flo
   return at;
 }
 
-// An arc is doubted where z turns or nearly does, less than four times the effect of z's next two degrees away from 0.
+// An arc is doubted if z, where it turns or nearly does, is nearer to 0 than four times the effect of its next two degrees.
 BezierArc bezier_arc(BezierSection a, BezierSection b, BezierSection half_way, float grain) {
   BezierArc arc;
   float length = b.w - a.w;
@@ -187,7 +187,7 @@ struct BezierRoot {
 };
 
 // The root of z between ends.x and ends.y, from (u, v); at ends.x its sign is that of z_ends.x, and the other at ends.y. Newton's method, or
-// bisection where that leaves the bracket. By a little it may: z is taken a step at a time along the section, so that a sign may be wrong next to the root.
+// bisection where that leaves the bracket by more than a little. z is taken a step at a time, so its sign may be wrong next to the root.
 BezierRoot bezier_root(BezierNet net, vec4 range, vec3 tilt, vec2 uv, float start, vec2 ends, vec2 z_ends, bool search, float grain, float size) {
   float low = ends.x;
   float high = ends.y;
