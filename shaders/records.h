@@ -178,7 +178,7 @@ struct Material {
 #define MATERIAL_CLEAR 4u  // of principled: Whitted's pictures show glass, and `base` is its colour
 #define MATERIAL_EMITS_IN_FRONT 8u  // its own light goes only where normals point
 #define MATERIAL_FRONT_ONLY 32u  // rays that come from behind a triangle do not hit it
-#define MATERIAL_BLENDS 64u  // rays hit it with a probability of its alpha, and alpha_cutoff is ignored
+#define MATERIAL_BLENDS 64u  // rays hit it with a probability of its alpha, for any alpha_cutoff
 #define MATERIAL_BUMP_IN_SPACE 16u  // bump_width is a length in the world, else in uv
 // Optical depth: the loss at each primitive that a shadow ray hits, in −log2(transmittance) · OPTICAL_DEPTH_SCALE.
 #define OPTICAL_DEPTH_OPAQUE 0x10000000u

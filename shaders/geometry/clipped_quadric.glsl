@@ -22,8 +22,8 @@ vec2 quadratic_roots(float a, float b, float c, float root) {
 // quadric and the piece's boundary intersect, both come from the same four numbers, so that no ray passes between them.
 // `equation`: a, b, c. `nearest_equation`: the same from s = `nearest_at`, the ray's point nearest to the centre. The discriminant is that
 // of either; there the products whose difference it is are smallest, so that a ray that grazes is hit where it should be. A root is from
-// the closer of the two points. Where a ray runs along a cone and past its apex, a root seen from afar has no digits left. The
-// sign of a root near s = 0 keeps a ray that leaves from coming back.
+// that of the two points which is closer to it. Where a ray runs along a cone and past its apex, a root seen from afar has no digits left.
+// The sign of a root near s = 0 keeps a ray that leaves from coming back.
 float clipped_quadric(Ray ray, float t, vec3 equation, float nearest_at, vec3 nearest_equation, float enter, float leave, bool open, OUT(float) part) {
   float a = equation.x;
   float b = equation.y;

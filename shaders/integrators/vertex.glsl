@@ -135,7 +135,7 @@ Continuations shade(Frame frame, Path path, Ray ray, Hit hit, INOUT(vec3) color,
 }
 
 #if RAY_KINDS
-// A sample's count in the form of a result whose rays are counted by kind. A count that does not fit becomes the largest that does.
+// A sample's counts in the form of a result whose rays are counted by kind. A count that does not fit becomes the largest that does.
 uint at_most(uint x, uint most) { return x < most ? x : most; }
 uvec4 counts_by_kind(uvec4 counts, uint reflected, uint refracted, uint total) {
   return uvec4(counts.x, counts.y, counts.z | at_most(refracted, 0xffffffffu >> REFRACTED_SHIFT) << REFRACTED_SHIFT,

@@ -1,4 +1,4 @@
-// Functions by which all other code reads the scene from the buffers. Small lists are compiled in instead
+// Functions by which all other code reads the scene from the buffers. Small parts are compiled in instead
 // (executors/specialise.cpp).
 #ifndef LOADERS_GLSL
 #define LOADERS_GLSL

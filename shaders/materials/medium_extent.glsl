@@ -63,7 +63,7 @@ float extent_distance(Frame frame, vec3 o, vec3 d, float length) {
 }
 #endif
 
-// The length of the ray up to t in a medium with the constant coefficients of its record and the same transmittance.
+// The length that the ray up to t would have, with the same transmittance, where the medium has its record's coefficients all along.
 float medium_length(Frame frame, uint media, vec3 o, vec3 d, float t) {
 #if HAS_MEDIUM_EXTENT
   if (frame.has_medium_extent != 0u && innermost_medium(media) == 0u) return extent_length(frame, o, d, t);

@@ -193,7 +193,7 @@ CsgHit csg_traverse(Primitive s, Ray ray, float t_max, uint enough) {
     ASK(test_deferred, head.w)
 #endif
 
-    // Cross, as long as that is known. Tested at the top: its results stay as they are for rays that are done with the loop around.
+    // Cross leaves, as long as the crossings are known. Tested at the top: its results stay as they are for rays that are done with the loop around.
     asked = 0u;
     for (; going && asked == 0u;) {
       float next = T_MISS;

@@ -52,7 +52,7 @@ float torus_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   bool inside = from > -end && torus_depth(r.o, minor) < 0.0f;
   float since = begin;  // the turning points before it have been passed
 #if HAS_CSG
-  // For every caller, the stretches are those of the whole line.
+  // In queries of CSG objects the stretches are those of the whole line, for every caller.
   begin = ray.side == SIDE_UNKNOWN ? begin : -end;
   inside = ray.side == SIDE_UNKNOWN ? inside : ray.side == SIDE_INSIDE;
   since = ray.side == SIDE_UNKNOWN ? begin : start + (ray.after - r.t) / slowness;

@@ -48,8 +48,8 @@ vec3 texel_color(Texture texture, uint column, uint row) {
               uintBitsToFloat(load_texel(table + ((texel >> 16u) & 255u))));
 }
 
-// The four texels whose mean, weighted by how near their centres are, is the image at (u, v); centres lie at half-integers. With
-// IMAGE_NEAREST only the one that holds (u, v) counts. The point within a copy is found first, in the image's own unit, where that costs no precision.
+// The four texels whose mean, weighted by nearness of their centres, is the image at (u, v); centres lie at half-integers. IMAGE_NEAREST:
+// only the one that holds (u, v) counts. The point within a copy is found first, in the image's own unit, where that costs no precision.
 struct TexelQuad {
   uint left;
   uint right;
