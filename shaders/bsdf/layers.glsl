@@ -1,6 +1,6 @@
-// The layers over other lobes: a coat, and under it sheen. A layer takes from the layers below as much light as it scatters to the
-// viewer, as in KHR_materials_clearcoat and KHR_materials_sheen, whatever the light's direction. So a white surface stays white. f(o, i)
-// is not f(i, o) then. A photon (`adjoint`) goes towards the viewer, whose direction is i.
+// The layers over other lobes: a coat, and under it sheen. A layer takes from all that is below it as much light as it scatters to the
+// viewer, as in KHR_materials_clearcoat and KHR_materials_sheen, whatever the light's direction. So a white surface stays white. f(o, i) is
+// not f(i, o) then. A photon (`adjoint`) goes towards the viewer, whose direction is i.
 #ifndef LAYERS_GLSL
 #define LAYERS_GLSL
 #include "bsdf/bsdf_record.glsl"

@@ -1,6 +1,6 @@
 // A rough surface between two media, by microfacets that mirror and refract: Walter et al., "Microfacet Models for Refraction through Rough
 // Surfaces" (EGSR 2007). For radiance / index², which refraction keeps. Light that its microfacets reflect at each other is given back to
-// both lobes (Turquin, "Practical Multiple Scattering Compensation for Microfacet Models", 2019), by the viewer's direction: a photon's is i.
+// both lobes (Turquin, "Practical Multiple Scattering Compensation for Microfacet Models", 2019), by the view direction; a photon's is i.
 #ifndef ROUGH_GLASS_GLSL
 #define ROUGH_GLASS_GLSL
 #include "bsdf/bsdf_record.glsl"

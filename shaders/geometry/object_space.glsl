@@ -36,8 +36,8 @@ ObjectRay from_nearest(ObjectRay ray) {
 
 // Distances in object space are not the world's, but t and s are. A ray from afar is followed from its point nearest to the centre: values
 // computed from there are as small as the shape, so that nothing cancels. In the world first: then the map's effect on the direction's
-// rounding does not count on the long way. `reach`: the farthest that the shape's points are from its centre. Without branches, so that compilers
-// share the code that all callers need: another kind of leaf of a CSG object, or the same for its next crossing.
+// rounding does not count on the long way. `reach`: the farthest that the shape's points are from its centre. Without branches, so that
+// compilers share the code that all callers need: another kind of leaf of a CSG object, or the same for its next crossing.
 ObjectRay object_ray(Primitive s, Ray ray, float reach) {
   vec3 from_center = ray.o - object_center(s);
   ObjectRay r;

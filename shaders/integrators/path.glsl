@@ -51,7 +51,7 @@ bool on_its_side(Interaction at, vec3 d, vec3 i) {
   return on_side;
 }
 
-// The power heuristic of a sample of density p that another technique takes with density q. The ratio is squared: densities may be too large.
+// The power heuristic of a sample whose density is p, and q by the other technique. The ratio is squared: densities may be too large.
 float power_heuristic(float p, float q) {
   float ratio = q / p;
   return 1.0f / (1.0f + ratio * ratio);
@@ -267,7 +267,7 @@ ScatterEvent specular_event(Interaction at, LobeShares shares, LocalFrame local,
 }
 
 #if HAS_PANES
-// The event of going straight through a pane. As long as these are not too many, it is no vertex: `density` is that of the direction so far.
+// The event of passing straight through a pane. While these are not too many, it is no vertex: `density` is that of the direction so far.
 ScatterEvent passing_event(Interaction at, LobeShares shares, float density) {
   ScatterEvent event;
   event.d = at.d;

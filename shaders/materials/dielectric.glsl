@@ -25,7 +25,7 @@ Scattering dielectric_scattering(Material material, ScatteringContext context) {
 }
 
 #if RANDOM_WALK
-// Adds glass for the share `weight` of the incident light; `color` tints refracted light. If polished, it has single directions, else lobes.
+// Adds glass for the share `weight` of the incident light; `color` tints refracted light. Polished, it has single directions, else lobes.
 void add_glass(INOUT(Bsdf) bsdf, Scattering surface, float roughness, float weight, vec3 color, ScatteringContext context) {
   bsdf.mirror = bsdf.mirror + surface.reflected * weight;
   bsdf.transmitted = bsdf.transmitted + surface.transmitted * (color * weight);

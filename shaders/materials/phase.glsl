@@ -14,8 +14,8 @@ float phase_value(float g, vec3 before, vec3 after) {
   return (1.0f - g) * (1.0f + g) / (4.0f * PI * square * sqrt(square));
 }
 
-// A direction by that density, about z, where light came along −z. The usual cos = (1 + g² − s²) / 2g, s = (1 − g²) / (1 + g − 2gu), without
-// its cancellation.
+// A direction by that density, about z, where light came along −z. The usual cos = (1 + g² − s²) / 2g, s = (1 − g²) / (1 + g − 2gu),
+// without its cancellation.
 vec3 phase_direction(float g, vec2 u) {
   float divisor = g > 0.0f ? (1.0f - g) + 2.0f * g * (1.0f - u.x) : (1.0f + g) - 2.0f * g * u.x;
   float ratio = (1.0f - g) / divisor;

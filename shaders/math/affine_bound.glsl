@@ -1,7 +1,7 @@
-// Guaranteed bounds of a function along a piece of a ray. The piece is o + (m + h·s)·d with −1 ≤ s ≤ 1. The bound (a, b, e) of a function f on it
-// states |f − (a + b·s)| ≤ e for each s: a line, and the largest distance of f from it. It is an affine form whose only symbol is s, the point on the
-// ray (Comba and Stolfi 1993). Therefore terms of the same point cancel, and e shrinks with h². e includes float32's rounding. An unbounded
-// function, as 1/x around 0, has an e beyond all numbers.
+// Guaranteed bounds of a function along a piece of a ray. The piece is o + (m + h·s)·d with −1 ≤ s ≤ 1. The bound (a, b, e) of a function f
+// on it states |f − (a + b·s)| ≤ e for each s: a line, and a limit on f's distance from it. It is an affine form whose only symbol is s,
+// the point on the ray (Comba and Stolfi 1993). Therefore terms in the same s cancel, and e shrinks with h². e includes float32's rounding.
+// An unbounded function, as 1/x around 0, has an e beyond all numbers.
 #ifndef BOUND_GLSL
 #define BOUND_GLSL
 #include "math/trigonometry.glsl"

@@ -1,6 +1,6 @@
 // Union, intersection and difference of closed shapes, its leaves.
-// extra: how many nodes, as bits the leaves that are taken away, how many leaves, as bits those of deferred kinds. The nodes; the leaves by kind in
-// registry order, each a Primitive, the centre of its bounds and half of their size.
+// extra: how many nodes; as bits the subtracted leaves; how many leaves; as bits those of deferred kinds. Then the nodes, and the leaves by
+// kind in registry order: each a Primitive, the centre of its bounds and half of their size.
 // A node: its operands as bits, leaves and nodes before it, and whether it is within all of them or within any. Outside of a
 // subtracted leaf counts as within it. The last node is the CSG object.
 #ifndef CSG_GLSL
@@ -193,7 +193,7 @@ CsgHit csg_traverse(Primitive s, Ray ray, float t_max, uint enough) {
     ASK(test_deferred, head.w)
 #endif
 
-    // Cross leaves, as long as the crossings are known. Tested at the top: its results stay as they are for rays that are done with the loop around.
+    // Cross leaves, as long as the crossings are known. Tested at the top: its results stay for rays that are done with the loop around.
     asked = 0u;
     for (; going && asked == 0u;) {
       float next = T_MISS;

@@ -28,8 +28,8 @@ vec4 superellipsoid_norm(vec3 p, vec4 parameters) {
   return vec4(p.x < 0.0f ? -x : x, p.y < 0.0f ? -whole.z : whole.z, p.z < 0.0f ? -z : z, whole.x);
 }
 
-// A norm is convex along a ray. From where the ray hits the cube around the shape, on the way in or if it starts inside on the way out, Newton's
-// steps come towards the surface and never past it. Where the ray misses, they pass the least value, and the slope turns. At the
+// A norm is convex along a ray. From where the ray hits the cube around the shape, on the way in or if it starts inside on the way out,
+// Newton's steps come towards the surface and never past it. Where the ray misses, they pass the least value, and the slope turns. At the
 // iteration limit the ray has hit nothing yet.
 float superellipsoid_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   uv = vec2(0.0f, 0.0f);

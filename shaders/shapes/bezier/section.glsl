@@ -186,8 +186,8 @@ struct BezierRoot {
   bool gave_up;
 };
 
-// The root of z between ends.x and ends.y, from (u, v); at ends.x its sign is that of z_ends.x, and the other at ends.y. Newton's method, or
-// bisection where that leaves the bracket by more than a little. z is taken a step at a time, so its sign may be wrong next to the root.
+// The root of z between ends.x and ends.y, from (u, v); at ends.x its sign is that of z_ends.x, and the other at ends.y. Newton's method,
+// or bisection where that leaves the bracket by more than a little. z is taken a step at a time, so its sign may be wrong next to the root.
 BezierRoot bezier_root(BezierNet net, vec4 range, vec3 tilt, vec2 uv, float start, vec2 ends, vec2 z_ends, bool search, float grain, float size) {
   float low = ends.x;
   float high = ends.y;

@@ -7,8 +7,8 @@
 
 SHADER_BEGIN
 
-// Along o + s·d from `start` to `end`, a segment within the cube. `at_entry`: it starts on a face, which is a cap where f is negative. `sign`: of f at
-// the start; 0 where that is not known. Not `wanted`, it takes no time. Returns s, its IMPLICIT_ kind, and from where on f has which sign.
+// Along o + s·d from `start` to `end`, a segment within the cube. `at_entry`: it starts on a face, which is a cap where f is negative. `sign`: of f
+// at the start; 0 where not known. Not `wanted`, it takes no time. Returns s, its IMPLICIT_ kind, and from where on f has which sign.
 vec4 FORMULA_NAME(march)(Implicit it, ObjectRay r, float start, float end, bool at_entry, float sign, bool wanted) {
   vec3 toward = it.extent * r.d;
   float stride = 1.0f / (it.lipschitz * sqrt(dot3(toward, toward)));
