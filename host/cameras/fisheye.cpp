@@ -46,7 +46,7 @@ constexpr Key keys[] = {
 
 class Fisheye final : public Projection {
  public:
-  // `wider`: times as much is in view as `values` set, but in the same circle.
+  // `wider`: the factor by which more is in view than `values` set, within the same circle.
   explicit Fisheye(const FisheyeCamera& values, double wider = 1) : values_(values), wider_(wider) {}
 
   uint32_t kind() const override { return shader::CAMERA_fisheye; }

@@ -76,8 +76,8 @@ std::string scene(int size_factor) {
          squares(size_factor, true, "white") + squares(size_factor, false, "grey");
 }
 
-// 64 n² − 8 n triangles with normals at their corners. On one side of a point where patches join there are
-// none.
+// 64 n² − 8 n triangles with normals at their corners. At a cusp, where a patch's first row is one point,
+// one of each two triangles is left out.
 Mesh mesh(int size_factor) {
   Mesh mesh;
   const uint32_t n = uint32_t(size_factor), side = n + 1;

@@ -15,7 +15,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// A floor and a small, far, bright area light, of a shape that only random paths find.
+// A floor and a small, far, bright area light, of a shape that paths hit only by chance.
 constexpr const char* sparkling = R"(
 [image]
 width = 48

@@ -109,7 +109,7 @@ TEST_CASE("the GPU resumes as well, and says in JSON what it had") {
                           folder / "parts.pfm",
                           "--band-memory",
                           "1"};
-  // Killed, it leaves its last file. The first band's end is the soonest that rows are finished.
+  // Killed, it leaves its last checkpoint. The first band's end is the soonest that rows are finished.
   Process process(with(with({eyeray_binary()}, command),
                        {"--checkpoint", folder / "work", "--checkpoint-every", "0.01"}));
   const Stopwatch watch;

@@ -22,7 +22,7 @@ bool has_wide_vectors() {
 // Pictures made on lavapipe, with caches in this folder.
 class Pictures : public SceneFolder {
  public:
-  // Makes one, of whose size only a corner is rendered, and returns the devices that made it:
+  // Renders a corner of a picture of this size, and returns the devices that made it:
   // "gpu: llvmpipe (LLVM 15.0.6, 256 bits), Mesa 22.3.6 (LLVM 15.0.6); …"
   std::string device(const std::string& size, Environment environment = {}) const {
     environment.emplace_back("EYERAY_CACHE_DIR", *this / "eyeray");

@@ -1,6 +1,6 @@
 // Estimators of the same light against each other, by altered shaders. The way of finding an area light, by
-// shadow rays or by paths that hit it, and the way of ending paths change the noise and not the mean. They
-// test scenes without a closed form.
+// shadow rays or by paths that hit it, and the way of ending paths change the noise and not the mean. Such
+// comparisons test scenes without a closed form.
 #include "host/scene/integrator.hpp"
 #include "host/scene/sampler.hpp"
 #include "tests/support/environments.hpp"

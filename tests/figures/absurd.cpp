@@ -57,7 +57,8 @@ bool finite(const Vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-// True if a ray from there hits, in either half, a surface or nothing.
+// True if a ray from there has a valid result in both halves: no hit, or a surface of finite values with a
+// unit normal.
 bool can_be_hit(const Shape& shape, const PackedScene& packed, const Vec3& from, const Vec3& target) {
   const shader::Ray ray = shader::make_ray(glm::vec3(from), glm::vec3(glm::normalize(target - from)));
   const shader::Primitive& primitive = packed.primitives[0];
@@ -83,7 +84,8 @@ bool can_be_hit(const Shape& shape, const PackedScene& packed, const Vec3& from,
          std::fabs(glm::length(point.normal_geometric) - 1) < 1e-6;
 }
 
-// True if a ray from some point can hit the shape.
+// The same for a ray from a random point to a random target in the shape's bounds; false if these are
+// infinite.
 bool can_be_hit(const Shape& shape, const PackedScene& packed, Random& random) {
   const Bounds bounds = shape.bounds();
   if (!finite(bounds.min) || !finite(bounds.max)) return false;

@@ -85,7 +85,7 @@ struct Sample {
   mutable int gave_up = 0;  // how often a search reached its limit
 };
 
-// The results of `body(sample, random)` for as many rays, several a shape, of all sizes.
+// Calls `body(sample, random)` once for each ray, several times for each shape, with shapes of all sizes.
 template <typename Make, typename Body>
 void for_shapes(const Make& make, const Body& body) {
   parallel_for(0, parts, [&](int part) {
@@ -220,7 +220,7 @@ TEST_CASE("every closed shape as a part of CSG objects: first hits, no wrong ans
     for (const double distance : {1.5, 1e2, 1e4}) check_first_hits(name + " and ball", make_pair, distance);
   }
 
-  // These are the kinds that the shaders query.
+  // The closed kinds are those that the shaders list.
   std::set<std::string> asked;
 #define NAME(name, number) asked.insert(#name);
   CLOSED_SHAPES(NAME)

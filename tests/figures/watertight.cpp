@@ -76,7 +76,8 @@ struct Shapes {
   std::vector<std::unique_ptr<Shape>> shapes;
 };
 
-// The number of rays from `origin()`, towards points of `edges` and towards their ends, that pass.
+// Counts of rays from `origin()` towards points of `edges` and towards their ends. A leak is a ray without a
+// hit, `several` counts rays with more than one, and the exact counts are those of the float64 halves.
 struct Count {
   int rays = 0, leaks = 0, several = 0, exact_leaks = 0, exact_several = 0;
 };

@@ -85,7 +85,7 @@ TEST_CASE("whole numbers wrap around, shifts are masked, indices are clamped") {
       value_of("float a[3] = float[3](5.0, 6.0, 7.0); return a[int(p.y) * 1000] * 10.0 + a[int(p.z) + 7];") ==
       57);
   CHECK(value_of("return p[int(p.z) + 5] * 10.0 + p[int(p.y)];") == doctest::Approx(30.5));
-  // A variable read before it is written is 0, in every iteration.
+  // A variable read before it is written is 0, in every call.
   CHECK(value_of("float s = 0.0; for (int i = 0; i < 3; i++) s += g(p.x, i); return s;",
                  "float g(float x, int i) { float t; if (i == 0) t = 5.0; return t; }\n") == 5);
 }

@@ -1,6 +1,6 @@
-// Every call of Vulkan may fail. For each failure there is one message and exit code 3. If it only
-// costs time, all goes on: no crash, no hang, and nothing is left behind but objects that a busy device may
-// still use.
+// Every call of Vulkan may fail. Each failure gives one message and exit code 3, unless it only costs time:
+// then all goes on. There is never a crash or a hang, and nothing is left behind but objects that a busy
+// device may still use.
 #include <dlfcn.h>
 #include <sys/wait.h>
 #include <unistd.h>

@@ -25,7 +25,7 @@ size_t arithmetic_in(const std::vector<uint32_t>& spirv) {
                        spv::OpVectorTimesScalar});
 }
 
-// Expressions that algebra of real numbers would shorten, but that must not be for floats.
+// Expressions that algebra of real numbers would shorten, but that floats must compute as they stand.
 const std::string shortenable =
     "float x = uintBitsToFloat(data[i]);\n"
     "float third = 1.0 / 3.0 * 0.1 + 0.7;\n"

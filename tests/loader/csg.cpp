@@ -56,7 +56,7 @@ TEST_CASE("an intersection of separate parts is empty") {
       "batch = { center = [[0, 0, 0], [2.5, 0, 0]] }\n");
   REQUIRE(scene.shapes.size() == 1);
   CHECK_FALSE(scene.shapes[0]->intersect(from_left));
-  // Its bounds are those of something: code that sorts them need not check.
+  // Its bounds are a point rather than empty, so code that sorts bounds need not check.
   const Bounds bounds = scene.shapes[0]->bounds();
   CHECK(bounds.min == bounds.max);
   CHECK(bounds.min == Vec3(1.25, 0, 0));

@@ -1,4 +1,4 @@
-// Groups move their members as one, and show them once a transform of their batch.
+// Groups move their members as one, and show them once for each transform of their batch.
 #include <fmt/format.h>
 
 #include "host/scene/affine.hpp"

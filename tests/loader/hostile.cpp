@@ -167,7 +167,7 @@ TEST_CASE("files that are none") {
   CHECK(unreadable("") == "cannot read the scene : No such file or directory");
   CHECK(unreadable(folder / std::string(300, 'x')).ends_with(": File name too long"));
 
-  // A file of /proc has a size of no bytes, and yet contents.
+  // A file of /proc has contents, but reports a size of 0 bytes.
   CHECK(!read_input_file("/proc/self/status", "the scene", 1 << 20).empty());
   CHECK_THROWS_WITH_AS(read_input_file("/proc/self/status", "the scene", 10),
                        "cannot read the scene /proc/self/status: it has more than 10 bytes", Error);

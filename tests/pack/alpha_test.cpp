@@ -29,8 +29,8 @@ AlphaMask picture_mask(Filter filter) {
   return {textures::make_image(image), 128.0 / 255};
 }
 
-// A scene of materials with cutouts by checks, by a picture, one that blends, by vertices and a factor, and
-// of one material without alpha.
+// A scene of four materials: with cutouts by checks, with cutouts by a picture, one that blends by a factor,
+// and one without alpha. Instances have alphas at their vertices too.
 Scene leafy_scene(Random& random, int count, int instances) {
   Scene scene = test::empty_scene();
   scene.camera.eye = Vec3(0);

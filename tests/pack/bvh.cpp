@@ -131,7 +131,7 @@ TEST_CASE("10 000 hard scenes on the twin: the BVH finds what brute force finds,
           doctest::test_suite("long")) {
   Tally whole, split;
   std::atomic<int> bvhs = 0, quantised = 0, with_splits = 0, with_instances = 0, with_groups = 0;
-  // Some scenes, of many more, that once were wrong: CSG objects of glass in two leaves, an assertion in
+  // Three of many more scenes, which once were wrong: CSG objects of glass in two leaves, an assertion in
   // Embree.
   constexpr std::array once_wrong{117549, 220962, 249576};
   parallel_for(0, 10000 + int(once_wrong.size()), [&](int i) {

@@ -1,4 +1,4 @@
-// Instanced groups: every kind of shape is in them the same as where it is copied.
+// Instanced groups: every kind of shape is the same in them as where it is copied.
 #include <fmt/format.h>
 
 #include <fstream>

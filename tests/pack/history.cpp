@@ -20,7 +20,7 @@ namespace {
 
 constexpr size_t many = 3000;
 
-// Small ones all over a cube; of two seeds at other positions.
+// Small boxes all over a cube; each seed puts them at other positions.
 std::vector<Box> boxes_of(uint64_t seed, float shift = 0) {
   test::Random random{seed};
   std::vector<Box> boxes;

@@ -83,7 +83,7 @@ TEST_CASE("no point of a surface is farther from its triangles than the bound, n
         const auto drawn = tessellate(shape->form(), Mat4(1.0), tolerance);
         REQUIRE(drawn.has_value());
         REQUIRE(drawn->triangles.size() > 2);
-        // The tessellation is as fine as requested, and not much finer.
+        // The tessellation is about as fine as requested.
         CHECK(drawn->bound < 4 * tolerance);
         int hits = 0;
         for (int i = 0; i < 60; ++i) {

@@ -166,7 +166,7 @@ TEST_CASE("rough metal mirrors by one microfacet as a separate integral does, an
         const double found =
             albedo(bsdf_of({.metallic = 1, .roughness = roughness, .color = color}, cosine), cosine);
         const double once = mirrored_once(f0, roughness, cosine);
-        // Kulla and Conty (2017): so much of the rest comes out again after more than one.
+        // Kulla and Conty (2017): the share of the rest that comes out again after more than one microfacet.
         double mean_once = 0;
         constexpr int steps = 32;
         for (int k = 0; k < steps; ++k) {

@@ -113,7 +113,7 @@ TEST_CASE("rounding that takes another check at each mirror stays within the dar
     CHECK(look_with(x, darkest) == 1.875 * Vec3(0.25, 0.5, 0));
     CHECK(look_with(x, brightest) == 1.875 * Vec3(1, 1, 0));
   }
-  // Off the border by more than the rounding there is one colour at each.
+  // Off the border by more than the rounding, each mirror has only one colour to choose.
   for (const double x : {0.001, 0.5, -0.001}) {
     CHECK(look_with(x, darkest) == look_with(x, at_hit));
     CHECK(look_with(x, brightest) == look_with(x, at_hit));
@@ -315,7 +315,7 @@ TEST_CASE("a shape that gives up is no hit, and flagged where it might have been
     uint32_t flags = 0;
     CHECK(tracer.transmittance({{0, 0, 1.001}, {0, 0, 1}}, 2, flags) == 1);
     CHECK(flags == (sure_until < 2 ? iteration_limit : 0u));
-    // A dark path is dark, with anything else on its way.
+    // If a surface blocks all light, a search that gave up elsewhere on the way sets no flag.
     flags = 0;
     CHECK(tracer.transmittance({{0, 0, 5}, {0, 0, -1}}, 10, flags) == 0);
     CHECK(flags == 0);

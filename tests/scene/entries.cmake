@@ -2,7 +2,7 @@
 # validation layers (ctest -L validation). What a failing gate leaves behind lies in the build folder.
 file(GLOB_RECURSE SCENES CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/scenes/*.toml)
 list(FILTER SCENES EXCLUDE REGEX "/include/")
-# Scenes of path tracing have many samples a pixel: a few show two executors' agreement as well.
+# Scenes of path tracing have many samples a pixel: a few samples show two executors' agreement as well.
 set(PATHS ${SCENES})
 list(FILTER PATHS INCLUDE REGEX "^scenes/path/")
 list(REMOVE_ITEM SCENES ${PATHS})
@@ -88,8 +88,8 @@ file(STRINGS ${CMAKE_SOURCE_DIR}/tests/loader/refused_by_sppm.txt refused)
 list(FILTER refused INCLUDE REGEX "^scenes/")
 list(TRANSFORM refused REPLACE " .*" "")
 set(GATHERED ${SCENES} ${PATHS} ${SHOWCASE})
-# Photons are aimed at twisted's glass, whose pieces touch. 9 % of them diverge by which of two pieces is hit first; all are explained, and 4
-# % may be.
+# Photons are aimed at twisted's glass, whose pieces touch. 9 % of them diverge by which of two pieces is hit first. All are explained, but
+# only 4 % may diverge.
 list(REMOVE_ITEM GATHERED ${refused} scenes/edges/twisted.toml)
 set(gathered_long ${GATHERED})
 list(FILTER gathered_long INCLUDE REGEX "/(showcase|gallery|forest|group_shapes|mandelbulb|sculpture|intervals|sheet|formulas|implicit|algebraic|csg)")

@@ -285,7 +285,7 @@ std::string Writer::write() {
     if (chance(0.8)) mostly = {"normals"};
     // An uneven scale is no sphere's.
     if (chance(0.5)) mostly.insert("transform");
-    // A formula stands at one position; that of a file, at none.
+    // `given` writes a shape's one formula, never as a file's name.
     mostly.insert({"code", "file", "ready", "lipschitz"});
     const auto given = [&](const shapes::ShapeType& shape) {
       if (shape.name != "implicit") return "";

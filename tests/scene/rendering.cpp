@@ -201,7 +201,7 @@ TEST_CASE("rays are counted: eye, shadow and mirrored ones") {
                   {floor({"render.integrator=raycast"}), 1},       // no shadows
                   {floor({"image.samples=9"}), 18},                // nine of each
                   {floor({"light.0.position=[0, -1, 0]"}), 1},     // the light stands behind the floor
-                  {floor({"material.floor.reflectance=0.5"}), 3},  // mirrored light goes to the sky
+                  {floor({"material.floor.reflectance=0.5"}), 3},  // the mirrored ray goes to the sky
                   {floor({"material.floor.reflectance=0.5", "render.max_depth=0"}), 2},
                   {floor({"material.floor.reflectance=0.5", "render.min_throughput=0.5"}), 2}};
   for (const Case& c : cases) {

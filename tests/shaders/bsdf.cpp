@@ -1,5 +1,5 @@
-// The lobes of BSDFs: their values for a direction beside the light that they send there, in shaders and
-// the reference; and that none makes or loses light.
+// The lobes of BSDFs: their values for a direction against the light that they send there, in shaders and in
+// the reference. None makes or loses light.
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -23,7 +23,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// The value for light on the side that the normal gives.
+// The value for light from i, if the surface lies as its normal states.
 BsdfValue above(const ViewedBsdf& viewed, const Vec3& i) {
   return viewed.at(i, i.z > 0);
 }

@@ -239,7 +239,7 @@ TEST_CASE("a pixel's filter: shaders and reference take a sample to the same pla
     }
     CHECK(mean < 1e-6);
     CHECK(worst < 1e-3);  // far out, where the filter is next to nothing
-    // The middle stays, and a point drawn on one side of it is there.
+    // The middle stays, and a point drawn on one side of it stays on that side.
     CHECK(Vec2(shader::filtered(frame, {0.5f, 0.5f})) == Vec2(0.5));
     CHECK(shader::filtered(frame, {0.25f, 0.5f}).x < 0.5f);
     CHECK(shader::filtered(frame, {0.5f, 0.75f}).y > 0.5f);

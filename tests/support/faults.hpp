@@ -135,7 +135,7 @@ inline constexpr Fault faults[] = {
      "p;"},
     {"materials", "geometry/surface.glsl", "  return primitive;",
      "  if (material_of(primitive) == 1u) primitive.material_and_kind -= 1u;\n  return primitive;"},
-    // The result of a pixel.
+    // Results of pixels.
     {"nan", "kernels/pixel.glsl", "  return sample_result(positive_zeros(color)",
      "  if (x == 0u && y == frame.height / 2u) color.y = uintBitsToFloat(0x7fc00000u);\n"
      "  return sample_result(positive_zeros(color)"},

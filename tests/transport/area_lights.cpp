@@ -94,7 +94,8 @@ TEST_CASE("a cylinder, and a tube that stands upright, above the floor") {
         Vec3(map[3]));
     check(scene, shown(expected), 2e-4);
   }
-  // The surroundings above are seen through the tube. Its own light is that of a disk as wide, at its foot.
+  // The surroundings above are seen through the tube. Its own light is that of a disk as wide at its foot,
+  // less that of one at its head.
   Scene tube = floor(1024);
   add(tube, make_cylinder({0, 1, 0}, {0, 3, 0}, 0.5, true), emissive(tube));
   check(tube, shown(M_PI * (0.25 / 1.25 - 0.25 / 9.25)));

@@ -1,4 +1,5 @@
-// Path tracing where the answer is known. The formula itself, which all executors share, is proved by others.
+// Path tracing against known answers: the formula itself, which all executors share, cannot be tested by
+// comparing them.
 // Each picture is of one small patch, so that its pixels are 64 estimates of one value, independent of each
 // other. A test whose error is above half a percent could not fail, and is an error itself.
 #include "host/formula/formula.hpp"
@@ -326,7 +327,7 @@ TEST_CASE("a thin lens: a straight bright edge out of focus, (arccos x − x √
   // Through a square that stands upright, as far as its sides are from its middle.
   const double side = 0.4 * std::sqrt(0.5) * 0.5;
   check(edge(0.3 * side, {.radius = 0.4, .focus = 4, .blades = 4, .blade_rotation = M_PI / 4}), 0.35, 1e-4);
-  // A triangle with a corner at the right; the eye sees it mirrored if it is behind the focus.
+  // Through a triangle with a corner at the right: its blur is mirrored if the edge lies behind the focus.
   const auto triangle = [&](double focus) {
     return edge(0.4 * 0.5 * 0.25, {.radius = 0.4, .focus = focus, .blades = 3});
   };

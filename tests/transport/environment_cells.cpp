@@ -1,4 +1,4 @@
-// Tests of the probability of each texel of an environment: by whole numbers, which every executor shares.
+// Tests of the probability of each cell of an environment: by whole numbers, which every executor shares.
 #include <numeric>
 
 #include "host/scene/whole_shares.hpp"

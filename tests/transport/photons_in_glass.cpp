@@ -18,8 +18,8 @@ enum class Between { glass, nested, hollow, principled, interface, frosted, roug
 
 constexpr double upper = 0, lower = -1.4;  // heights of the disks: one within, one without
 
-// In thermal equilibrium everything has the radiance 1 / index² = 1, if it mirrors, refracts or scatters
-// it: each surface shines by as much as it absorbs (Kirchhoff).
+// In thermal equilibrium everything has the radiance 1 / index² = 1, however surfaces mirror, refract or
+// scatter it: each surface emits as much as it absorbs (Kirchhoff).
 Scene equilibrium(Between between, const Vec3& eye, const Vec3& target) {
   Scene scene = patch(eye, target);
   scene.environment = environment(8, 4, [](const Vec3&) { return Vec3(1); });

@@ -40,7 +40,7 @@ compare::Frame traced(const Scene& scene, Backend backend) {
   return frame;
 }
 
-// The number of so many seeds that fail.
+// The number of seeds from 1 to `seeds` that fail.
 int failing(int seeds, const std::string& white) {
   int count = 0;
   for (int seed = 1; seed <= seeds; ++seed)
