@@ -119,7 +119,7 @@ TEST_CASE("a tube is crossed four times; CSG objects in CSG objects, also where 
                     operands(make_cylinder({0, -2, 0}, {0, 2, 0}, 1)));
   };
   CHECK(ends(*tube(), along_x) == std::vector<double>{8, 9, 11, 12});
-  // Within the tube, and within a box: the remainder of the box without it.
+  // The tube within a box, and a box without the tube.
   const auto kept = make_csg(true, operands(tube(), make_box({-5, -5, -5}, {0, 5, 5})));
   CHECK(ends(*kept, along_x) == std::vector<double>{8, 9});
   const auto cut = make_csg(false, operands(make_box({-5, -0.5, -5}, {5, 0.5, 5})), operands(tube()));
