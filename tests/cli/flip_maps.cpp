@@ -12,7 +12,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// An area light of this brightness in the dark.
+// A dark picture with a square whose red is `brightness`.
 Image bright_pixels(float brightness) {
   Image image(40, 30, 3);
   for (float& value : image.samples()) value = 0.05f;
@@ -31,7 +31,7 @@ TEST_CASE("compare measures HDR-FLIP of values above 1 or on request, and writes
     options.insert(options.begin(), {"compare", folder / "a.exr", folder / "b.exr"});
     return run_eyeray(options);
   };
-  // To LDR-FLIP both area lights are equally white.
+  // To LDR-FLIP both squares are equally bright.
   ProcessResult result = compare({"--flip", folder / "flip.pfm", "--exposures", folder / "stops.pfm"});
   CHECK(result.code == 1);
   CHECK(result.out.find("FLIP: mean 0, ") != std::string::npos);

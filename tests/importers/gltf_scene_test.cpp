@@ -270,7 +270,7 @@ TEST_CASE("alphaMode MASK cuts out by factor, picture and vertices, BLEND blends
   REQUIRE(mask_of());
   CHECK(mask_of()->blends);
   CHECK(mask_of()->alpha->alpha_at(Vec2(0)) == 0.6);
-  // A ray hits it with a probability of 0.6, or of half that where its vertices set that.
+  // A ray hits it with a probability of 0.6, or of half of that where its vertices' alpha is 0.5.
   CHECK(mask_of()->covers(Vec2(0), 1, 0.6));
   CHECK_FALSE(mask_of()->covers(Vec2(0), 0.5, 0.6));
   CHECK(mask_of()->covers(Vec2(0), 0.5, 0.3));
@@ -329,7 +329,7 @@ TEST_CASE("emission, by factor, strength and picture; what is unlit emits its ba
   CHECK(unlit.ambient == Vec3(0));
   CHECK(unlit.specular == Vec3(0));
 
-  // A separate picture, whichever uv it reads.
+  // Emission has its own picture, whichever uv it reads.
   std::ifstream png("tests/image/pictures/rgb.png", std::ios::binary);
   const std::string picture{std::istreambuf_iterator<char>(png), {}};
   GltfFile file =

@@ -162,7 +162,7 @@ TEST_CASE("their density is 1 / solid angle, by closed forms") {
   int by_angle = 0;
   for (int i = 0; i < 20'000; ++i) {
     const Vec3 from(shader::vec3(anywhere(2)));
-    // In a plane across z, where a rectangle has a closed form.
+    // In a plane across z, where a rectangle's solid angle has its own formula.
     const Vec2 low(random.uniform(-2, 2), random.uniform(-2, 2)),
         size(random.uniform(0.1, 3), random.uniform(0.1, 3));
     const double z = random.uniform(-2, 2);
