@@ -29,8 +29,8 @@ struct PixelTotals {
   uint32_t finished : 1 = 0;  // whether it takes no more (render/adaptive.hpp)
 };
 
-// The sources of a channel's values: the first hit at a pixel's centre, of whose three numbers as many count
-// as the channel has components; the hit's entry in the legend; or the pixel's samples.
+// The source of a channel's values: the first hit at a pixel's centre, the hit's entry in the legend, or the
+// pixel's samples. As many of ValueOfHit's three numbers count as the channel has components.
 using ValueOfHit = Vec3 (*)(const FirstHit& hit);
 struct EntryOfLegend {};
 struct OfSamples {

@@ -34,7 +34,7 @@ void means_of_three(const PixelTotals& totals, const double* sums, float* values
   for (int i = 0; i < 3; ++i) values[i] = mean_of(sums[i], totals);
 }
 
-// docs/command-line.md lists their contents.
+// docs/command-line.md describes the contents of each channel.
 constexpr ChannelType types[] = {
     {.name = "depth",
      .components = 1,

@@ -50,9 +50,9 @@ class Film {
   uint64_t samples() const;  // of all pixels
   // The error of pixels relative to their brightness. It is half the width of a pixel's 95 % interval, 1.96
   // √(s²/n) of luminance, as a root mean square over the block, divided by the mean luminance plus 1 % of the
-  // luminance shown as 1. NaN where a pixel has one sample, or none has any; others without do not count.
-  // Samples of one pixel that are spread evenly, as Sobol's, are better than that as a rule. Only with the
-  // channel `noise`.
+  // luminance shown as 1. NaN where a pixel has one sample, or none has any; pixels without samples do not
+  // count otherwise. Samples of one pixel that are spread evenly, as Sobol's, are better than that as a rule.
+  // Only with the channel `noise`.
   double noise(const Rect& block) const;
 
   // The sums in the order of a checkpoint, one after the other, each row by row (render/checkpoint.hpp).

@@ -34,8 +34,8 @@ std::unique_ptr<LegendEntries> legend_of_shapes(const Scene& scene);
 std::unique_ptr<LegendEntries> legend_of_primitives(const Scene& scene);
 std::unique_ptr<LegendEntries> legend_of_materials(const Scene& scene);
 
-// The entries that were hit, by index, and their numbers of pixels. Legends of parts of a picture are merged
-// in it.
+// The entries that were hit, by index, and their numbers of pixels. add() merges legends of parts of a
+// picture.
 struct LegendTally {
   struct Entry {
     std::string text;  // LegendEntries::entry as JSON
@@ -50,7 +50,7 @@ struct LegendTally {
 // Writes NAME.json for a picture NAME.png; Error (file_io) when it cannot be written. Its name.
 std::filesystem::path write_legend(const LegendTally& tally, const std::filesystem::path& picture);
 
-// Takes first hits, and lists the primitives, each with its pixels.
+// Takes first hits, and lists the entries that they belong to, each with its number of pixels.
 class Legend {
  public:
   explicit Legend(std::unique_ptr<LegendEntries> entries);

@@ -19,8 +19,8 @@ class RowStore {
   RowStore(const RowStore&) = delete;
   RowStore& operator=(const RowStore&) = delete;
 
-  // Rows [first, first + count) of a picture that is `width` wide. Read all from 0 on before appending: that
-  // is where appending goes on, and all that stands behind them is dropped.
+  // Rows [first, first + count) of a picture that is `width` wide. Read all from 0 on before appending: new
+  // rows follow the last one read, and all data behind it are dropped.
   Rows read(int first, int count, int width, const Channels& channels);
   // Without a read before it, begins the file anew.
   void append(const Rows& rows);

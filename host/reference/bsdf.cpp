@@ -87,7 +87,7 @@ Vec3 mirrored_often(const Bsdf& bsdf, const GgxAlbedo& albedo) {
   return bsdf.layered * often(bsdf.layer, albedo) + bsdf.metallic * often(bsdf.metal, albedo);
 }
 
-// The total reflection of a layer, for one direction and on average.
+// The albedo of a layer, single and multiple reflection together: for one direction, and on average.
 Vec3 layer_albedo(const Fresnel& fresnel, const GgxAlbedo& albedo) {
   return once(fresnel, albedo.once, albedo.edge) + often(fresnel, albedo) * (1 - albedo.once);
 }
@@ -276,9 +276,9 @@ ViewedBsdf::Layers ViewedBsdf::layers(const Vec3& w) const {
           through_sheen(bsdf_.sheen, bsdf_.sheen_roughness, w.z)};
 }
 
-// A layer takes from those under it as much as it sends to the viewer (Khronos: KHR_materials_clearcoat,
-// KHR_materials_sheen), so that a white surface stays white. A photon's viewer is in i; seen from behind,
-// layers lie there.
+// A layer takes from the lobes under it as much light as it sends to the viewer (Khronos:
+// KHR_materials_clearcoat, KHR_materials_sheen), so that a white surface stays white. A photon's viewer is in
+// i; seen from behind, layers lie there.
 ViewedBsdf::Layers ViewedBsdf::layers_between(const Vec3& i) const {
   return layers(!adjoint_ ? o_ : i.z < 0 ? -i : i);
 }

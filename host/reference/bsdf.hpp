@@ -79,7 +79,7 @@ class ViewedBsdf {
   double shares_[lobes] = {};
   double sum_ = 0;
   Vec3 albedo_{0};
-  Vec3 passed_;  // share of straight light that layers leave
+  Vec3 passed_;  // share that layers leave of light that goes straight on
 };
 
 }  // namespace eyeray::engine::reference

@@ -18,7 +18,7 @@ bool outside(const SphereForm& sphere, const Vec3& from) {
   return glm::dot(way, way) > 1.0002 * sphere.radius * sphere.radius;
 }
 
-// By solid angle, of a point that is chosen evenly on an area.
+// The density, by solid angle, of a point that is chosen evenly on an area.
 double density_of_area(double area, const Vec3& from, const EmitterSample& place) {
   const Vec3 way = place.position - from;
   const double distance = glm::length(way);
@@ -246,7 +246,7 @@ EmitterSample on_parallelogram(const ParallelogramForm& it, const Vec3& from, co
           at};
 }
 
-// Under which it is seen, if points on it are chosen by that.
+// The solid angle under which the form is seen; empty if points on it are not chosen by solid angle.
 std::optional<double> sampled_solid_angle(const EmitterForm& form, const Vec3& from) {
   double solid_angle = 0;
   if (const auto* triangle = std::get_if<TriangleForm>(&form))

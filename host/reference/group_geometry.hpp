@@ -1,4 +1,4 @@
-// A group in the world: a ray's hits of it, and the surface there.
+// A group in the world: where a ray hits it, and the surface there.
 #pragma once
 
 #include "host/reference/objects.hpp"

@@ -62,7 +62,7 @@ std::vector<int> left_by(const Tracer& tracer, const Ray& ray) {
   std::stable_sort(crossings.begin(), crossings.end(),
                    [](const Crossing& a, const Crossing& b) { return a.t < b.t; });
 
-  // Match each leaving with an entering before it; those left over were around the start.
+  // Match each leaving with an entering before it; the leavings left over are of media around the start.
   std::vector<int> entered;
   std::vector<int> around;
   for (const Crossing& crossing : crossings) {

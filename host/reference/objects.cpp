@@ -161,7 +161,7 @@ double Objects::share_of_shape(size_t index, const Ray& ray, double entry, doubl
   return share;
 }
 
-// The share that an instance of a mesh leaves.
+// The share of light that comes through an instance of a mesh.
 double Objects::share_of_instance(size_t object, const Ray& ray, double t_end,
                                   const PrimitiveIds::First& before) const {
   const InstanceGeometry& instance = instances_[object - shapes_.size()];

@@ -30,7 +30,8 @@ double largest(const Vec3& v) {
 
 }  // namespace
 
-// A channel decides how far, each as likely as it has light left; the density is that of all three.
+// One colour channel, chosen in proportion to its remaining light, decides how far the path flies. The
+// density is that of all three.
 Flight PathSample::fly(const Ray& ray, const MediaStack& media, const std::optional<Hit>& hit) const {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const Medium medium = rays_.medium(media);
@@ -86,7 +87,7 @@ std::optional<Ray> PathSample::scatter(const Interaction& at, const LocalFrame& 
   }
   if (kind == RayKind::refracted) media = at.media_beyond;
 
-  // A ray that passes through a surface straight stays on its line.
+  // A ray that is refracted, or passes straight through, leaves the surface along its own line.
   const bool bent = passes || sample.kind == BsdfSample::Kind::refracted;
   const Leaving side = bent                         ? Leaving::straight
                        : kind == RayKind::reflected ? Leaving::in_front

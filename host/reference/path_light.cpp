@@ -1,4 +1,4 @@
-// The light of lights that a vertex of a path scatters.
+// The light from light sources that a vertex of a path scatters.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,7 +11,7 @@
 
 namespace eyeray::engine::reference {
 
-// On edge a point is infinitely dense.
+// A point seen on edge has an infinite density.
 double power_heuristic(double p, double q) {
   return 1 / (1 + (q / p) * (q / p));
 }
@@ -44,7 +44,7 @@ double PathSample::environment_share() const {
   return environment_numbers(scene_.environment.get(), !tracer_.light_choice().ends.empty()) * 0x1p-24;
 }
 
-// The light seen by a path that hits nothing, weighted in the same way.
+// The light seen by a path that hits nothing, less the light that shadow rays have brought already.
 Vec3 PathSample::missed(const Vec3& d) const {
   Vec3 light = rays_.surroundings(d);
   const double share = environment_share();

@@ -97,7 +97,7 @@ class PathSample {
   std::optional<Ray> hit_gathering(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
                                    MediaStack& media, Vec3& color);
   std::optional<Ray> hit_medium(const Ray& ray, const Flight& flight, const MediaStack& media, Vec3& color);
-  // From a vertex whose lights have been sampled.
+  // Adds the light of a vertex whose lights have been sampled.
   void gain(const Vec3& light, Vec3& color);
   // Follows the path to its end, and calls `meet` at every surface.
   PixelSample follow(Ray ray, MediaStack media, Meet meet);

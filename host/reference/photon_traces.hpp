@@ -1,4 +1,4 @@
-// Single photons, and their ways if float32 rounds differently.
+// Single photons, and their paths if float32 rounds differently.
 #pragma once
 
 #include <cstdint>

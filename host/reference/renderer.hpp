@@ -14,8 +14,8 @@ class Renderer {
   // `scene` must outlive the renderer. The pixels do not depend on `acceleration`.
   explicit Renderer(const Scene& scene, Acceleration acceleration = Acceleration::bvh);
 
-  // Sample `index` of pixel (x, y), by the scene's integrator. The ray is displaced by `shift` pixels; up to
-  // displacement.pivot it is displaced to that side, and beyond to the other.
+  // Sample `index` of pixel (x, y), by the scene's integrator. The ray is displaced by `shift` pixels.
+  // With a displacement.pivot it is so only up to that distance, and beyond to the other side.
   PixelSample sample(int x, int y, uint32_t index, Vec2 shift = {0, 0},
                      const rounding::Displacement& displacement = {}, const Observer& observer = {}) const;
   // The denoiser's auxiliary values of that sample; for `path` alone.

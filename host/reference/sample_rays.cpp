@@ -63,7 +63,7 @@ Ray SampleRays::spawn_ray(const SurfacePoint& point, const Vec3& d, Leaving leav
 
   Vec3 offset;
   for (uint32_t i = 0; i < 3; ++i) offset[int(i)] = 2 * random(displacement_.seed, spawned_, i, 0) - 1;
-  // Edges of shapes other than triangles are not known: one ray in eight may be near any.
+  // The positions of edges are known of triangles alone: of other shapes, one ray in eight may be near one.
   if (displacement_.room > 0 && random(displacement_.seed, spawned_, 7, 0) < 0.125 &&
       point.weights == Vec3(0))
     offset *= displacement_.room / displacement_.share;
@@ -122,7 +122,7 @@ bool SampleRays::is_before(const SurfacePoint& point, const Vec3& l, double dist
 
 double SampleRays::shadow(const Ray& ray, double t_end) {
   ++rays_;
-  // If an area light is far away, float32 cannot resolve how near to it an occluder stands.
+  // If a light is far away, float32 cannot resolve how near to it an occluder stands.
   const double short_of = walks_at_random(scene_.render.integrator) ? displacement_.share : 0;
   return tracer_.transmittance(ray, t_end * (1 - short_of), flags_);
 }

@@ -1,5 +1,5 @@
-// The rays of one sample, as integrators trace them whose paths go on: their hits, how they leave these, and
-// how many there were.
+// The rays of one sample, as integrators trace them whose paths go on: their hits, how they leave the
+// surfaces, and how many there were.
 #pragma once
 
 #include <optional>
@@ -49,8 +49,8 @@ class SampleRays {
                           const Vec3& dimming);
   // The innermost.
   Medium medium(const MediaStack& media) const;
-  // The length of the ray up to t if the medium had constant coefficients and the same transmittance; and the
-  // t at which that length is `length`.
+  // The length with the transmittance of the ray up to t, if the medium had the same coefficients all along;
+  // and the t at which that length is `length`.
   double medium_length(const MediaStack& media, const Ray& ray, double t) const;
   double medium_distance(const MediaStack& media, const Ray& ray, double length) const;
   // The light seen by a ray in that unit direction if it hits nothing.

@@ -33,7 +33,7 @@ class Tracer {
   ~Tracer();
 
   // The nearest hit with t > 0; of exactly equal ones that of the lowest primitive. Adds to `flags`, of
-  // SampleFlags, its possible faults. `coincident`: rather another primitive that a ray with a unit
+  // SampleFlags, the result's possible faults. `coincident`: rather another primitive that a ray with a unit
   // direction hits so close behind it that float32 may take it for the nearer one.
   std::optional<Hit> trace(const Ray& ray, uint32_t& flags, bool coincident = false) const;
   std::optional<Hit> trace(const Ray& ray) const;

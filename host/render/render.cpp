@@ -41,7 +41,7 @@ class RowsAtATime {
   int most_;
 };
 
-// The wanted channels, and those that the driver needs.
+// The wanted channels, and those that Driver needs.
 film::Channels channels_of(const RenderOptions& options) {
   const film::Channels channels = film::with(options.channels, {"samples"});
   return options.noise > 0 ? film::with(channels, {"noise"}) : channels;

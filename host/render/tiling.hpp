@@ -26,8 +26,9 @@ constexpr int most_shards = 1 << 20;
 // more than `tiles_wanted`, and no narrower than `least_width`.
 //
 // Shards get one tile each of the first `shards` tiles, one each of the next, and so on, each time in an
-// order drawn anew. So everyone has, to within one, as many, and they lie all over the picture, wherever it
-// is costly. The orders are drawn from the number of the iteration alone, and are the same everywhere.
+// order drawn anew. So all shards have equally many, to within one, and they lie all over the picture,
+// wherever it is costly. The orders are drawn from the number of that round of tiles alone, and are the same
+// everywhere.
 class Tiling {
  public:
   // `width`, `height`, `shards` ≥ 1.

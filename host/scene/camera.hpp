@@ -58,7 +58,7 @@ struct CylindricalCamera {
   double fov_degrees = 180;  // that the picture's width spans
 };
 
-// monostate: those that other programs have no word for.
+// monostate: cameras that other programs have no word for.
 using CameraForm = std::variant<std::monostate, PerspectiveCamera, OrthographicCamera, FisheyeCamera,
                                 PanoramaCamera, CylindricalCamera>;
 
@@ -80,8 +80,8 @@ class Projection {
   // and Y in [−1, 1], spans the picture.
   virtual Vec3 scale(const Vec2& size) const = 0;
   // The ray, its direction unit, at `place`: from the picture's middle to the right and up, in half widths.
-  // It starts from `lens`, to the right and up of the eye, where rays start on an aperture. The reference's
-  // half: written from the mathematics, not from `scale` and the shader.
+  // If rays start on an aperture, it starts at `lens`, to the right and up of the eye. The reference's half:
+  // written from the mathematics, not from `scale` and the shader.
   virtual Ray ray(const CameraAxes& camera, const Vec2& place, const Vec2& lens, const Vec2& size) const = 0;
   // True if anything is seen there; else the picture is black.
   virtual bool sees(const Vec2& /*place*/, const Vec2& /*lens*/, const Vec2& /*size*/) const { return true; }

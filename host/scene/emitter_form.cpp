@@ -31,7 +31,7 @@ std::optional<EmitterForm> polygon_form(const PolygonForm& polygon) {
   return ParallelogramForm{corners[0], u, v};
 }
 
-// The area of the side: 2 ∫ |∂p/∂φ × ∂p/∂y| dφ. The midpoint rule is exact for periodic smooth ones.
+// The area of the side: 2 ∫ |∂p/∂φ × ∂p/∂y| dφ. The midpoint rule is exact for smooth periodic functions.
 double side_area(const CylinderForm& cylinder) {
   constexpr int steps = 256;
   const Mat3 linear(cylinder.to_world);

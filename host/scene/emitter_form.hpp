@@ -23,14 +23,14 @@ struct CylinderForm {  // x² + z² = 1 from y = −1 to 1, and, unless it is op
 using EmitterForm =
     std::variant<SphereForm, DiskForm, TriangleForm, ParallelogramForm, BoxForm, EllipsoidForm, CylinderForm>;
 
-// None of a shape on which no point is chosen.
+// Empty for a shape on which no point is chosen.
 std::optional<EmitterForm> emitter_form(const ShapeForm& form);
 EmitterForm mapped(const EmitterForm& form, const Affine& map);
 
 // The area of one side of the form.
 double area_of(const EmitterForm& form);
-// True if its angles are right angles, within float32: points chosen as if they were are uniform as far as
-// float32 resolves.
+// True if its angles are so nearly right angles that points chosen on it as on a rectangle are uniform within
+// float32.
 bool is_rectangle(const ParallelogramForm& it);
 // The share of a cylinder's area that its side has.
 double share_of_side(const CylinderForm& cylinder);

@@ -71,7 +71,7 @@ class Collector {
     if (!emits(shape.material)) return;
     const Material& its = material(shape.material);
     const auto own = emitter_form(shape.form());
-    // A quadric has its own uv, whatever its look.
+    // A quadric has its own uv, even if it is a sphere or a cylinder.
     const bool other_uv = !its.constant_emission() && shape.type == "quadric";
     if (!own || its.mask || other_uv) return found_.unsampled.push_back(shape.position);
     Emitter emitter{.primitive = primitive,

@@ -13,7 +13,7 @@ namespace eyeray::engine {
 
 namespace {
 
-// To shares of their sum, which is returned. Added in order, also beside other threads.
+// Divides the weights by their sum, and returns the sum. It is added in order, never by several threads.
 double normalise(std::span<double> weights) {
   const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
   for (double& weight : weights) weight = sum > 0 ? weight / sum : 0;

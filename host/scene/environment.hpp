@@ -1,5 +1,5 @@
 // The environment of the scene: a picture of all directions, and the probability with which a path chooses
-// each texel.
+// each direction.
 #pragma once
 
 #include <cstdint>

@@ -17,7 +17,7 @@ class Packer;  // records/packer.hpp
 // A light as a point sees it.
 struct Illumination {
   Vec3 l;            // unit, towards the light
-  Vec3 color;        // the arriving light, were nothing between
+  Vec3 color;        // the arriving light if nothing is in between
   double distance;   // infinite for a light without a position
   double angle = 0;  // half of that under which it is seen, in radians: it is spread evenly over such a disk
 };
@@ -46,7 +46,7 @@ struct SpotLight {
   double inner = 0, outer = 0;  // in radians, 0 ≤ inner < outer ≤ π / 2
 };
 
-// monostate: those that other programs have no word for.
+// monostate: lights that other programs have no word for.
 using LightForm = std::variant<std::monostate, PointLight, DirectionalLight, SpotLight>;
 
 class Light {

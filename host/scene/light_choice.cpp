@@ -28,7 +28,8 @@ double reach(const Scene& scene) {
   return glm::length(all.max - all.min) / 2;
 }
 
-// The power that a light emits into the scene. A light of an unknown form counts as if it stood everywhere.
+// The power that a light emits into the scene. A light of a form unknown to other programs counts as if it
+// stood everywhere.
 double power(const Light& light, double radius) {
   const LightForm form = light.form();
   if (const auto* point = std::get_if<PointLight>(&form); point && point->falloff == Falloff::inverse_square)

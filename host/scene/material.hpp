@@ -83,7 +83,7 @@ class Material {
   virtual ~Material() = default;
 
   virtual Scattering scattering(const ScatteringContext& context) const = 0;
-  // For paths; `scattering`: its result. By default these terms, none of them above 1.
+  // For paths; `scattering`: the result of scattering(). By default these terms, none of them above 1.
   virtual Bsdf bsdf(const ScatteringContext& context, const Scattering& scattering) const;
   // The colour that `raycast` shades.
   virtual Vec3 base_color(const TextureContext& place) const = 0;
@@ -92,7 +92,7 @@ class Material {
   virtual std::optional<Vec3> constant_emission() const { return std::nullopt; }
   // Set for materials that fill their shape and let rays through.
   virtual std::optional<Medium> medium() const { return std::nullopt; }
-  // True if paths take it for a pane, which has no inside, for any `medium`.
+  // True if paths take it for a pane, which has no inside, for any result of medium().
   virtual bool thin() const { return false; }
   // The share of a shadow ray's light that passes a shape of this material, however often it crosses it.
   virtual double shadow_transmittance() const { return 0.0; }

@@ -13,7 +13,7 @@ namespace eyeray::engine {
 // name takes 12 bytes, however many copies of its groups there are. Copying indices is all that objects do.
 class Names {
  public:
-  // The name of an object that has no name and stands in no group that has one.
+  // The index for an object that has no name and stands in no group that has one.
   static constexpr int32_t none = -1;
 
   // The next object called `text` in `group`, which is none or a result of add. `number`: of a batch that

@@ -20,8 +20,9 @@ struct PhotonTarget {
 inline constexpr size_t most_photon_targets = 16;
 
 // Spheres around all shapes and meshes whose material has sharp lobes alone: glass, mirrors, smooth metal,
-// panes. Where there are more than `most_photon_targets`, those that are near to each other share one. None
-// of endless ones, or ones wider than half of `reach`, the scene's radius: photons find those by themselves.
+// panes. Where there are more than `most_photon_targets`, those that are near to each other share one.
+// Endless shapes, and objects wider than half of `reach`, the scene's radius, have none: photons find those
+// by themselves.
 std::vector<PhotonTarget> photon_targets(const Scene& scene, double reach);
 
 // True if the material may store photons. A roughness from a texture may have any value.

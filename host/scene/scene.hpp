@@ -28,7 +28,8 @@ enum class IntegratorType : uint32_t;
 class EnvironmentMap;  // scene/environment.hpp
 struct Scene;
 
-// The part of the picture around its middle that a pixel shows, evenly weighted: samples are drawn from it.
+// The part of the picture around its middle that a pixel shows. Samples are drawn from the filter, and all
+// have the same weight.
 enum class PixelFilter : uint32_t { box, gaussian, blackman_harris };
 
 struct ImageSettings {
@@ -44,7 +45,8 @@ struct ImageSettings {
   int64_t all_samples() const { return int64_t{width} * height * samples; }
 };
 
-// The choice of one light at each vertex of a path, by integrators that do so; automatic: by their number.
+// The choice of one light at each vertex of a path, by integrators that do so; automatic: by the number
+// of lights.
 enum class LightSampler { automatic, uniform, power, bvh };
 enum class TriangleMethod { woop, moller_trumbore };
 enum class GroupStorage { automatic, instanced, flat };
@@ -124,7 +126,7 @@ void for_each_shape(const Scene& scene, const Visit& visit) {
     for (const auto& shape : group.shapes) visit(*shape);
 }
 
-// The same, with the parts of CSG objects in their place.
+// Calls visit(shape) as for_each_shape does, but with the parts of CSG objects in their place.
 template <typename Visit>
 void for_each_leaf(const Scene& scene, const Visit& visit) {
   for_each_shape(scene, [&](const Shape& shape) { for_each_leaf(shape, visit); });

@@ -71,7 +71,7 @@ struct SurfacePoint {
   Vec3 normal_side{0.0};
 };
 
-// Its normals, and the vectors with them, towards the other side.
+// Turns the normals, and the vectors that belong to them, to the other side.
 inline void turn_over(SurfacePoint& point) {
   for (Vec3* normal : {&point.normal_geometric, &point.normal, &point.coat_normal, &point.normal_side})
     *normal = -*normal;
@@ -156,7 +156,8 @@ using ShapeForm =
     std::variant<std::monostate, SphereForm, PlaneForm, TriangleForm, BoxForm, DiskForm, CapsuleForm,
                  QuadricForm, TorusForm, SuperellipsoidForm, PolygonForm, ExtrusionForm, BezierForm, CsgForm>;
 
-// A formula that bounds a shape: negative within, in a box of object space.
+// A formula that bounds a shape within a box of object space: negative inside the shape, or on one side of an
+// open surface.
 struct FormulaUse {
   std::shared_ptr<const formula::Formula> formula;
   Bounds box;

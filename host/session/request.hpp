@@ -45,7 +45,7 @@ Scene checked(Scene scene);
 // `crop`, or all of the picture where it is empty. Error (bad_input) where it leaves the picture.
 Rect crop_within(const Rect& crop, const ImageSettings& image);
 
-// The options of an executor that computes the values for these channels; otherwise `options`.
+// Returns `options` with ray_kinds and search_cost set if these channels need them, else cleared.
 executors::ExecutorOptions counting(executors::ExecutorOptions options, const film::Channels& channels);
 
 // Samples corners of pixels, a depth of five with the camera rays, and leaves nothing out that counts for

@@ -1,4 +1,4 @@
-// One way from a request to a picture, for every program: code that checks it, renders it and adds doubts.
+// One way from a request to a picture, for every program: checks the request, renders it and warns of doubts.
 #pragma once
 
 #include <memory>
