@@ -13,8 +13,8 @@ namespace eyeray::engine::render {
 class Brightness {
  public:
   void add(std::span<const PixelSample> samples);
-  // The number of samples with more luminance than that, which is above 0; samples that are hardly brighter
-  // are counted only in part. Else 0.
+  // The number of samples with more luminance than that; samples that are hardly brighter are counted only in
+  // part. Returns 0 unless `luminance` is above 0.
   uint64_t above(double luminance) const;
   // The number of samples so much brighter than the mean that they make dots, in a picture of `pixels` whose
   // luminances have that sum.

@@ -34,8 +34,8 @@ struct LeftOutPhotons {
   }
 };
 
-// If the scene sets no radius, it is two pixels wide as seen at the middle of all bounded objects, or at the
-// camera's target if there are none.
+// If the scene sets no radius, the radius is two pixels wide as seen at the middle of all bounded objects, or
+// at the camera's target if there are none.
 PhotonSettings photon_settings(const Scene& scene);
 
 // The radius of sample `index`. Variance grows as it shrinks, and bias falls; by this choice the mean of all
