@@ -185,7 +185,7 @@ TEST_CASE("an edge along the centres of a row of pixels takes up nothing of what
   CHECK_FALSE(shadow.passes());
 }
 
-TEST_CASE("features narrower than the first ring are found by the second") {
+TEST_CASE("the second look finds features narrower than the ring of the first") {
   const Reference reference = [](int, int, const Vec2& shift, rounding::Chance) {
     Neighbour neighbour;
     const double r = glm::length(shift);

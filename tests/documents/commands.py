@@ -1,5 +1,5 @@
 """Every eyeray command that a document shows is one: its words and options are those of --help, its scenes are there,
-and and those that write or print something without rendering are run. With --all every command runs, small, but for those of NOT_RUN. Then
+and those that write or print something without rendering are run. With --all every command runs, small, but for those of NOT_RUN. Then
 a block that begins with its file's name as a comment (`# first.toml`) is written to that file, or with the word "continued" appended to it;
 lines that begin with sed are run too; and `# exit code 1` behind a command is the exit code that it must have.
 Usage: commands.py EYERAY [--all [DOCUMENT…]], from the source tree's root."""

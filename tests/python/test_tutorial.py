@@ -1,4 +1,4 @@
-"""docs/python.md does what it shows: its blocks, one after the other, as as a notebook shows it."""
+"""docs/python.md does what it shows: its blocks, one after the other, as a notebook shows it."""
 import contextlib
 import io
 import pathlib
