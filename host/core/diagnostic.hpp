@@ -1,4 +1,4 @@
-// An error in a text that a person wrote (scene or shader), shown in the way of compilers.
+// Errors and warnings about a text that a person wrote (scene or shader), shown as compilers show them.
 #pragma once
 
 #include <span>

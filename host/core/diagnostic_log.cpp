@@ -30,7 +30,8 @@ void DiagnosticLog::add(Severity severity, SourcePosition position, std::string 
   if (position.file.empty() && !sources_.empty()) position = {sources_.front().file, 0, 0};
   if (source_index(position.file) == sources_.size()) position.line = position.column = 0;
 
-  // Drop messages that were made before or that nobody would read; that is not kept for comparison either.
+  // Drop a message that was added before, or that nobody would read. The latter is not kept for comparison
+  // either.
   std::string text = fmt::format("{}:{}:{}:{}", position.file, position.line, position.column, message);
   if (seen_.contains(text)) return;
   if (severity == Severity::error) ++errors_;

@@ -23,8 +23,7 @@ class DiagnosticLog {
   void error(SourcePosition position, std::string message);
   void warning(SourcePosition position, std::string message);
 
-  // While it lives, the messages of the log begin with their subject, as `subject` returns it,
-  // unless that is "".
+  // While it lives, the messages of the log begin with the text that `subject` returns, unless that is "".
   // The innermost counts.
   class About {
    public:

@@ -16,7 +16,7 @@ Error own_fault(const std::string& what) {
 
 void detail::check_failed(const char* file, int line, const char* expression, const std::string& values) {
   fmt::print(stderr, "{}:{}: check failed: {}{}\n{}\n", file, line, expression, values, please_report);
-  std::signal(SIGABRT, SIG_DFL);  // with any memory left or none, this is a bug
+  std::signal(SIGABRT, SIG_DFL);  // a failed check is a bug, not a shortage of memory
   std::abort();
 }
 

@@ -23,7 +23,7 @@ std::string host_arithmetic() {
   // Calls through pointers that the compiler cannot see through, lest it computes them itself.
   std::vector<double> values;
   for (int i = 0; i < arguments; ++i) {
-    // In (0, 1), spread evenly, and with all last bits: multiples of the golden ratio.
+    // In (0, 1), spread evenly, with varied last bits: multiples of the golden ratio.
     const double x = std::fmod(0.6180339887498949 * (i + 1), 1.0);
     for (const OfOne volatile function : of_one) {
       values.push_back(function(x));

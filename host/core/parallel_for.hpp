@@ -19,7 +19,8 @@ void parallel_for(int begin, int end, const Body& body) {
   });
 }
 
-// The same; but until all are done this thread helps with nothing else, which might wait for its locks.
+// The same; but until all are done this thread helps with nothing else, which might wait for a lock that this
+// thread holds.
 template <typename Body>
 void parallel_for_alone(int begin, int end, const Body& body) {
   tbb::this_task_arena::isolate([&] { parallel_for(begin, end, body); });
@@ -39,7 +40,7 @@ auto parallel_sum(int begin, int end, const Term& term) {
       std::plus<>());
 }
 
-// Calls both, perhaps at the same time. Both must not throw.
+// Calls both, perhaps at the same time. An exception from either is not allowed.
 template <typename A, typename B>
 void parallel_invoke(const A& a, const B& b) {
   tbb::parallel_invoke(a, b);

@@ -19,7 +19,7 @@ struct PixelSample {
   uint32_t refracted = 0;
   uint32_t total_reflections = 0;  // hits whose refracted ray would have been followed, had there been one
   uint32_t trail = 1;              // a fingerprint of a random path's decisions (docs/gates.md); else 1
-  bool cut_off = false;            // whether `max_depth` ended its path; of those that walk at random
+  bool cut_off = false;            // whether `max_depth` ended its path; for random paths only
 };
 
 // A denoiser's auxiliary values of one sample: those of the first vertex of its path that scatters light into
@@ -61,7 +61,7 @@ struct FirstHit {
   // The largest coordinate, relative to the eye, that t was computed from, over the cosine of incidence: the
   // shift of t by the rounding of coordinates is in proportion to it. Known to the reference; 0 elsewhere.
   double t_scale = 0;
-  SearchCost cost{};  // the search's own, not the hit's: gates do not compare it
+  SearchCost cost{};  // of the search, with or without a hit: gates do not compare it
 };
 
 }  // namespace eyeray::engine

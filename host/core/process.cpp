@@ -112,7 +112,7 @@ void Process::send_signal(int number) {
   if (!code_) ::kill(pid_, number);
 }
 
-// Takes in the output within `seconds`; false when nothing did.
+// Takes in the output that arrives within `seconds`; false when none did.
 bool Process::receive(double seconds) {
   pollfd polled[2] = {{out_fd_, POLLIN, 0},
                       {err_fd_, POLLIN, 0}};  // a closed one is −1, which poll passes over
@@ -122,7 +122,7 @@ bool Process::receive(double seconds) {
   return true;
 }
 
-// Takes in the output within `seconds`, or notices the end.
+// Takes in the output that arrives within `seconds`, or notices the end.
 void Process::listen(double seconds) {
   // With both streams closed only the end is left to wait for, and nothing announces it.
   const bool open = out_fd_ >= 0 || err_fd_ >= 0;

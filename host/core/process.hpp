@@ -57,7 +57,8 @@ class Process {
 
 // The words that this process was called by, after the path of its program.
 std::vector<std::string> own_command();
-// Puts the program in place of itself, called by the same words. Error (file_io) where the system refuses.
+// Replaces this process by a new start of its program, called by the same words. Error (file_io) where the
+// system refuses.
 [[noreturn]] void restart(const Environment& environment);
 
 struct ProcessResult {

@@ -46,8 +46,8 @@ class RayRecorder {
   // Rays and values that are kept.
   static constexpr uint32_t most = 1 << 17;
 
-  // From here on values belong to a new ray. A reflected or refracted one is that of the last ray with one
-  // reflection or refraction less than `depth`, a shadow ray that of the last with as many.
+  // From here on values belong to a new ray. A reflected or refracted one comes from the last ray with one
+  // reflection or refraction less than `depth`, a shadow ray from the last with as many.
   void ray(RayKind kind, uint32_t number, uint32_t depth);
   // From here on they belong to the last ray of `depth` again, beyond every depth to the pixel.
   void back(uint32_t depth);

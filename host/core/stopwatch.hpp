@@ -18,7 +18,7 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now();
 };
 
-// Seconds in which this process ran. It is to be queried several times a second: between two questions it
+// Seconds in which this process ran. It is to be queried several times a second: between two queries it
 // counts a quarter of a second at most, so not the hours for which the process was stopped (Ctrl-Z).
 class WakefulStopwatch {
  public:

@@ -36,7 +36,8 @@ class Interruptible {
   Interruptible& operator=(const Interruptible&) = delete;
 };
 
-// Error (interrupted) if one has. For work that may never end, of which nothing is worth saving: a pixel.
+// Throws Error (interrupted) if interrupted(). For work that may never end, of which nothing is worth saving:
+// a pixel.
 inline void stop_if_interrupted() {
   if (interrupted()) throw Error(ExitCode::interrupted, "interrupted");
 }

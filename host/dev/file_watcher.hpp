@@ -12,7 +12,7 @@
 
 namespace eyeray::engine::dev {
 
-// The files to watch. A file that does not exist (yet) counts as changed once it appears.
+// The files and folders to watch. A file that does not exist (yet) counts as changed once it appears.
 struct WatchList {
   std::vector<std::filesystem::path> files;
   std::vector<std::filesystem::path> folders;  // everything below them whose name has one of `endings`

@@ -39,8 +39,8 @@ struct Painted {
   session::PictureQuality quality = {};
 };
 
-// All of a view by `executor`, which is of its backend and counts the view's needs; in bands of some
-// hundredths of a second. Nothing when the sink or a signal ended it.
+// All of a view by `executor`, which has the view's backend and counts the values that the view needs; in
+// bands of some hundredths of a second. Nothing when the sink or a signal ended it.
 std::optional<Painted> paint(const View& view, const Scene& scene, executors::Executor& executor,
                              const RowsSink& sink);
 

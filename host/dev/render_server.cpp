@@ -115,7 +115,7 @@ void RenderServer::load(const Json& request) {
                           {"high", each.high},
                           {"written", each.written},
                           {"value", each.written}});
-  // A shader with sliders is about to change.
+  // A scene with sliders is about to change: its kernel must do for other values too.
   own_kernel_ = request.value("shaders_changed", true) && tunables.empty();
   Json files = Json::array();
   for (const auto& file : scene_->files) files.push_back(file.string());

@@ -25,7 +25,7 @@ std::vector<std::string> numbers_in(const std::string& text) {
   return numbers;
 }
 
-// The type and value of the text at a key, where the control moves such things.
+// Reads the type and value of the text at a key; false if the control does not move such values.
 bool read_value(const std::string& control, const std::string& text, SceneTunable& tunable) {
   const std::vector<std::string> numbers = numbers_in(text);
   if (control == "checkbox") {
@@ -57,7 +57,7 @@ Parts parts_of(const std::string& key) {
   return std::regex_match(key, match, form) ? Parts{match[1], match[2], match[3]} : Parts{"", "", key};
 }
 
-// Without the parts that state only how it is computed.
+// The name of a property: its path without the parts that state only how it is computed.
 std::string property_name(const std::string& path) {
   std::string name;
   std::istringstream words(path);

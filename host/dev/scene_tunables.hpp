@@ -14,8 +14,8 @@ namespace eyeray::engine::dev {
 
 struct SceneTunable {
   std::string key;  // as -D takes it: "material.2.diffuse.formula.parameters.size"
-  // For people: whose it is, by its `name`, its `file`'s or its kind, "bricks", "sphere 2", and its own,
-  // "diffuse size".
+  // For people: the owner, by its `name`, its `file`'s or its kind ("bricks", "sphere 2"), and the tunable's
+  // own name ("diffuse size").
   std::string owner, name;
   std::string type;  // "float", "int", "bool" or "vec3"
   double low = 0, high = 1;

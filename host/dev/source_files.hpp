@@ -15,12 +15,12 @@ class SourceFiles {
   // By the clock of files' times.
   static Clock::time_point now();
 
-  // Sets the watched files, read since `began`. Bytes of files that are new to it are compared with later
-  // ones. If such a file was written since `began`, it is unknown which bytes were read: it counts as
-  // changed, once.
+  // Sets the watched files, read since `began`. The present bytes of new ones are those that later bytes are
+  // compared with. If a file, new or not, was written since `began`, it is unknown which bytes were read: it
+  // counts as changed, once.
   void set(const std::set<std::filesystem::path>& files, Clock::time_point began);
   const std::set<std::filesystem::path>& files() const { return files_; }
-  // True if there is such a file.
+  // True if there is a file of which it is unknown which bytes were read.
   bool any_unknown() const;
 
   // Those whose bytes are others than at the last call: saving the same bytes counts for nothing.

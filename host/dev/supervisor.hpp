@@ -1,5 +1,5 @@
-// eyeray dev: watches files, has a worker render them, shows the picture and the faults, and outlives all
-// of it.
+// eyeray dev: watches files, has a worker render them, shows the picture and the faults, and
+// outlives the worker's crashes.
 #pragma once
 
 #include <filesystem>

@@ -134,7 +134,7 @@ std::optional<Answer> WebServer::Site::refused(Request& request) const {
   for (const char* name : {"127.0.0.1", "localhost", "[::1]"})
     known = known || host == fmt::format("{}:{}", name, request.port);
   if (!known) return refusal(403, "This is not the host that you asked for.");
-  // Browsers name the page that sends requests to change something, and may do so for the rest.
+  // Browsers name the page from which a request comes if it may change something, and perhaps for the rest.
   const std::string &origin = request.header["origin"], &site = request.header["sec-fetch-site"];
   const bool must_say = request.method != "GET" && request.method != "HEAD";
   if ((origin != "http://" + host && (must_say || !origin.empty())) ||

@@ -3,7 +3,7 @@
 // Whoever may use this machine can reach a port of it, as can any web page that a browser on it shows.
 // Therefore every path begins with a random token. The Host must be this machine's own name, against names
 // that are bound to it later (DNS rebinding). A request that changes anything must come from this page
-// (Origin). Only the page's needs are served, none of it from a file.
+// (Origin). Only data that the page needs is served, none of it from a file.
 #pragma once
 
 #include <functional>

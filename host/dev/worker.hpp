@@ -25,8 +25,8 @@ class Worker {
   MessageSocket& socket() { return socket_; }
   // True if a debugger is attached to it, and may hold it for as long as a person thinks.
   bool debugged() const;
-  // Ends it in any state: soon, and with its unfinished files gone. How it ended, for people: "signal 11
-  // (Segmentation fault)"; a process that ends by itself does so before it is killed.
+  // Ends it in any state: soon, and with its unfinished files gone. Returns how it ended, for people: "signal
+  // 11 (Segmentation fault)"; a process that ends by itself does so before it is killed.
   std::string kill();
 
  private:

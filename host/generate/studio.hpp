@@ -8,8 +8,7 @@ namespace eyeray::engine::generate {
 inline constexpr int most_studio_width = 4096;
 
 // Equirectangular, of `width` × `width` / 2: a grey room with a soft box, a strip of light and a small area
-// light.
-// The same on every machine.
+// light. The same on every machine.
 image::Image studio(int width);
 
 }  // namespace eyeray::engine::generate

@@ -64,8 +64,8 @@ bool split_position(std::string_view text, SourcePosition& position, std::string
 }
 
 // If an error concerns a row of a registry, `sphere_intersect` for instance, the line has only the registry's
-// macro. Then the position is set to the name's in the row's file, shapes/sphere.glsl. Returns an addition to
-// the message; "" if the token belongs to no row.
+// macro. Then the position is set to that of the name in the row's file, shapes/sphere.glsl. Returns an
+// addition to the message; "" if the token belongs to no row.
 std::string locate_row(SourcePosition& position, std::string_view token, const ShaderSource& source) {
   const std::pair<const std::string, std::string>* row = nullptr;
   size_t longest = 0;

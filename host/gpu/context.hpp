@@ -9,7 +9,7 @@
 
 namespace eyeray::engine::gpu {
 
-// Makes earlier writes visible to later reads.
+// Makes later stages wait for earlier ones, and earlier writes visible to later reads.
 void record_barrier(VkCommandBuffer commands, VkPipelineStageFlags stages, VkAccessFlags written,
                     VkPipelineStageFlags later_stages, VkAccessFlags read);
 

@@ -14,7 +14,7 @@ struct KernelOptions {
   std::optional<FloatModes> strict = {};  // the float policy, with these modes; none: --fast-math
   bool optimise = true;                   // spirv_optimiser.hpp
   bool flatten = false;                   // the same; only where `optimise`
-  bool validate = false;                  // the result by SPIRV-Tools' validator, as spirv-val does
+  bool validate = false;                  // checks the result by SPIRV-Tools' validator, as spirv-val does
 };
 
 // Error (bad_input) where the result is not valid. Else: the result of compile_shader and `options`, or the

@@ -204,7 +204,7 @@ void RasterTarget::clear() {
   context_->submit_and_wait("clear a picture");
 }
 
-// Copies the images, and makes them ready for drawing again.
+// Copies an image, and makes it ready for drawing again.
 void RasterTarget::record_copy(size_t index) const {
   const AttachmentType& type = types[index];
   const VkImage image = attachments_[index].image;

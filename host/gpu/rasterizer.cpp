@@ -35,7 +35,7 @@ class StageModule {
   VkShaderModule module_ = VK_NULL_HANDLE;
 };
 
-// Nothing is culled, nothing blended; the nearer stays.
+// Nothing is culled, nothing blended; the nearer fragment stays.
 VkPipeline create_pipeline(const Context& context, const RasterTarget& target, VkPipelineLayout layout,
                            const RasterShaders& shaders) {
   const StageModule vertex(context, shaders.vertex), fragment(context, shaders.fragment);

@@ -39,7 +39,7 @@ class Rasterizer {
   Rasterizer(const Rasterizer&) = delete;
   Rasterizer& operator=(const Rasterizer&) = delete;
 
-  // The number of triangles to draw at once.
+  // The best number of triangles to draw at once.
   static constexpr size_t batch = size_t{1} << 16;
 
   // Draws triangles, three vertices each, beside and behind those drawn before. Both sides are seen.

@@ -16,13 +16,13 @@ using Instruction = SpirvInstruction;
 using Block = SpirvBlock;
 
 // True if a function of GLSL.std.450, the only set of functions that shaders use, takes values alone. Modf
-// and the functions after FMix write through pointers.
+// writes through a pointer, as some of the functions after FMix do.
 bool is_function_of_values(uint32_t function) {
   return function <= GLSLstd450FMix && function != GLSLstd450Modf;
 }
 
 // True if it may be computed where nobody asks for it. An integer division by zero may not, nor a load from
-// who knows where.
+// an unknown address.
 bool is_harmless(const Instruction& instruction) {
   const spv::Op opcode = opcode_of(instruction);
   switch (opcode) {

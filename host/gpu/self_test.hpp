@@ -1,4 +1,5 @@
-// Known answers, computed by a device before it renders: some drivers compute wrong, and return VK_SUCCESS.
+// Known answers, computed by a device before it renders: some drivers compute wrong results, and return
+// VK_SUCCESS.
 #pragma once
 
 #include <cstdint>

@@ -15,7 +15,7 @@ struct CompiledShader {
   std::vector<Diagnostic> warnings;
 };
 
-// True if the SPIR-V states the file and line of each instruction.
+// The choice to drop or keep the file and line of each instruction in the SPIR-V.
 enum class Lines { dropped, kept };
 
 // Compiles a shader, of the stage that its entry's name gives (NAME.vert.glsl, NAME.frag.glsl, else a compute

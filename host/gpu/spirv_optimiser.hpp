@@ -19,7 +19,7 @@ namespace eyeray::engine::gpu {
 // `flatten`: selections too (selection_flattener.hpp), for a driver whose compiler needs them gone.
 std::vector<uint32_t> optimise(std::span<const uint32_t> spirv, bool flatten = false);
 
-// The result depends on this besides the module.
+// A name of everything that the result depends on besides the module.
 std::string optimiser_version(bool flatten);
 
 }  // namespace eyeray::engine::gpu

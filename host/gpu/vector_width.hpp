@@ -15,9 +15,9 @@ bool may_widen_vectors();
 bool gains_from_wide_vectors(std::string_view driver_version);
 
 // To be called before a driver is loaded, which reads the environment then. If `wide`, and if possible,
-// llvmpipe computes in vectors of 512 bits. Mesa's shader cache does not record the vectors' width. So for
-// any chosen width kernels are cached in a separate folder: below $MESA_SHADER_CACHE_DIR, or else below
-// eyeray's own cache.
+// llvmpipe computes in vectors of 512 bits. Mesa's shader cache does not record the vectors' width. So
+// kernels of a chosen width, whoever chose it, are cached in a separate folder: below $MESA_SHADER_CACHE_DIR,
+// or else below eyeray's own cache.
 void set_vector_width(bool wide);
 
 // A warning that Mesa's shader cache is then not used, since others could have changed it; "" where it is.

@@ -31,7 +31,7 @@ bool is_bmp(std::string_view bytes);
 BitmapSize bmp_size(std::string_view bytes);
 
 // Decode to `pixels`, the top row first: red, green, blue and alpha, 8 bits each, 255 where the file has no
-// alpha. There are as many as the size has. Return the fault, as in "it ends early", or "". `warnings`
+// alpha. There are as many pixels as the size has. Return the fault, as in "it ends early", or "". `warnings`
 // gets a clause for each field that changes the numbers' meaning and is not honoured, as in "its colours are
 // …".
 std::string read_tga(std::string_view bytes, std::span<std::array<uint8_t, 4>> pixels,

@@ -30,8 +30,7 @@ bool is_srgb_profile(std::string_view profile) {
       [&](std::string_view name) { return profile.find(name) != std::string_view::npos; });
 }
 
-// The profile in an iCCP chunk: a name, a zero, the method 0, then zlib's data; as much as can be
-// read.
+// The profile in an iCCP chunk: a name, a zero, the method 0, then zlib's data; as much as can be read.
 std::string inflated(std::string_view chunk) {
   constexpr size_t most = size_t{1} << 22;
   const size_t name = chunk.find('\0');
@@ -51,7 +50,7 @@ std::string inflated(std::string_view chunk) {
 
 constexpr std::string_view taken_as_srgb = " is ignored: its colours are read as sRGB";
 
-// The deciding statement on colours in a PNG's chunks.
+// A clause on the chunk that decides on a PNG's colours; "" if the codes are sRGB.
 std::string png_colors(const std::map<std::string_view, std::string_view>& chunks) {
   const auto chunk = [&](std::string_view name) {
     const auto found = chunks.find(name);

@@ -10,7 +10,7 @@
 
 namespace eyeray::engine::image {
 
-// 1 … 8, as EXIF numbers them; 1, upright, where the file has no readable one.
+// The orientation, 1 … 8, as EXIF numbers it; 1, upright, where the file has none that can be read.
 // Source: CIPA DC-008 (Exif 2.3), tag 0x0112 of the first directory.
 int exif_orientation(std::span<const std::byte> jpeg);
 // The orientation in a TIFF block alone, as a PNG contains it.

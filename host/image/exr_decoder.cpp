@@ -216,7 +216,7 @@ class ExrReader {
 // The value of `read` for the file's reader.
 template <typename Read>
 auto with_reader(std::string_view bytes, const std::string& name, const Read& read) {
-  // Before the library takes memory for a header's promises.
+  // Sets the limits before the library takes memory for the size that a header states.
   static const bool limited = [] {
     Imf::Header::setMaxImageSize(65536, 65536);
     Imf::Header::setMaxTileSize(65536, 65536);

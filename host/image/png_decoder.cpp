@@ -28,7 +28,7 @@ class PngReader {
 
   bool read(std::span<std::array<uint8_t, 4>> pixels) {
     if (setjmp(png_jmpbuf(png_))) return false;
-    // As with JPEG checksums are not checked; chunks without effect on codes are skipped.
+    // Checksums are not checked, as with JPEG; chunks without effect on codes are skipped.
     png_set_crc_action(png_, PNG_CRC_QUIET_USE, PNG_CRC_QUIET_USE);
     png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
     png_set_chunk_malloc_max(png_, most_chunk_bytes);

@@ -49,8 +49,9 @@ class Reader {
   }
 
  private:
-  // Pixels one by one. A pixel of 1, 1, 1 repeats the one before by its last byte's count; several such
-  // make one number, the lowest byte first. (Nobody else writes 1, 1, 1: colours are scaled to 128 and more.)
+  // Pixels one by one. A pixel of 1, 1, 1 repeats the one before as often as its last byte states; several
+  // such make one number, the lowest byte first. (Nobody else writes 1, 1, 1: colours are scaled to 128 and
+  // more.)
   void plain_row(std::vector<Rgbe>& pixels) {
     int shift = 0;
     for (size_t x = 0; x < pixels.size();) {
@@ -75,7 +76,7 @@ class Reader {
     rest_.remove_prefix(1);
     return value;
   }
-  // One channel of a row: n > 128 is "the next byte n − 128 times", n in 1 … 128 "the next n bytes".
+  // One channel of a row: n > 128 means "the next byte n − 128 times", n in 1 … 128 "the next n bytes".
   void runs(std::vector<Rgbe>& pixels, size_t channel) {
     for (size_t x = 0; x < pixels.size();) {
       const unsigned char code = byte();

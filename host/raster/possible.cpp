@@ -113,7 +113,7 @@ Possible::Possible(Viewer viewer, const Vec2& center, std::span<const ScreenTria
                    const View& view, const Exactness& exactness, bool tessellated) {
   tolerance_ = exactness.t;
 
-  // The triangles that are near enough to be seen, and their distance from the eye.
+  // The triangles that are near enough to the centre to be seen, and the ranges of their nearness.
   std::vector<const ScreenTriangle*> near;
   std::vector<double> radii;
   for (const ScreenTriangle& triangle : triangles) {

@@ -86,7 +86,7 @@ Vec2 View::shift(double x, double y, double nearness, double distance) const {
   return {focal_ * distance * std::hypot(1.0, across) / least, nearness * distance / least};
 }
 
-// A plane through which the seen part passes: above 0 on its inner side.
+// A plane that bounds the drawn part of space: above 0 on its inner side.
 Vec4 View::side(int number) const {
   const Vec2 size(area_.width, area_.height);
   const bool along_y = number >= 2;
@@ -101,7 +101,7 @@ Vec4 View::side(int number) const {
   plane[along_y ? 1 : 0] = turn * sign * focal_;
   plane[perspective_ ? 2 : 3] = offset;
   if (number < 4) return plane;
-  // Before the eye, the first time; and no farther than endless shapes.
+  // Side 4 keeps points before the eye. Side 5 keeps w ≥ 0: nothing beyond infinity.
   if (number == 4) return {0, 0, 1, perspective_ ? -nearest : 0};
   return {0, 0, 0, 1};
 }

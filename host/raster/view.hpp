@@ -1,6 +1,6 @@
 // The projection of the world onto a picture: the forward map, from points to pixels, which camera rays
-// follow backwards.
-// Written from docs/scene-reference.md's cameras, not from the shaders and not from the reference's rays.
+// follow backwards. Written from docs/scene-reference.md's cameras, not from the shaders and not from the
+// reference's rays.
 #pragma once
 
 #include <array>
@@ -58,8 +58,8 @@ class View {
   // True if a ball in the camera's space may be seen.
   bool may_see(const Vec3& center, double radius) const;
 
-  // Calls visit(ScreenTriangle), `like` at other points, for the part of a convex polygon before the eye and
-  // about the picture, some pictures wide, so that float32 can resolve all corners. A cut between two
+  // Calls visit(ScreenTriangle), `like` with other corners, for the part of a convex polygon before the eye
+  // and about the picture, some pictures wide, so that float32 can resolve all corners. A cut between two
   // polygons that share an edge is the same number in both.
   template <typename Visit>
   void cut(std::span<const Vec4> polygon, const ScreenTriangle& like, const Visit& visit) const {

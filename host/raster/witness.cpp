@@ -53,7 +53,8 @@ Seen Witness::traced_at(const compare::Frame& frame, size_t pixel) const {
           view().nearness(int(pixel % width), int(pixel / width), hit.t)};
 }
 
-// A hit lies where its pixel sees it, and as far away as t; else, in words, where.
+// Empty if a hit lies where its pixel sees it, and as far away as its t; else, in words, where its position
+// falls.
 std::string Witness::misplaced(const FirstHit& hit, int x, int y) const {
   const Vec3 at = view().to_camera(hit.position);
   if (!(hit.t > 0) || !std::isfinite(hit.t) || !std::isfinite(magnitude(at)))

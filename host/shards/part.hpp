@@ -74,8 +74,8 @@ struct PartTotals {
   void add(const PartTotals& other);
 };
 
-// Conversions to the file's text, and back. The latter: Error (file_io) for any other text, which names the
-// fault.
+// Conversions to the file's text, and back. For any other text the latter throws Error (file_io), whose words
+// name the fault.
 std::string to_text(const PartHeader& header);
 PartHeader header_of(const std::string& text);
 std::string to_text(const PartTotals& totals);

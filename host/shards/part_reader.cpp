@@ -79,7 +79,7 @@ void PartReader::read_header() {
   if (::fstat(descriptor_, &status) != 0) refuse_for(errno);
   if (!S_ISREG(status.st_mode)) refuse("it is not a regular file");
   bytes_ = uint64_t(status.st_size);
-  // Reads the available bytes.
+  // The `size` bytes at `offset`; refuses a file that ends before.
   const auto text_at = [&](uint64_t offset, uint64_t size) {
     if (offset > bytes_ || size > bytes_ - offset) refuse("it is damaged: it ends too early");
     std::string text(size, '\0');

@@ -124,7 +124,7 @@ void prepare(Array& array) {
 
 ArrayState state_of(const Array& array) {
   ArrayState state;
-  // First: output of a job that ends meanwhile is seen.
+  // Query the queue first, so that the files of a job that ends meanwhile are seen.
   state.queue = ask({"squeue", "--name=" + array.job_name, "--noheader", "--format=%i %T %M %R"});
   if (array.is_picture()) find_missing_parts(array, state);
   for (size_t i = 0; i < array.frames_of_shares.size(); ++i)

@@ -33,7 +33,7 @@ struct Array {
 struct ArrayState {
   std::vector<int> missing;           // shares, counted from 1, that have not all of their files whole
   std::vector<std::string> faults;    // of parts that are there and of no use, a sentence each
-  std::vector<std::string> queue;     // Slurm's lines on it: "17_[3-64] PENDING 0:00 (Priority)"
+  std::vector<std::string> queue;     // squeue's lines on it: "17_[3-64] PENDING 0:00 (Priority)"
   std::vector<std::string> failures;  // from Slurm's accounts: "17_2 OUT_OF_MEMORY 0:125 node7"
   std::filesystem::path output;       // output of the first job that ended too early; empty: none did
   bool done = false;                  // everything is there
@@ -50,8 +50,8 @@ std::string merge_script(const Array& array);
 void prepare(Array& array);
 // Reads every part that is there, and queries Slurm. Error (file_io) where Slurm does not answer.
 ArrayState state_of(const Array& array);
-// Submits the shares that are missing, and the merging job. The jobs' numbers. Error (file_io) with Slurm's
-// words where it takes none.
+// Submits the shares that are missing, and the merging job. Returns the jobs' numbers. Error (file_io) with
+// Slurm's words where it takes none.
 std::vector<std::string> submit(const Array& array, const ArrayState& state);
 
 }  // namespace eyeray::engine::slurm
