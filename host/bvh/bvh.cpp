@@ -16,7 +16,7 @@ namespace {
 // The cost of testing an item, relative to that of a node's two boxes.
 constexpr float node_cost = 1.0f;
 constexpr float item_cost = 1.0f;
-// Embree makes leaves of all the rest there; ours may go a little deeper.
+// At this depth Embree makes leaves of all remaining items; ours may go a little deeper.
 constexpr unsigned deepest = 56;
 
 // Embree calculates with the bits of an item's number as if they were a fourth coordinate. As denormals,
@@ -26,8 +26,8 @@ uint32_t number_of(const RTCBuildPrimitive& item) {
   return item.primID - number_zero;
 }
 
-// A BVH as Embree has it made. A node counts the results of it and all below: nodes, and entries in
-// Bvh::order.
+// A BVH as Embree has it made. A node counts the nodes and the entries in Bvh::order that it and all below it
+// become.
 struct BuildNode {
   bool leaf;
   uint32_t nodes;

@@ -20,8 +20,8 @@ class BvhHistory {
  public:
   // The BVHs that follow are another scene's.
   void begin_scene() { next_ = 0; }
-  // Builds a BVH like build_bvh, from the one built before for this part of the scene. That one is refitted
-  // if it has the same items and costs rays little more than when it was built.
+  // Returns a BVH like build_bvh. Instead, the previous scene's BVH in this position is refitted if it has
+  // the same items and then costs rays little more than when it was built.
   Bvh build(std::span<const Box> boxes, const BvhOptions& options);
 
  private:
@@ -32,7 +32,7 @@ class BvhHistory {
     size_t finite;  // of them
     uint32_t lone;  // BvhOptions::first_lone
   };
-  std::vector<Kept> kept_;  // by position
+  std::vector<Kept> kept_;  // in the order of build() in a scene
   size_t next_ = 0;
 };
 

@@ -14,8 +14,8 @@ namespace {
 // made more room.
 constexpr double usually_stopped = 2;
 
-// The number of records of that size for which a device has room: in one buffer for shaders, and in another
-// one that holds the stopped photons in order.
+// The number of records of `record` bytes for which a device has room, in each of so many buffers. Stopped
+// photons have two buffers: the second one holds them in order.
 uint64_t room_on(const gpu::DeviceInfo& device, size_t record, int buffers) {
   return std::min(device.limits.storage_range, device.limits.heap / uint64_t(buffers)) / record;
 }

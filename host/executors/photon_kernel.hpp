@@ -24,7 +24,7 @@ class PhotonKernel {
   bool send_out(uint32_t index, std::span<const uint32_t> left_out);
   // Gives the kernel the buffers.
   void bind(gpu::Kernel& kernel) const;
-  // SampleFlags of the photons that were emitted last.
+  // Possible faults of the photons that were emitted last: SampleFlags.
   uint32_t flags() const { return flags_; }
 
  private:

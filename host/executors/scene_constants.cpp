@@ -13,7 +13,8 @@
 namespace eyeray::engine::executors {
 namespace {
 
-// Above this many records of a kind the code outgrows its savings, and its compilation those of a frame.
+// Above this many records of a kind the code costs more than it saves, and its compilation more than a frame
+// saves.
 constexpr size_t most_records = 24;
 constexpr size_t most_vertices_of_primitive = 4;
 

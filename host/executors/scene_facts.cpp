@@ -128,7 +128,7 @@ uint32_t most_bounces(const records::PackedScene& scene) {
     case 0:
       return 0;
     case 1:
-      // The last vertex is followed for its view alone (integrators/path.glsl).
+      // The last vertex is followed only for the light that it sees (integrators/path.glsl).
       return scene.frame.max_depth + 1;
     default:
       return any_reflects(scene) ? scene.frame.max_depth : 0;

@@ -30,7 +30,8 @@ bool any_dims(const records::PackedScene& scene);
 bool any_scatters(const records::PackedScene& scene);
 // True if a light is seen under an angle.
 bool any_light_disk(const records::PackedScene& scene);
-// The largest number of bounces of a path: 0 if no material, or not the integrator, continues rays.
+// The largest number of bounces of a path: 0 if no material reflects or transmits rays, or the integrator
+// follows none.
 uint32_t most_bounces(const records::PackedScene& scene);
 // True if a path may go on in two ways at once.
 bool splits(const records::PackedScene& scene);

@@ -30,7 +30,7 @@ class SceneKernels {
   struct Workshop {
     OpenDevice& device;
     StageTimes& times;
-    ExecutorFacts& facts;  // gets their source files and bytes
+    ExecutorFacts& facts;  // gets their source files, and the bytes of geometry
     gpu::KernelOptions how;
     Tunables* tunables;  // null: none
     // Iterations that counted loops of a user's shaders may make together in one invocation.

@@ -131,7 +131,7 @@ std::string defines(const records::PackedScene& scene, const Used& used, const S
     define(fmt::format("UV_{}", shape.name), used.with_uv.contains(shape.number) ? "true" : "false");
   }
   text += "#define KIND_FIRST(name) FIRST_##name\n#define KIND_END(name) END_##name\n";
-  // Kernels that need hits need uv too.
+  // Kernels that report hits report uv too.
   text +=
       "#if defined FIRST_HITS || defined PROBING\n#define UV_OF(name) true\n#else\n#define UV_OF(name) "
       "UV_##name\n#endif\n";
@@ -141,7 +141,7 @@ std::string defines(const records::PackedScene& scene, const Used& used, const S
   return text;
 }
 
-// Most textures of a material are constants, though others are not: code that samples them is then short.
+// Most textures of a material are constants, even if others are not: code that samples these is then short.
 std::string textures_of_materials(const records::PackedScene& scene, const std::set<uint32_t>& materials) {
   std::string text = "#define TEXTURES_OF(name, X) TEXTURES_OF_##name(X)\n";
   for (const auto& [name, texture] : rows::material_textures) {

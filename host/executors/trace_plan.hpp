@@ -18,9 +18,9 @@ struct TracePlan {
 TracePlan plan_tracing(const Profile& profile, const ProfileOptions& asked, const ImageSettings& image,
                        const records::PackedScene& scene, uint32_t subgroup_size);
 
-// True if a CPU makes the picture sooner with vectors of 512 bits, each ray alone on its lane. Then it has so
-// many samples that compiling for them pays, and packets in vectors of 256 bits are not better. The answer is
-// known before a device is open, since it is passed to the device's driver (gpu/vector_width.hpp).
+// True if a CPU makes the picture sooner with vectors of 512 bits, each ray alone on its lane. The picture
+// then has so many samples that compiling for them pays, and packets in vectors of 256 bits are not better.
+// The answer is known before a device is open, since its driver needs it (gpu/vector_width.hpp).
 bool wants_wide_vectors(const ProfileOptions& asked, const ImageSettings& image,
                         const records::PackedScene& scene);
 

@@ -32,7 +32,7 @@ std::optional<double> Wavefront::run(shader::Dispatch push, gpu::Buffer& results
   for (Bounce* bounce : {&eye_, &later_})
     if (bounce->shade) bounce->shade->set_buffer(BINDING_OUTPUT, results);
 
-  // The camera rays and their shadow rays, and their light.
+  // First the camera rays, their shadow rays, and their shading.
   const auto list_for = [&](Bounce& bounce, gpu::Buffer& list, gpu::Buffer& next) {
     next.clear(sizeof(uint32_t));
     for (gpu::Kernel* kernel : {bounce.trace.get(), bounce.shadow.get(), bounce.shade.get()}) {

@@ -55,7 +55,7 @@ bool Execution::run_memory(Call& call, const Instruction& instruction) {
 
 bool Execution::run_composite(Call& call, const Instruction& instruction) {
   const std::vector<uint32_t>& words = instruction.words;
-  // The first number of a member, and their count, along literal indices from words[first] on.
+  // The index of a member's first number, and how many it has, along literal indices from words[first] on.
   const auto place = [&](const Type& whole, size_t first) {
     const Type* type = &whole;
     uint32_t offset = 0;

@@ -1,7 +1,7 @@
 // A function that a user has written in GLSL: a surface's, of a point, a colour's, of its point on a surface,
 // or a camera's, of a point in the picture. Its text is a stranger's: it is judged, compiled by glslang, and
-// forgotten. Every executor runs its SPIR-V's program, with nothing undefined left (formula/ir.hpp).
-// docs/formulas.md lists the GLSL, docs/security.md a stranger's powers with it.
+// forgotten. Every executor runs the program of its SPIR-V, with nothing undefined left (formula/ir.hpp).
+// docs/formulas.md lists the allowed GLSL, docs/security.md the barriers against hostile text.
 #pragma once
 
 #include <array>
@@ -52,7 +52,7 @@ class Formula {
   // True if the text has the function that it may have beside (other_entry_of): a surface's gradient, a
   // camera's origin.
   bool has_other() const;
-  // Instructions, with functions written where they are called: a kernel's compiler has these.
+  // Instructions, with functions written where they are called: the work of a kernel's compiler.
   double instructions() const;
 
   // The formula as GLSL for kernels that have shaders/math/formula.glsl: the required function, for instance

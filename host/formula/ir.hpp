@@ -59,7 +59,7 @@ enum class Op : uint8_t {
   clamp,
   mix,
   smoothstep,
-  // Comparisons of floats. NaN is neither less than nor equal to any number.
+  // Comparisons of floats, which give a truth. NaN is neither less nor greater, and unequal to everything.
   less,
   less_equal,
   equal,

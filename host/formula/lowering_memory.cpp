@@ -86,7 +86,7 @@ void FunctionLowering::load(const Instruction& instruction, ir::Block& out) {
   const Type& type = module_.type(instruction.type);
   ir::Place& result = values_[instruction.result];
 
-  // If nothing writes to the variable, its own numbers serve.
+  // If nothing writes to the variable until the last use of the result, its own numbers serve.
   const Accesses& accesses = accesses_[at.variable];
   const Uses& uses = uses_[instruction.result];
   const auto writes = accesses.writes.find(block_);

@@ -290,7 +290,7 @@ bool FunctionLowering::lower_composite(const Instruction& instruction, ir::Block
   const auto put = [&](uint32_t i, ir::Operand number) {
     out.push_back({ir::Instruction{.op = Op::store, .from = {whole(i), number}, .array = result.array}});
   };
-  // The first number of a member, along literal indices from words[first] on.
+  // The index of a member's first number, along literal indices from words[first] on.
   const auto offset = [&](const Type& composite, size_t first) {
     const Type* t = &composite;
     uint32_t sum = 0;

@@ -168,7 +168,7 @@ std::vector<size_t> Judge::declared_at(size_t i) const {
     if (opens(k))
       k = partner_[k];
     else if (partner_[k] != none || (type_at(k) && is_word(k + 1)))
-      break;  // the declaration's surroundings end, or the next one begins
+      break;  // the enclosing bracket closes, or the next declaration begins
     else if (is(k, ",") && is_word(k + 1) && !is_type(text(k + 1)))
       names.push_back(k + 1);
   }

@@ -6,8 +6,8 @@
 
 namespace eyeray::engine::pack {
 
-// Fills in the leaves' loss of a shadow ray, takes note of their kinds and materials, and gives the
-// CSG object the material of the densest.
+// Fills in how much the leaves weaken a shadow ray, takes note of the leaves' kinds and materials, and gives
+// the CSG object the material of the densest leaf.
 void finish_csg(shader::Primitive& csg, records::PackedScene& packed);
 
 }  // namespace eyeray::engine::pack

@@ -192,7 +192,7 @@ class GeometryPacker {
   // `material` and `depth_or_triangle`: as the record's.
   void add_instance(const Mat4& transform, uint32_t space, uint32_t first_id, uint32_t material,
                     uint32_t depth_or_triangle) {
-    // World is relative to the eye, and objects there to the centre of its bounds.
+    // World positions are relative to the eye, those in the space to the centre of the space's bounds.
     const Affine map(transform);
     const Mat3 inverse = glm::inverse(map.linear);
     const Vec3 to_world_offset = map.point(blases_[space].origin) - scene_.camera.eye;
@@ -209,9 +209,9 @@ class GeometryPacker {
     packed_.instances.push_back(record);
   }
 
-  // Takes note that shapes of a kind are made of a material. Returns each one's loss of a shadow ray: a
-  // shape weakens it once, a mesh or patch half at each crossing, for a closed body is left as it was
-  // entered.
+  // Takes note that shapes of a kind are made of a material. Returns the optical depth of each: a
+  // shape weakens a shadow ray once, a mesh or patch half at each crossing, for a closed body is left as it
+  // was entered.
   uint32_t use_material(uint32_t kind, uint32_t material, bool at_each_crossing) {
     const uint32_t optical_depth = packed_.materials[material].optical_depth;
     packed_.uses.emplace(kind, material);

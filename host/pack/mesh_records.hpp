@@ -17,8 +17,9 @@ bvh::Box triangle_box(const shader::Primitive& triangle);
 class MeshRecords {
  public:
   // The triangles of `mesh` under `map`, with `origin` as the origin: positions are rounded after it was
-  // subtracted. Their ids count from `first_id`; `optical_depth` is each one's loss of a shadow ray.
-  // Appends normals, texture coordinates and colours to `vertices`, and where `bends` data of bent normals.
+  // subtracted. Their ids count from `first_id`; `optical_depth`: how much each weakens a shadow ray.
+  // Appends normals, texture coordinates and colours to `vertices`; if `bends`, also the data that bent
+  // normals need.
   MeshRecords(const Mesh& mesh, const Affine& map, const Vec3& origin, int material, uint32_t optical_depth,
               uint32_t first_id, bool bends, RawVector<shader::uvec4>& vertices);
 

@@ -15,7 +15,8 @@ struct PackOptions {
   Acceleration acceleration = Acceleration::automatic;
   // Spatial splits (bvh/bvh.hpp), where no primitive lets part of a shadow ray through.
   bool split = false;
-  // The BVHs of the last scene of a sequence, from which BVHs are refitted. Null: each is built.
+  // For scenes that come one after the other: the BVHs of the scene before, which are refitted. Null: each
+  // BVH is built.
   std::shared_ptr<bvh::BvhHistory> history = nullptr;
 };
 

@@ -39,7 +39,7 @@ struct PackedScene {
   std::set<uint32_t> bvh_kinds;                       // of the shapes in BVHs
   std::set<std::pair<uint32_t, uint32_t>> uses;       // kinds of shape, and materials that they are made of
   std::set<std::pair<uint32_t, uint32_t>> leaf_uses;  // the same of the shapes that CSG objects are made of
-  bool mixed_csg = false;  // true if a CSG object's surfaces differ in their loss of a shadow ray
+  bool mixed_csg = false;  // true if some CSG object's surfaces weaken a shadow ray differently
   RawVector<shader::uvec4> nodes;
   std::vector<shader::Bvh> bvhs;  // the world's, then one a mesh or group of `instances`
   std::vector<shader::Instance> instances;

@@ -15,7 +15,7 @@ enum class TextureChoice { at_hit, darkest, brightest };
 // near to a surface's plane may lie on either side of it.
 struct Displacement {
   double share = 0;           // above, of |n|·|position − eye|; shifted, of |position − eye|
-  bool along_normal = false;  // they always leave along it; and a surface along a ray shows its other side
+  bool along_normal = false;  // rays always leave along it; a surface that one grazes shows its other side
   uint32_t seed = 0;          // of the shifts
   TextureChoice textures = TextureChoice::at_hit;
   bool coincident = false;   // the farther of two surfaces that float32 cannot distinguish is hit

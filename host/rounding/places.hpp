@@ -10,8 +10,8 @@
 namespace eyeray::engine::rounding {
 
 // Positions around a pixel's own, in pixels: `angles` on each of four rings, and before them on one as wide
-// as a rounding error, where that is known. Of a pixel whose rays strike so many surfaces. `between`: half as
-// many on each ring between that and the four as well.
+// as a rounding error, where that is known. `surfaces`: the number that the pixel's rays strike. `between`:
+// half as many on each ring between that one and the four as well.
 struct Places {
   std::vector<Vec2> all;
   size_t innermost = 0;  // those of a rounding error

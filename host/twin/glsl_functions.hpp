@@ -1,6 +1,6 @@
-// GLSL functions that a user's shader may call, beside those of eyeray's own shaders (shaders/math/math.glsl
-// has the reason why those avoid them). Their bits are not those of any device. Also printf. abs, floor and
-// sqrt of vectors are GLM's anyway.
+// GLSL functions that a user's shader may call and eyeray's own shaders avoid (shaders/math/math.glsl gives
+// the reason). Their bits are not those of any device. Also printf. abs, floor and sqrt of vectors are GLM's
+// anyway.
 #pragma once
 
 #include <cstdio>

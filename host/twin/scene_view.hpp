@@ -64,7 +64,7 @@ struct SceneView {
   uint32_t first_linear(uint32_t kind) const { return kind == 0 ? 0 : linear_ends[kind - 1]; }
 };
 
-// Gets the hits that a photon leaves behind.
+// Gets the records that a photon leaves behind.
 struct PhotonSink {
   void* to;
   void (*store)(void* to, const shader::Photon& photon);

@@ -12,7 +12,7 @@ namespace eyeray::engine::twin {
 // The twin of eyeray's own shaders.
 extern "C" const Functions eyeray_twin;
 
-// A view that outlives neither the scene nor the recorder.
+// These must not outlive the scene or the recorder.
 SceneView view_of(const records::PackedScene& scene);
 Spectator spectator_for(RayRecorder& recorder);
 // Takes random paths' decisions alone: each `event` that is PROBEd.
