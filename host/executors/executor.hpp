@@ -57,7 +57,7 @@ class Executor {
   // The first hit of the ray through the centre of every pixel of `tile`. out.size() = tile.pixels().
   virtual void first_hits(const Rect& tile, std::span<FirstHit> out) = 0;
   // Sample `index` of one pixel, and the values along its rays. Positions are the shaders', relative
-  // to the eye, but the reference's. Only where ExecutorOptions::ray_kinds.
+  // to the eye, except the reference's. Only where ExecutorOptions::ray_kinds.
   virtual Probed probe(int x, int y, uint32_t index) = 0;
   // Writes the hit of each ray, and returns the seconds that tracing alone took: by the device's clock where
   // it has one, without the copying of rays and hits. hits.size() = batch.rays.size().

@@ -1,5 +1,5 @@
-// The text of a formula before any compiler sees it: its tokens, judged by the allowed words and by their
-// number. Private to this layer.
+// The text of a formula before any compiler sees it: its tokens, judged by their words, number and
+// nesting. Private to this layer.
 #pragma once
 
 #include <string>

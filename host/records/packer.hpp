@@ -103,8 +103,8 @@ class Packer {
   // The index at which `data` now starts in the vertices.
   uint32_t add_vertices(std::initializer_list<shader::uvec4> data) { return add_vertices(std::span(data)); }
   uint32_t add_vertices(std::span<const shader::uvec4> data);
-  // Every shape that loops states how often it may.
   void add_map_growth(double growth) { scene.map_growth = std::max(scene.map_growth, float(growth)); }
+  // Every shape that loops states how often it may.
   void add_iterations(size_t count) { scene.shape_iterations += count; }
   // Every shape whose `intersect` may return T_ITERATION_LIMIT calls this.
   void add_iteration_limit() { scene.may_reach_iteration_limit = true; }

@@ -18,8 +18,8 @@ std::vector<Displacement> ways_of_sample(const Sampling& sampling, Chance chance
   if (sampling.random_paths) {
     // Weights depend on how far off a ray starts, where a light or the surface's own curve is as near as
     // that. So twice as far, and eight times, as a bilinear patch has it (docs/numerics.md). Long paths bring
-    // other light for less than that: so an eighth as well. And directions are rounded as numbers are that
-    // they are drawn by.
+    // other light for less than that: so an eighth as well. And directions are rounded like the
+    // random numbers that they are drawn by.
     for (const double times : {8.0, 2.0, 0.125}) ways.push_back({.share = times * share, .seed = seed});
     ways.push_back({.share = share, .seed = seed, .numbers = seed | 1});
   }

@@ -15,7 +15,7 @@ extern "C" const Functions eyeray_twin;
 // These must not outlive the scene or the recorder.
 SceneView view_of(const records::PackedScene& scene);
 Spectator spectator_for(RayRecorder& recorder);
-// Takes random paths' decisions alone: each `event` that is PROBEd.
+// Records only the decisions of random paths: each `event` that is PROBEd.
 Spectator spectator_for(std::vector<uint32_t>& events);
 
 }  // namespace eyeray::engine::twin
