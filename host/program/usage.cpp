@@ -48,8 +48,8 @@ std::string own_name(const std::string& option) {
   return option;
 }
 
-// One line about an option with one dash that CLI11 reads as another; "" if there is none. It reads -spp as -s
-// with the value "pp", and -q=3, where -q is a flag, as the flags -q, -= and -3.
+// One line about an option with one dash that CLI11 reads as another; "" if there is none. It reads -spp as
+// -s with the value "pp", and -q=3, where -q is a flag, as the flags -q, -= and -3.
 std::string single_dash_message(const CLI::App& app, std::span<char* const> words) {
   const CLI::App& command = named_command(app);
   for (const std::string_view word : words) {

@@ -109,12 +109,11 @@ TEST_CASE("a picture bears the warnings that the command line prints") {
     CHECK_FALSE(picture.warnings()[0].is_error);
     return picture.warnings()[0].message;
   };
-  const Scene dim =
-      Scene::read("scenes/path/lamps.toml", {.defines = {"image.width=32", "image.height=24"}});
+  const Scene dim = Scene::read("scenes/path/lamps.toml", {.defines = {"image.width=32", "image.height=24"}});
   CHECK(only_warning(dim, {.clamp = 0.5}).starts_with("the picture is biased: clamp cut "));
   CHECK(only_warning(dim, {.noise = 0.001}).ends_with("samples a pixel are too few; allow more"));
   const Scene lit = Scene::read("scenes/meshes/knot.ply",
-                                 {.defines = {"image.width=32", "image.height=24", "image.exposure=9"}});
+                                {.defines = {"image.width=32", "image.height=24", "image.exposure=9"}});
   CHECK(only_warning(lit, {}).find("exposure") != std::string::npos);
 }
 
