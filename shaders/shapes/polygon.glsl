@@ -78,15 +78,17 @@ void polygon_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) {
   upper = polygon_center(s) + polygon_half_size(s);
 }
 
-// From p to the inside of the edges.
+// From p to the inside of the edges. Twice: at a sharp corner the step away from an edge may lead closer to one before it.
 vec3 polygon_inward(Primitive s, vec3 p, float room) {
   vec3 inward = vec3(0.0f, 0.0f, 0.0f);
   uint at = s.extra + 2u;
-  uint end = at + 4u * polygon_turns(s);
-  vec3 a = vec3(bits_to_floats(load_outline(at)));
-  for (; at < end; at++) {
-    vec4 next = bits_to_floats(load_outline(at + 1u));
+  uint steps = 4u * polygon_turns(s);
+  vec3 first = vec3(bits_to_floats(load_outline(at)));
+  vec3 a = first;
+  for (uint i = 0u; i < 2u * steps; i++) {
+    vec4 next = bits_to_floats(load_outline(at + 1u + (i < steps ? i : i - steps)));
     vec3 b = vec3(next);
+    a = i == steps ? first : a;
     vec3 along = b - a;
     float squared = dot3(along, along);
     vec3 outward = cross3(along, polygon_normal(s));

@@ -99,23 +99,55 @@ bool prism_reject(Primitive s, Ray ray) { return false; }
 
 void prism_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) { object_box(s, vec3(1.0f, 1.0f, 1.0f), lower, upper); }
 
-// From a point of a cap to the inside of all walls that it is near to.
+// A wall near a point p of the surface: its ends less p, its unit normal, and how near it counts.
+struct PrismWall {
+  vec3 from;
+  vec3 to;
+  vec3 n;
+  float margin;
+  bool near;
+};
+PrismWall prism_wall(Primitive s, uint i, vec3 p, float room) {
+  uint walls = uint(object_parameters(s).x);
+  uint first = s.extra + OBJECT_PARAMETERS + 3u;
+  vec4 edge = bits_to_floats(load_outline(first + i));
+  vec4 more = bits_to_floats(load_outline(first + walls + i));
+  PrismWall wall;
+  wall.from = vec3(edge.x - p.x, 0.0f, edge.y - p.z);
+  wall.to = vec3(edge.z - p.x, 0.0f, edge.w - p.z);
+  wall.n = vec3(more.z, 0.0f, more.w);
+  wall.margin = room * steepness(s, wall.n);
+  vec3 along = wall.to - wall.from;
+  along = along / dot3(along, along);
+  float share = -dot3(along, wall.from);
+  float beyond = 2.0f * room * steepness(s, along);
+  wall.near = abs(dot3(wall.n, wall.from)) < 2.0f * wall.margin && share > -beyond && share < 1.0f + beyond;
+  return wall;
+}
+
+// From a point of a cap to the inside of all walls that it is near to. Twice: at a sharp corner the step away from a wall may lead closer to one before it.
 vec3 prism_cap_inward(Primitive s, vec3 p, float room) {
   vec3 inward = vec3(0.0f, 0.0f, 0.0f);
   uint walls = uint(object_parameters(s).x);
-  uint first = s.extra + OBJECT_PARAMETERS + 3u;
+  for (uint i = 0u; i < 2u * walls; i++) {
+    PrismWall wall = prism_wall(s, i < walls ? i : i - walls, p, room);
+    if (wall.near) inward = inward_of_face(inward, vec3(0.0f, 1.0f, 0.0f), -dot3(wall.n, wall.from), wall.n, wall.margin);
+  }
+  return inward;
+}
+
+// The step along a wall, from p, to the inside of the walls that it meets at less than 180 degrees. `n`, `along`: the wall's unit normal, and its
+// way from end to end.
+vec3 prism_wall_inward(Primitive s, vec3 p, vec3 n, vec3 along, float room) {
+  vec3 inward = vec3(0.0f, 0.0f, 0.0f);
+  uint walls = uint(object_parameters(s).x);
+  float squared = dot3(along, along);
   for (uint i = 0u; i < walls; i++) {
-    vec4 edge = bits_to_floats(load_outline(first + i));
-    vec4 more = bits_to_floats(load_outline(first + walls + i));
-    vec3 n = vec3(more.z, 0.0f, more.w);
-    vec3 along = vec3(edge.z - edge.x, 0.0f, edge.w - edge.y);
-    along = along / dot3(along, along);
-    vec3 from = p + inward - vec3(edge.x, p.y, edge.y);
-    float margin = room * steepness(s, n);
-    float beyond = room * steepness(s, along);
-    float beside = dot3(n, from);
-    float share = dot3(along, from);
-    if (abs(beside) < margin && share > -beyond && share < 1.0f + beyond) inward = inward - n * (beside + margin);
+    PrismWall wall = prism_wall(s, i, p, room);
+    float rate = dot3(wall.n, along);
+    float missing = (dot3(wall.n, inward) - dot3(wall.n, wall.from)) + wall.margin;
+    bool meets = minimum(dot3(n, wall.from), dot3(n, wall.to)) < -wall.margin && rate * rate > 0.0009765625f * squared;
+    if (wall.near && meets && missing > 0.0f) inward = inward - along * (missing / rate);
   }
   return inward;
 }
@@ -175,7 +207,10 @@ Surface prism_surface(Primitive s, Ray ray, Hit hit) {
     vec3 per_share = vec3(along.x, 0.0f, along.y) / (along.x * along.x + along.y * along.y);
     float slide = inside_ends(share, 0.0f, 1.0f, room * steepness(s, per_share)) - share;
     float rise = inside_ends(p.y, -1.0f, 1.0f, room * coordinate_steepness(s).y) - p.y;
-    inward = vec3(along.x * slide, rise, along.y * slide);
+    vec3 way = vec3(along.x, 0.0f, along.y);
+    inward = way * slide;
+    inward = inward + prism_wall_inward(s, p + inward, gradient, way, room);
+    inward.y = rise;
   }
   Surface surface = object_surface(s, p, gradient, field);
 
