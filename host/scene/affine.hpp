@@ -10,11 +10,11 @@ namespace eyeray::engine {
 
 using Mat3 = glm::dmat3;
 
-// Coordinates and sizes beyond these overflow float32 in the products that intersecting takes.
+// Coordinates and sizes beyond these limits overflow float32 in the products that intersections compute.
 inline constexpr double max_coordinate = 1e12;
 inline constexpr double min_radius = 1e-12;
-// Numbers beyond this have squares that float32 arithmetic cannot hold, and positive ones below its inverse
-// vanish.
+// Numbers beyond this limit have squares that overflow float32 arithmetic, and positive numbers below its
+// inverse vanish.
 inline constexpr double largest_number = 1e15;
 
 // The largest magnitude of the components.
@@ -23,7 +23,7 @@ double magnitude(const Vec3& v);
 // v / |v|, for any finite v ≠ 0, however long or short.
 Vec3 unit(const Vec3& v);
 
-// A map of world space that can be undone, as the loader sees to.
+// An invertible map of world space; the loader ensures that it is invertible.
 struct Affine {
   explicit Affine(const Mat4& transform);
 
@@ -55,11 +55,12 @@ std::optional<Similarity> similarity(const Mat4& transform);
 double condition(const Mat3& linear);
 inline constexpr double worst_condition = 1e7;
 
-// The least share left of an area over the square of its size, or of a volume over the cube: |det| / σ³. σ is
-// no less than the greatest stretch.
+// The least factor, |det| / σ³, by which the map changes the ratio of an area to its size², or of a volume to
+// its size³. Here σ is the Frobenius norm, which is no less than the greatest stretch.
 double thinning(const Mat3& linear);
 
-// Why the map cannot be undone in float32, such as "it shrinks everything to a point", or "".
+// The reason why the map cannot be inverted in float32, such as "it shrinks everything to a point"; "" if it
+// can.
 std::string why_singular(const Mat4& transform);
 
 }  // namespace eyeray::engine

@@ -29,10 +29,11 @@ inline constexpr std::string_view fov_axis_names[] = {"horizontal", "vertical", 
 // The aperture, from which rays start: a disk or a polygon around the eye. Points in the plane at `focus` are
 // sharp.
 struct Aperture {
-  double radius = 0;  // 0: all rays come from the eye. Of a polygon that of the circle through its corners.
-  double focus = 1;   // from the eye along the way it looks
-  int blades = 0;     // corners; 0: a disk
-  double blade_rotation = 0;  // of the first corner, from the right towards up, in radians
+  // 0: all rays start at the eye. For a polygon, the radius of the circle through its corners.
+  double radius = 0;
+  double focus = 1;           // distance of sharp points from the eye, along the viewing direction
+  int blades = 0;             // number of corners; 0: a disk
+  double blade_rotation = 0;  // angle of the first corner, from right towards up, in radians
 };
 
 struct PerspectiveCamera {
@@ -51,11 +52,11 @@ struct FisheyeCamera {
 };
 
 struct PanoramaCamera {
-  double fov_degrees = 360;  // that the picture's width spans; its height as much a pixel
+  double fov_degrees = 360;  // angle that the picture's width spans; the height spans as much per pixel
 };
 
 struct CylindricalCamera {
-  double fov_degrees = 180;  // that the picture's width spans
+  double fov_degrees = 180;  // angle that the picture's width spans
 };
 
 // monostate: cameras that other programs have no word for.
@@ -74,21 +75,21 @@ class Projection {
  public:
   virtual ~Projection() = default;
 
-  // Its number in cameras/rows.h: shader::CAMERA_NAME.
+  // The projection's number in cameras/rows.h: shader::CAMERA_NAME.
   virtual uint32_t kind() const = 0;
   // The lengths of the shaders' `right`, `up` and `forward` as multiples of the axes. X·right + Y·up, with X
   // and Y in [−1, 1], spans the picture.
   virtual Vec3 scale(const Vec2& size) const = 0;
-  // The ray, its direction unit, at `place`: from the picture's middle to the right and up, in half widths.
-  // If rays start on an aperture, it starts at `lens`, to the right and up of the eye. The reference's half:
-  // written from the mathematics, not from `scale` and the shader.
+  // The ray through `place`, with a unit direction. `place` is relative to the picture's middle, to the right
+  // and up, in half widths. If rays start on an aperture, the ray starts at `lens`, to the right and up of
+  // the eye. This is the reference's version: written from the mathematics, not from `scale` and the shader.
   virtual Ray ray(const CameraAxes& camera, const Vec2& place, const Vec2& lens, const Vec2& size) const = 0;
-  // True if anything is seen there; else the picture is black.
+  // True if the camera sees anything at this point; else the picture is black there.
   virtual bool sees(const Vec2& /*place*/, const Vec2& /*lens*/, const Vec2& /*size*/) const { return true; }
-  // The function of a camera that is defined by a scene; else null.
+  // The formula of a camera that a scene defines; null for any other camera.
   virtual std::shared_ptr<const formula::Formula> function() const { return nullptr; }
   virtual Aperture aperture() const { return {}; }
-  // The projection with `factor` times the width of a picture of this size in view, at the same scale in both
+  // The projection that shows `factor` times the width in a picture of this size, at the same scale in both
   // directions.
   virtual std::shared_ptr<const Projection> widened(double factor, const Vec2& size) const = 0;
   virtual std::vector<CameraFact> facts(const Vec2& size) const = 0;
@@ -99,13 +100,13 @@ struct Camera {
   Vec3 eye{0, 0, 5};
   Vec3 target{0, 0, 0};
   Vec3 up{0, 1, 0};
-  std::shared_ptr<const Projection> projection;  // there is one in every scene that is whole
+  std::shared_ptr<const Projection> projection;  // not null in a complete scene
 };
 
-// By docs/conventions.md.
+// The eye and the axes of a camera, by docs/conventions.md.
 CameraAxes camera_axes(const Camera& camera);
 
-// The axes as the shaders have them, scaled.
+// The scaled axes that the shaders use.
 struct CameraFrame {
   Vec3 right, up, forward;
 };

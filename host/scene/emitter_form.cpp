@@ -48,7 +48,7 @@ double cap_area(const CylinderForm& cylinder) {
   return cylinder.open ? 0 : M_PI * glm::length(glm::cross(linear[0], linear[2]));
 }
 
-// ∫ |M⁻ᵀ n| |det M| dω by a grid that is even in height and turn.
+// The area of an ellipsoid, ∫ |M⁻ᵀ n| |det M| dω, on a grid that is uniform in height and azimuth.
 double ellipsoid_area(const Mat3& linear) {
   constexpr int rows = 64;
   const Mat3 cofactors = glm::transpose(glm::inverse(linear)) * glm::determinant(linear);
@@ -197,7 +197,7 @@ Vec3 normal_of(const EmitterForm& form) {
 
 Vec3 point_of(const EmitterForm& form) {
   const auto* disk = std::get_if<DiskForm>(&form);
-  // Not in the hole.
+  // A point that is not in the disk's hole.
   return disk ? Vec3(disk->to_world[3]) + (1 + disk->inner) / 2 * Vec3(disk->to_world[0])
               : bounds_of(form).center;
 }

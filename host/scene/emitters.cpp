@@ -66,7 +66,7 @@ class Collector {
     }
   }
 
-  // `map`: from where it stands into the world.
+  // `map`: from the space that the shape is in to the world.
   void add_shape(const Shape& shape, uint64_t primitive, const Affine& map) {
     if (!emits(shape.material)) return;
     const Material& its = material(shape.material);
@@ -96,7 +96,7 @@ class Collector {
     add(std::move(emitter));
   }
 
-  // 1 if the shape's normals point as its form's, else −1.
+  // 1 if the shape's normals point the same way as its form's, else −1.
   static double side_of(const Shape& shape, const EmitterForm& form) {
     if (!is_flat(form)) return 1;
     const Vec3 n = normal_of(form);

@@ -21,14 +21,14 @@ struct EmitterCorners {
 
 struct Emitter {
   uint64_t primitive;
-  Vec3 radiance;  // everywhere, or where it varies about the mean
+  Vec3 radiance;  // the same everywhere; if it varies, about its mean
   EmitterForm form;
   double area;
-  double side =
-      0;  // 1 where light goes only the way that normals point, −1 where it goes the other way alone
-  int material = 0;     // index in Scene::materials
-  bool varies = false;  // the radiance is the material's, by uv, position and colour
-  std::shared_ptr<const EmitterCorners> corners = nullptr;  // of a triangle that varies
+  // 1: light leaves only the side that normals point to; −1: only the other side; 0: both sides
+  double side = 0;
+  int material = 0;                                         // index in Scene::materials
+  bool varies = false;                                      // the radiance depends on uv, position and colour
+  std::shared_ptr<const EmitterCorners> corners = nullptr;  // for a triangle whose radiance varies
 };
 
 // The emitting surfaces of a scene.

@@ -25,7 +25,7 @@ EnvironmentCells make_cells(const image::Image& image) {
   const int width = image.width(), height = image.height();
   const auto bright = [&](int column, int row) {
     const float* samples = image.pixel(column == width ? 0 : column, std::clamp(row, 0, height - 1));
-    // Light too weak for luminance is light.
+    // Light that is too weak to have a luminance still counts as light.
     const Vec3 color(samples[0], samples[1], samples[2]);
     return color == Vec3(0) ? 0 : std::max(luminance(color), 1e-300);
   };

@@ -11,11 +11,12 @@
 
 namespace eyeray::engine {
 
-// Between the centres of four texels lies a cell: height + 1 rows of them from the upper pole to the lower,
-// width columns the last of which closes the circle. In a cell the density of directions is the same by
-// solid angle, in proportion to the light at its corners, so that it is nowhere 0 where there is light.
+// A cell lies between the centres of four texels. There are height + 1 rows of cells, from the upper pole to
+// the lower, and width columns, the last of which closes the circle. Within a cell the density per solid
+// angle is constant, and proportional to the light at the cell's corners: it is nowhere 0 where there is
+// light.
 struct EnvironmentCells {
-  std::vector<uint32_t> row_ends;     // as whole_shares() has them
+  std::vector<uint32_t> row_ends;     // as whole_shares() sets them
   std::vector<uint32_t> column_ends;  // of each row's cells, row after row
 
   // True if there is any light.
@@ -25,7 +26,7 @@ struct EnvironmentCells {
 class EnvironmentMap {
  public:
   // `image`: equirectangular, of three channels, the sky in its top rows; finite and nowhere negative.
-  // `turn`: by how much of a whole turn it is turned about y, counter-clockwise from above.
+  // `turn`: the image's rotation about y, as a share of a whole turn, counter-clockwise from above.
   EnvironmentMap(image::Image image, double turn);
 
   int width() const { return image_.width(); }
@@ -38,7 +39,7 @@ class EnvironmentMap {
   double turn() const { return turn_; }
   const EnvironmentCells& cells() const { return cells_; }
 
-  double share = 0.5;  // of the paths' choices, where there are lights too
+  double share = 0.5;  // the probability that paths choose it, if there are lights too
 
  private:
   image::Image image_;
@@ -46,8 +47,8 @@ class EnvironmentMap {
   EnvironmentCells cells_;
 };
 
-// The number of choice_numbers that choose the environment, beside lights or alone; 0 for none or a black
-// one.
+// The number of choice_numbers that choose the environment; 0 if there is none or it is black. `lights`: true
+// if there are lights to choose as well.
 uint32_t environment_numbers(const EnvironmentMap* environment, bool lights);
 
 }  // namespace eyeray::engine

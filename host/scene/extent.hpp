@@ -6,9 +6,9 @@ namespace eyeray::engine {
 
 struct Scene;
 
-// True if a box ends on all sides. An empty box does not.
+// True if the box is bounded on all sides. An empty box is not.
 bool is_finite(const Bounds& box);
-// A box around all shapes that have an end; empty where there is none.
+// A box around all bounded shapes; empty if there is none.
 Bounds extent(const Scene& scene);
 
 }  // namespace eyeray::engine

@@ -15,7 +15,7 @@ void check_image_file(const fs::path& path) {
     return Error(ExitCode::file_io, "cannot read {}: {}", path.string(), why);
   };
 
-  // Look before reading: a device never ends, a pipe without a writer never begins.
+  // Check the kind of file before reading it: a device never ends, and a pipe without a writer never begins.
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (error) throw fail(error.message());

@@ -1,4 +1,4 @@
-// Image textures from PNG, JPEG, BMP and TGA files, and from such bytes as model files embed.
+// Image textures from PNG, JPEG, BMP and TGA files, and from such images within model files.
 #pragma once
 
 #include <cstddef>
@@ -11,13 +11,13 @@
 
 namespace eyeray::engine {
 
-// Error (file_io), as below, where there is no regular file of at most 1 GiB.
+// Error (file_io) unless `path` is a regular file of at most 1 GiB: one sentence with the path and the
+// reason.
 void check_image_file(const std::filesystem::path& path);
 
 // The picture in a regular file of at most 1 GiB and 16384 pixels a side, named after the path; filter, wrap
-// and colour space are an ImageTexture's defaults. `warnings` as decode_coded_image has them. Error
-// (file_io), one sentence with the path and the reason, where it cannot be read or the budget has fewer
-// pixels left.
+// and colour space are an ImageTexture's defaults. `warnings`: as in decode_coded_image. Error (file_io), one
+// sentence with the path and the reason, if the file cannot be read or exceeds the pixels left in the budget.
 ImageTexture load_image_texture(const std::filesystem::path& path, image::PixelBudget& budget,
                                 std::vector<std::string>& warnings);
 

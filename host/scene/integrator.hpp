@@ -27,7 +27,7 @@ enum class ShadowRays { no_light, each_light, one_light };
 
 struct IntegratorTraits {
   ShadowRays shadow_rays;
-  uint32_t ways;  // in which a path goes on where it hits something, at most
+  uint32_t ways;  // the most rays by which a path goes on from a hit
 };
 
 constexpr IntegratorTraits traits_of(IntegratorType type) {
@@ -39,13 +39,14 @@ constexpr IntegratorTraits traits_of(IntegratorType type) {
   return traits[uint32_t(type)];
 }
 
-// True if its paths draw random numbers on their way. Such paths find the light that comes through glass. So
-// their shadow rays end at glass, while those of other integrators pass through it weakened.
+// True if the integrator's paths draw random numbers on their way. Such paths find the light that comes
+// through glass. So their shadow rays end at glass, while those of other integrators pass through it
+// weakened.
 constexpr bool walks_at_random(IntegratorType type) {
   return traits_of(type).shadow_rays == ShadowRays::one_light;
 }
 
-// True if lights emit photons, which its paths gather (scene/photons.hpp).
+// True if lights emit photons, which the integrator's paths gather (scene/photons.hpp).
 constexpr bool sends_photons(IntegratorType type) {
   return type == IntegratorType::sppm;
 }

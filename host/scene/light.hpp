@@ -16,10 +16,11 @@ class Packer;  // records/packer.hpp
 
 // A light as a point sees it.
 struct Illumination {
-  Vec3 l;            // unit, towards the light
-  Vec3 color;        // the arriving light if nothing is in between
-  double distance;   // infinite for a light without a position
-  double angle = 0;  // half of that under which it is seen, in radians: it is spread evenly over such a disk
+  Vec3 l;           // unit, towards the light
+  Vec3 color;       // the arriving light if nothing is in between
+  double distance;  // infinite for a light without a position
+  // Half the angle under which the light is seen, in radians. The light is spread evenly over such a disk.
+  double angle = 0;
 };
 
 // Lights in the terms that other programs share.
@@ -34,14 +35,14 @@ struct PointLight {
 struct DirectionalLight {
   Vec3 to_light{0, 1, 0};  // unit, from the scene towards the light
   Vec3 intensity{1.0};
-  double angle = 0;  // under which it is seen, in radians
+  double angle = 0;  // the angle under which the light is seen, in radians
 };
 
 // A spot light as in glTF: full intensity within the inner angle from its axis, and none beyond the outer
 // one.
 struct SpotLight {
   Vec3 position{0.0};
-  Vec3 direction{0, -1, 0};  // unit, the way that its light travels
+  Vec3 direction{0, -1, 0};  // unit, in which its light travels
   Vec3 intensity{1.0};
   double inner = 0, outer = 0;  // in radians, 0 ≤ inner < outer ≤ π / 2
 };
@@ -53,13 +54,13 @@ class Light {
  public:
   virtual ~Light() = default;
 
-  // The light that arrives at `point`, were nothing between. The reference's half: no float32.
+  // The light that arrives at `point` if nothing is in between. This is the reference's version: no float32.
   virtual Illumination illuminate(const Vec3& point) const = 0;
   // Appends the light's one record.
   virtual void pack(records::Packer& packer) const = 0;
   virtual LightForm form() const { return {}; }
 
-  std::string_view type;  // as its table has it
+  std::string_view type;  // the name of its table in a scene file
 };
 
 }  // namespace eyeray::engine

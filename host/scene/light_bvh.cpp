@@ -17,10 +17,10 @@ double angle_between(const Vec3& a, const Vec3& b) {
   return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-// The directions of the cone around `b` into that around `a`.
+// Widens the cone around `a` by the directions of the cone around `b`.
 void add_cone(LightBounds& a, const LightBounds& b) {
   a.reach = std::max(a.reach, b.reach);
-  // If light leaves both sides, the axis is a line.
+  // If light leaves both sides, either direction of the axis will do.
   const bool flips = b.both_sides && glm::dot(a.axis, b.axis) < 0;
   const Vec3 axis = flips ? -b.axis : b.axis;
   a.both_sides = a.both_sides || b.both_sides;
@@ -43,7 +43,7 @@ void add_cone(LightBounds& a, const LightBounds& b) {
   a.spread = spread;
 }
 
-// The bounds of a range of lights, and their box, by which they are split.
+// The bounds of a range of lights, and the box by which the range is split.
 struct Cluster {
   Bounds box;
   LightBounds cone;  // power and directions alone
@@ -63,7 +63,8 @@ struct Cluster {
     count += other.count;
   }
 
-  // Power, times how far apart the lights are, times the directions that they send light to.
+  // The power, times the box's squared diagonal, times the solid angle of the directions in which light is
+  // emitted, weighted by cosine.
   double cost() const {
     if (count == 0) return 0;
     const double o = cone.spread, w = std::min(o + cone.reach, M_PI);
@@ -98,7 +99,7 @@ class Builder {
   }
 
  private:
-  // Appends the pair of nodes that share the range; its index.
+  // Appends the pair of nodes that divide the range, and returns the pair's index.
   uint32_t split(size_t begin, size_t end, int level, uint32_t trail) {
     const size_t middle = place_of_split(begin, end, level);
     const auto pair = uint32_t(bvh_.nodes.size());
@@ -132,10 +133,10 @@ class Builder {
     return bounds;
   }
 
-  // Sorts the range so that lights before the result are one child's.
+  // Sorts the range, and returns where it is split: the lights before that belong to the first child.
   size_t place_of_split(size_t begin, size_t end, int level) {
     if (end - begin == 2) return begin + 1;
-    // The levels that are left must suffice for the larger half.
+    // The remaining levels must suffice for the larger half.
     if (end - begin > size_t{1} << (LightBvh::deepest - level - 2)) return halves(begin, end);
     Bounds centers;
     for (size_t i = begin; i < end; ++i) centers.include(lights_[order_[i]].center);
@@ -160,7 +161,7 @@ class Builder {
       for (int i = 0; i + 1 < bins; ++i) {
         before.add(content[size_t(i)]);
         if (before.count == 0) continue;
-        // Long nodes are cut across.
+        // The last factor favours cuts across the longest axis.
         const double cost = (before.cost() + after[size_t(i + 1)]) * largest / size[axis];
         if (cost < least) {
           least = cost;
@@ -181,7 +182,7 @@ class Builder {
     return std::clamp(int(share * bins), 0, bins - 1);
   }
 
-  // Both halves have equally many lights, along the longest axis.
+  // Sorts the range along its longest axis, and splits it into halves with equal numbers of lights.
   size_t halves(size_t begin, size_t end) {
     Bounds centers;
     for (size_t i = begin; i < end; ++i) centers.include(lights_[order_[i]].center);

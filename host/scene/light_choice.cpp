@@ -16,20 +16,20 @@ namespace eyeray::engine {
 
 namespace {
 
-// The share of the total weight that is shared evenly.
+// The share of the total weight that is distributed evenly.
 constexpr double even_share = 1.0 / 16;
 // With fewer lights, sampling a BVH costs more than it gains.
 constexpr size_t least_for_bvh = 64;
 
-// The radius of a sphere around all that has an end, and the eye.
+// The radius of a sphere around all bounded shapes and the eye.
 double reach(const Scene& scene) {
   Bounds all = extent(scene);
   all.include(scene.camera.eye);
   return glm::length(all.max - all.min) / 2;
 }
 
-// The power that a light emits into the scene. A light of a form unknown to other programs counts as if it
-// stood everywhere.
+// The power that a light emits into the scene. A light of a form unknown to other programs counts like a
+// directional light of intensity 1.
 double power(const Light& light, double radius) {
   const LightForm form = light.form();
   if (const auto* point = std::get_if<PointLight>(&form); point && point->falloff == Falloff::inverse_square)
@@ -44,7 +44,7 @@ double power(const Light& light, double radius) {
   return M_PI * M_PI * radius * radius * luminance(intensity);
 }
 
-// The share of each weight among all, a sixteenth of which is even.
+// The share of each weight in the sum of all; a sixteenth of the total is distributed evenly.
 std::vector<double> shares_of(const std::vector<double>& weights) {
   const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
   const auto count = double(weights.size());
@@ -126,7 +126,7 @@ LightChoice light_choice(const Scene& scene) {
   std::vector<double> shares = shares_of(weights);
   if (wants_bvh(scene, weights.size())) choice.bvh = bvh_of(scene, choice.emitters);
 
-  // All in the BVH are as one more, the last.
+  // All lights in the BVH together count as one more light, the last.
   double together = 0;
   if (!choice.bvh.nodes.empty())
     for (size_t i = 0; i < shares.size(); ++i)

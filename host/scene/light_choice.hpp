@@ -7,17 +7,18 @@
 
 namespace eyeray::engine {
 
-// Lights are counted on: Scene::lights, then `emitters`.
+// Lights are numbered consecutively: Scene::lights, then `emitters`.
 struct LightChoice {
   std::vector<Emitter> emitters;  // in the order of their primitives
-  // Light i is chosen by the numbers below ends[i] of 2²⁴, and not below those before it. Each has one at
-  // least, but for those in `bvh`, which have none; the rest of 2²⁴ chooses that.
+  // A choice draws one of 2²⁴ numbers. Light i is chosen by the numbers from the end of light i − 1 to below
+  // ends[i]. Each light has at least one number, except the lights in `bvh`, which have none. The remaining
+  // numbers choose the BVH.
   std::vector<uint32_t> ends;
   LightBvh bvh = {};
 
   // The probability of choosing light i, if it is not in `bvh`.
   double share(size_t i) const { return (ends[i] - (i == 0 ? 0 : ends[i - 1])) * 0x1p-24; }
-  // By how many numbers the BVH is chosen.
+  // The number of the 2²⁴ numbers that choose the BVH.
   uint32_t bvh_numbers() const;
 };
 

@@ -2,7 +2,7 @@
 
 namespace eyeray::engine {
 
-// More would be light without end.
+// A diffuse albedo above 1 would make light without end.
 Bsdf Material::bsdf(const ScatteringContext&, const Scattering& scattering) const {
   return {.diffuse = glm::min(scattering.diffuse, Vec3(1)),
           .mirror = scattering.reflected,

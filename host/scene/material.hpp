@@ -16,12 +16,12 @@ namespace records {
 class Packer;  // records/packer.hpp
 }
 
-// The medium in a closed shape, or outside of all. Light is weakened by exp(−absorption · distance), and for
-// paths also by scattering into other directions. The phase function is Henyey's and Greenstein's: g is the
-// mean cosine of the scattering angle.
+// The medium in a closed shape, or outside all shapes. Light is weakened by exp(−absorption · distance), and
+// for paths also by scattering into other directions. The phase function is Henyey's and Greenstein's: g is
+// the mean cosine of the scattering angle.
 struct Medium {
   double ior = 1.0;
-  Vec3 absorption{0.0};  // per unit of length, as scattering
+  Vec3 absorption{0.0};  // per unit of length, like scattering
   Vec3 scattering{0.0};
   double anisotropy = 0;  // g, within ±most_anisotropy
 };
@@ -50,8 +50,8 @@ struct ScatteringContext {
 };
 
 // There is no surface where the alpha, times that of a mesh's vertices, is below a limit. The limit is
-// `cutoff`, or for a material that blends a random number of each ray, so that a ray hits it with a
-// probability of alpha.
+// `cutoff`. For a material that blends, it is a random number of each ray instead, so that the ray hits with
+// a probability of alpha.
 struct AlphaMask {
   TexturePtr alpha;     // by Texture::alpha_at
   double cutoff = 0.5;  // above 0
@@ -63,15 +63,15 @@ struct AlphaMask {
   }
 };
 
-// A colour is a direction in tangent space, glTF's way: 2 · code − 1, red along u, green along v, blue along
-// the normal; the first two times `scale`.
+// A colour encodes a direction in tangent space, as in glTF: 2 · code − 1, with red along u, green along v
+// and blue along the normal. Red and green are multiplied by `scale`.
 struct NormalMap {
   TexturePtr texture;
   double scale = 1;
 };
 
-// A height field: of white, `height` in the world. Heights are compared `width` to both sides, in uv, or for
-// a texture in_space() in the world.
+// A height field, in which white has the height `height` in the world. Heights are compared at a distance of
+// `width` to both sides: in uv, or in the world for a texture in_space().
 struct BumpMap {
   TexturePtr texture;
   double height;
@@ -83,16 +83,18 @@ class Material {
   virtual ~Material() = default;
 
   virtual Scattering scattering(const ScatteringContext& context) const = 0;
-  // For paths; `scattering`: the result of scattering(). By default these terms, none of them above 1.
+  // The BSDF for paths. `scattering`: the result of scattering(), whose terms the default returns, none of
+  // them above 1.
   virtual Bsdf bsdf(const ScatteringContext& context, const Scattering& scattering) const;
   // The colour that `raycast` shades.
   virtual Vec3 base_color(const TextureContext& place) const = 0;
-  // True if the material emits. Below: the emitted light if it is constant.
+  // True if the material emits.
   virtual bool emits() const { return false; }
+  // The emitted light if it is constant; else empty.
   virtual std::optional<Vec3> constant_emission() const { return std::nullopt; }
-  // Set for materials that fill their shape and let rays through.
+  // The medium of a material that fills its shape and lets rays through; empty for any other.
   virtual std::optional<Medium> medium() const { return std::nullopt; }
-  // True if paths take it for a pane, which has no inside, for any result of medium().
+  // True if paths treat the material as a pane, which has no inside, for any result of medium().
   virtual bool thin() const { return false; }
   // The share of a shadow ray's light that passes a shape of this material, however often it crosses it.
   virtual double shadow_transmittance() const { return 0.0; }
@@ -101,11 +103,11 @@ class Material {
 
   std::string name;
   bool emits_in_front = false;    // emits only on the side of the normals; else on both sides
-  bool front_only = false;        // of meshes: rays from behind do not hit it, and it emits in front
-  std::optional<AlphaMask> mask;  // never where there is a medium
+  bool front_only = false;        // for meshes: rays from behind do not hit it, and it emits in front
+  std::optional<AlphaMask> mask;  // never set if there is a medium
   std::optional<NormalMap> normal_map;
-  std::optional<BumpMap> bump_map;           // on top of that
-  std::optional<NormalMap> coat_normal_map;  // of a coat, which the others do not bend
+  std::optional<BumpMap> bump_map;           // applied after normal_map
+  std::optional<NormalMap> coat_normal_map;  // for the coat, which the other maps do not bend
 };
 
 }  // namespace eyeray::engine

@@ -17,7 +17,7 @@ struct MediumExtent {
   bool endless() const;
   // True if a ray in direction d, from a point of the medium, never leaves it.
   bool endless_towards(const Vec3& d) const;
-  // The box that holds the medium for all executors: that of min and max, less the part more than 40 scale
+  // The box to which all executors confine the medium: from min to max, without the part more than 40 scale
   // heights above `base`, where the density is below 1e-17.
   Bounds bounds() const;
 };

@@ -10,17 +10,17 @@
 namespace eyeray::engine {
 
 // A tree of names: of objects, and of the groups that hold them. Each text is kept once, and each object of a
-// name takes 12 bytes, however many copies of its groups there are. Copying indices is all that objects do.
+// name takes 12 bytes, however many copies of its groups there are. Objects copy only indices.
 class Names {
  public:
-  // The index for an object that has no name and stands in no group that has one.
+  // The index of an object that has no name and is in no group that has one.
   static constexpr int32_t none = -1;
 
-  // The next object called `text` in `group`, which is none or a result of add. `number`: of a batch that
-  // shares the name, from 1; 0: it is alone.
+  // Adds an object called `text` in `group`, which is none or a result of add, and returns its index.
+  // `number`: counts the objects of a batch that shares the name, from 1; 0: the object is in no batch.
   int32_t add(std::string_view text, uint32_t number, int32_t group);
 
-  // "cart/wheel 3": the names of its groups, then its own; "" for none.
+  // The names of an object's groups, then its own, such as "cart/wheel 3"; "" for none.
   std::string path(int32_t index) const;
 
   // The number of names added.
@@ -37,10 +37,10 @@ class Names {
   std::unordered_map<std::string, uint32_t> places_;  // in texts_
 };
 
-// A object's name, or that of the group it stands in.
+// An object's name, or the name of the group that it is in.
 struct NameRef {
   int32_t index = Names::none;
-  bool own = false;  // else the group's
+  bool own = false;  // false: it is the group's name
 };
 
 // `sphere "cart/wheel 3"`, `sphere in "cart"`, or "sphere".

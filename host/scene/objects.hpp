@@ -6,16 +6,16 @@
 
 namespace eyeray::engine {
 
-// A shape of the scene, or an instance of a mesh; the scene's own, or as a group instance shows it.
+// A shape or an instance of a mesh: one of the scene's own, or one that a group instance shows.
 struct Object {
   std::string_view kind;  // "sphere", "mesh"
   NameRef name;
-  NameRef group;          // of the group instance; goes before the name
+  NameRef group;          // name of the group instance; goes before `name`
   std::string_view mesh;  // the mesh's name in its file; "" for shapes
   const SourcePosition* position;
   int material;
-  uint64_t first;  // primitive index
-  uint64_t count;  // of primitives: 1, or the mesh's triangles
+  uint64_t first;  // index of the first primitive
+  uint64_t count;  // number of primitives: 1, or the mesh's triangles
 };
 
 class Objects {
@@ -35,10 +35,10 @@ class Objects {
  private:
   const Scene& scene_;
   PrimitiveIds ids_;
-  std::vector<size_t> first_in_group_;  // objects, by group instance; one more at the end
+  std::vector<size_t> first_in_group_;  // index of each group instance's first object; one more at the end
 };
 
-// The names of its groups, then its own; "" where there are none.
+// The names of the object's groups, then its own name; "" if there are none.
 std::string path(const Object& object, const Names& names);
 // Describes an object, like describe() of a name.
 std::string describe(const Object& object, const Names& names);

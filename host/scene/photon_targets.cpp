@@ -10,7 +10,8 @@
 namespace eyeray::engine {
 namespace {
 
-// Rounding hides nothing at a sphere's rim, and lights that stand on one see it.
+// Spheres are wider by this factor, so that rounding hides nothing at a sphere's rim, and lights that stand
+// on a sphere see it.
 constexpr double wider = 1 + 1e-3;
 
 struct Lobes {
@@ -105,11 +106,11 @@ class TargetCollector {
   }
 
   const Scene& scene_;
-  std::vector<char> bundles_;  // of each material
+  std::vector<char> bundles_;  // for each material: whether its lobes are all sharp
   std::vector<PhotonTarget> found_;
 };
 
-// Puts spheres around all, `most` at most: halves them along the longest axis, as a BVH does.
+// Puts at most `most` spheres around all targets: halves the targets along the longest axis, as a BVH does.
 void cluster(std::span<PhotonTarget> targets, size_t most, std::vector<PhotonTarget>& clusters) {
   if (targets.size() <= most) {
     clusters.insert(clusters.end(), targets.begin(), targets.end());

@@ -19,10 +19,10 @@ struct PhotonTarget {
 
 inline constexpr size_t most_photon_targets = 16;
 
-// Spheres around all shapes and meshes whose material has sharp lobes alone: glass, mirrors, smooth metal,
-// panes. Where there are more than `most_photon_targets`, those that are near to each other share one.
-// Endless shapes, and objects wider than half of `reach`, the scene's radius, have none: photons find those
-// by themselves.
+// Spheres around all shapes and meshes whose material has only sharp lobes: glass, mirrors, smooth metal,
+// panes. If there are more than `most_photon_targets`, objects near to each other share a sphere. Unbounded
+// shapes, and objects whose radius exceeds half of `reach`, the scene's radius, have no sphere: photons hit
+// those without being aimed.
 std::vector<PhotonTarget> photon_targets(const Scene& scene, double reach);
 
 // True if the material may store photons. A roughness from a texture may have any value.

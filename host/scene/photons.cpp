@@ -11,7 +11,8 @@ namespace {
 
 constexpr double pixels_across = 2;
 
-// The distance between rays of neighbouring pixels in the middle of the picture, at that distance.
+// The spacing of the rays of neighbouring pixels in the middle of the picture, at this distance from the
+// camera.
 double pixel_at(const Scene& scene, double distance) {
   const CameraAxes axes = camera_axes(scene.camera);
   const Vec2 size = scene.image.size();
@@ -22,7 +23,7 @@ double pixel_at(const Scene& scene, double distance) {
   return glm::length(at({2 / size.x, 0}) - at({0, 0}));
 }
 
-// The sphere around the box; not a rounding less than the box's extent.
+// Sets the sphere around the box. It is a little larger, so that rounding makes it no smaller than the box.
 void put_around(const Bounds& box, PhotonSettings& settings) {
   settings.center = (box.min + box.max) / 2.0;
   settings.reach = glm::length(box.max - box.min) / 2 * (1 + 1e-5);
@@ -45,7 +46,8 @@ PhotonSettings photon_settings(const Scene& scene) {
     settings.radius = pixels_across * pixel_at(scene, std::max(distance, settings.reach / 4));
   }
   settings.targets = photon_targets(scene, settings.reach);
-  // Light from afar also passes through a medium that has an end, so its photons start before it.
+  // Light from infinitely far away also passes through a bounded medium, so its photons start in front of the
+  // medium.
   const Bounds medium = scene.medium_extent.bounds();
   if (std::isfinite(glm::length(medium.max - medium.min))) {
     all.include(medium.min);

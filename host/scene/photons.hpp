@@ -11,20 +11,22 @@
 namespace eyeray::engine {
 
 struct PhotonSettings {
-  uint32_t count;  // of each sample
-  double radius;   // of the disk on which the first sample gathers them
-  Vec3 center;     // of a sphere around all that has an end, which lights from afar send their photons to
-  double reach;    // and its radius
-  std::vector<PhotonTarget> targets = {};  // that photons are aimed at
+  uint32_t count;  // number of photons of each sample
+  double radius;   // of the disk on which the first sample gathers photons
+  // The centre of a sphere around all bounded objects. Lights that are infinitely far away emit their photons
+  // towards it.
+  Vec3 center;
+  double reach;                            // the radius of that sphere
+  std::vector<PhotonTarget> targets = {};  // at which photons are aimed
 };
 
 // The decisions of a photon, and the points where it is stored.
 struct PhotonWay {
   uint32_t trail = 0;  // fingerprint of its decisions, like PixelSample::trail
-  Vec3 places{0};      // the sum of those where it stays
+  Vec3 places{0};      // the sum of the positions where it is stored
 };
 
-// Photons that bring no light: by sample their numbers, in order.
+// The photons that bring no light: for each sample their numbers, in order.
 struct LeftOutPhotons {
   std::vector<std::vector<uint32_t>> by_sample = {};
 
@@ -38,8 +40,9 @@ struct LeftOutPhotons {
 // at the camera's target if there are none.
 PhotonSettings photon_settings(const Scene& scene);
 
-// The radius of sample `index`. Variance grows as it shrinks, and bias falls; by this choice the mean of all
-// samples converges (Knaus, Zwicker: Progressive Photon Mapping: A Probabilistic Approach, TOG 2011).
+// The radius of sample `index`. As the radius shrinks, variance grows and bias falls; with this choice the
+// mean of all samples converges (Knaus, Zwicker: Progressive Photon Mapping: A Probabilistic Approach, TOG
+// 2011).
 double photon_radius(const PhotonSettings& settings, uint32_t index);
 
 }  // namespace eyeray::engine

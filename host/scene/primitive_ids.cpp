@@ -8,7 +8,7 @@
 namespace eyeray::engine {
 
 PrimitiveIds::PrimitiveIds(const Scene& scene) {
-  // Shapes: the scene's own, and between them those of groups.
+  // Number the shapes: the scene's own, and between them those of groups.
   uint64_t grouped = 0;
   for (const GroupInstance& instance : scene.group_instances) {
     groups_.push_back({instance.shapes_before + grouped, 0});
@@ -19,7 +19,7 @@ PrimitiveIds::PrimitiveIds(const Scene& scene) {
   group_shapes_.push_back(grouped);
   count_ = shape_count_ = scene.shapes.size() + grouped;
 
-  // Triangles likewise.
+  // Number the triangles: those of the scene's own instances, and between them those of groups.
   std::vector<uint64_t> triangles;
   for (const Group& group : scene.groups) triangles.push_back(count_triangles(group, scene.meshes));
   size_t next = 0;
@@ -43,7 +43,8 @@ uint64_t PrimitiveIds::of_shape(size_t shape) const {
 }
 
 PrimitiveIds::Location PrimitiveIds::locate(uint64_t primitive, const Scene& scene) const {
-  // The last group instance that begins there or before; where one is empty, the next begins there too.
+  // Find the last group instance that begins at `primitive` or before. The one after an empty instance begins
+  // at the same index.
   const bool is_shape = primitive < shape_count_;
   const auto first = [&](const First& group) { return is_shape ? group.shape : group.triangle; };
   const auto after = std::ranges::upper_bound(groups_, primitive, {}, first);

@@ -1,6 +1,6 @@
-// The primitive indices of a scene, which are the same in every executor and decide exact ties. First come
-// its shapes, those of groups where the group stands; then the triangles of its meshes in the same manner.
-// They do not depend on which groups are instanced.
+// The primitive indices of a scene, which are the same in every executor and decide exact ties. Shapes come
+// first, with the shapes of a group where the group stands. The triangles of meshes follow in the same
+// manner. They do not depend on which groups are instanced.
 #pragma once
 
 #include <cstddef>
@@ -29,8 +29,8 @@ class PrimitiveIds {
 
   uint64_t count() const { return count_; }
 
-  // The kind of a primitive: a shape, or a triangle of an instance; the scene's own, or of the group that a
-  // group instance shows.
+  // The location of a primitive: it is a shape or a triangle of an instance, either the scene's own or in the
+  // group that a group instance shows.
   struct Location {
     int group_instance = -1;  // −1: the scene's own
     bool is_shape = true;
@@ -40,8 +40,8 @@ class PrimitiveIds {
   Location locate(uint64_t primitive, const Scene& scene) const;
 
  private:
-  std::vector<size_t> shapes_before_;   // by group instance, ascending, …
-  std::vector<uint64_t> group_shapes_;  // … and the shapes of those before it; one more at the end
+  std::vector<size_t> shapes_before_;   // GroupInstance::shapes_before, ascending
+  std::vector<uint64_t> group_shapes_;  // shapes in the group instances before each; one more at the end
   std::vector<uint64_t> instances_;
   std::vector<First> groups_;
   uint64_t shape_count_ = 0;

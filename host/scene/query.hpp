@@ -8,7 +8,7 @@
 
 namespace eyeray::engine {
 
-// In world space.
+// A ray in world space.
 struct Query {
   Vec3 o;
   Vec3 d;                 // unit
@@ -17,14 +17,16 @@ struct Query {
 
 enum class QueryKind {
   nearest,  // the nearest hit
-  any,  // whether anything opaque, or enough that is not, is hit: t is 0 then, else infinity; no primitive
+  // Occlusion: t is 0 if the ray hits anything opaque, or enough transparent surfaces to block it; else
+  // infinity. No primitive is returned.
+  any,
 };
 
 // Rays that are traced together.
 struct QueryBatch {
   std::span<const Query> rays;
   QueryKind kind = QueryKind::nearest;
-  bool coherent = false;  // whether neighbours go much the same way: it may be faster, and changes no hit
+  bool coherent = false;  // whether neighbouring rays take nearly the same way: may be faster, changes no hit
 };
 
 struct QueryHit {

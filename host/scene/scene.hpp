@@ -20,8 +20,8 @@
 
 namespace eyeray::engine {
 
-// The rows of registries (scene/sampler.hpp, scene/integrator.hpp). Only their numbers stand here: code that
-// only sees a scene is not compiled anew for another row.
+// The rows of registries (scene/sampler.hpp, scene/integrator.hpp). Only their numbers are declared here, so
+// that code that only uses a scene is not recompiled for a new row.
 enum class SamplePattern : uint32_t;
 enum class IntegratorType : uint32_t;
 
@@ -35,18 +35,18 @@ enum class PixelFilter : uint32_t { box, gaussian, blackman_harris };
 struct ImageSettings {
   int width = 640;
   int height = 480;
-  int samples = 1;           // a pixel; of some patterns a square number n², laid out n × n
+  int samples = 1;           // per pixel; for some patterns a square number n², laid out n × n
   SamplePattern pattern{0};  // regular
   PixelFilter filter = PixelFilter::box;
-  double filter_width = 1;  // pixels, from end to end; 1 of a box
-  image::Tone tone = {};    // of pictures as .png
+  double filter_width = 1;  // in pixels, from end to end; 1 for a box
+  image::Tone tone = {};    // of .png pictures
 
   Vec2 size() const { return {width, height}; }  // in pixels
   int64_t all_samples() const { return int64_t{width} * height * samples; }
 };
 
-// The choice of one light at each vertex of a path, by integrators that do so; automatic: by the number
-// of lights.
+// The method of choosing one light at each vertex of a path, for integrators that choose one; automatic: it
+// depends on the number of lights.
 enum class LightSampler { automatic, uniform, power, bvh };
 enum class TriangleMethod { woop, moller_trumbore };
 enum class GroupStorage { automatic, instanced, flat };
@@ -59,8 +59,8 @@ struct RenderSettings {
   TriangleMethod triangle_method = TriangleMethod::woop;
   LightSampler light_sampler = LightSampler::automatic;
   GroupStorage groups = GroupStorage::automatic;  // which groups are instanced
-  int photons = 1 << 17;                          // of `sppm`, sent out for each sample
-  double photon_radius = 0;  // within which the first sample gathers them; 0: see scene/photons.hpp
+  int photons = 1 << 17;                          // of `sppm`, emitted for each sample
+  double photon_radius = 0;  // within which the first sample gathers photons; 0: see scene/photons.hpp
   Vec3 background{0.0};      // the light of a ray that hits nothing
   Vec3 ambient{0.0};         // light that reaches every point from everywhere
 };
@@ -70,22 +70,25 @@ struct VerifySettings {
   double max_explained = 0.005;  // the share of pixels that may differ for a reason
 };
 
-// The moment of a scene in its animation: only this moment is in it; frames are counted from 0.
+// The scene's animation, and the moment that the scene shows: it contains only this moment. Frames are
+// counted from 0.
 struct Animation {
-  double frame = 0;               // shown
+  double frame = 0;               // the frame shown
   double frames_per_second = 24;  // of a video
-  int tracks = 0;                 // how many values move, …
-  double first = 0, last = 0;     // … from which frame to which
-  // Motion blur: the shutter is open for this long, in frames, around `frame`, and a picture shows so many
+  int tracks = 0;                 // number of values that move
+  double first = 0, last = 0;     // the frames between which values move
+  // Motion blur: the shutter is open for `shutter` frames around `frame`, and a picture shows `shutter_steps`
   // moments of that time.
   double shutter = 0;
   int shutter_steps = 16;
-  // The scene at another frame, with the errors of its file; null where the shutter shows but one moment.
+  // Returns the scene at another frame, with the errors of its file; null if the shutter shows only one
+  // moment.
   std::function<Scene(double frame)> at = nullptr;
 };
 inline constexpr double most_frames = 1e6;
 
-// True if the material fills the shapes that are made of it: to paths, panes have no inside.
+// True if the material fills the shapes that are made of it. For paths it does not if it is a pane, which has
+// no inside.
 bool fills(const Material& material, IntegratorType integrator);
 
 struct Scene {
@@ -97,14 +100,14 @@ struct Scene {
   RenderSettings render;
   VerifySettings verify;
   Animation animation;
-  Medium medium;               // around all, for paths; of ior 1
+  Medium medium;               // around all shapes, for paths; of ior 1
   MediumExtent medium_extent;  // of that medium
   bool is_mesh_alone = false;  // a mesh file in place of a scene, in eyeray's own light
   std::shared_ptr<const EnvironmentMap> environment;  // in place of the background; null where there is none
   std::vector<std::unique_ptr<Light>> lights;
   std::vector<std::unique_ptr<Material>> materials;
-  // In registry order, within a kind in file order (an included file's where its name stands); then those of
-  // each group in turn.
+  // Shapes in registry order, and within a kind in file order, with an included file's where its name stands.
+  // The shapes of each group follow in turn.
   std::vector<std::unique_ptr<Shape>> shapes;
   std::vector<Mesh> meshes;
   std::vector<Instance> instances;
@@ -126,7 +129,7 @@ void for_each_shape(const Scene& scene, const Visit& visit) {
     for (const auto& shape : group.shapes) visit(*shape);
 }
 
-// Calls visit(shape) as for_each_shape does, but with the parts of CSG objects in their place.
+// Calls visit(shape) as for_each_shape does, but for the parts of a CSG object in place of the object.
 template <typename Visit>
 void for_each_leaf(const Scene& scene, const Visit& visit) {
   for_each_shape(scene, [&](const Shape& shape) { for_each_leaf(shape, visit); });

@@ -32,8 +32,8 @@ struct Intersection {
   double t = 0;
   double u = 0;
   double v = 0;
-  uint32_t part = 0;             // of a CSG object, whose surface it is
-  bool iteration_limit = false;  // it hits nothing up to t; beyond, the allowed steps did not suffice
+  uint32_t part = 0;             // of a CSG object: the part whose surface is hit
+  bool iteration_limit = false;  // no hit up to t; beyond t the allowed steps did not suffice
 };
 
 // A stretch of a ray's line, from where it enters a closed shape to where it leaves it.
@@ -46,12 +46,13 @@ struct SurfacePoint {
   Vec3 position;          // projected onto the surface
   double position_error;  // a bound on its distance from the true surface, in float64 arithmetic
   Vec3 normal_geometric;  // unit; outward for closed shapes, by counter-clockwise winding for open ones
-  Vec3 normal;            // unit shading normal; on the other side than normal_geometric it does not count
+  Vec3 normal;            // unit shading normal; ignored on the other side than normal_geometric
   Vec2 uv;
   // The derivatives of the position by u and by v; 0 for a surface without uv.
   Vec3 along_u{0.0}, along_v{0.0};
-  Vec4 tangent{0.0};  // of a mesh that has its own, as Mesh::tangents; not unit, w = 0 of any other
-  // The same of a mesh's second texture coordinates, which images may read.
+  // As Mesh::tangents, but not unit; w = 0 for a surface that is no mesh with tangents.
+  Vec4 tangent{0.0};
+  // uv, derivatives and tangent by a mesh's second texture coordinates, which images may read.
   struct SecondUv {
     Vec2 uv;
     Vec3 along_u, along_v;
@@ -59,11 +60,12 @@ struct SurfacePoint {
   };
   std::optional<SecondUv> second = {};
   Vec3 color{1.0};        // of a mesh's vertices
-  Vec3 coat_normal{0.0};  // unit, as normal; of a clear coat, once its material has set it
+  Vec3 coat_normal{0.0};  // unit normal of a clear coat, like `normal`, once the material has set it
   // The distance by which a triangle with normals at its corners lifts its scattered rays along its
-  // interpolated normal, in front and behind (docs/numerics.md); −1 of any other surface.
+  // interpolated normal, in front and behind (docs/numerics.md); −1 for any other surface.
   Vec2 lift{-1.0};
-  // A triangle's edges, from each corner to the next, and the weights of its corners; 0 of any other surface.
+  // A triangle's edges, from each corner to the next, and the weights of its corners; 0 for any other
+  // surface.
   std::array<Vec3, 3> edges{};
   Vec3 weights{0.0};
   // Unit; decides on which side of the surface a direction is, once the surface is in the world. It is the
@@ -86,8 +88,8 @@ inline void set_along(SurfacePoint& point, const Vec3& u_gradient, const Vec3& v
   point.along_v = glm::cross(point.normal_geometric, u_gradient) / area;
 }
 
-// uv of a surface that is 1 wide: rounding does not take a point of its border to where the next check
-// begins.
+// Clamps uv of a surface that is 1 wide in them, so that rounding does not move a point of the border to
+// where a texture's next check begins.
 inline Vec2 inner_uv(const Vec2& uv) {
   return glm::clamp(uv, 0.0, 1 - 0x1p-53);
 }
@@ -117,8 +119,8 @@ struct CapsuleForm {  // within 1 of the y axis from −half to half
   Mat4 to_world;
   double half;
 };
-// square · (x², y², z²) + product · (xy, xz, yz) + linear · (x, y, z) + constant ≤ 0 within `clip`; only the
-// surface without the faces of `clip` where `open`.
+// square · (x², y², z²) + product · (xy, xz, yz) + linear · (x, y, z) + constant ≤ 0 within `clip`. If
+// `open`, only the surface, without the faces of `clip`.
 struct QuadricForm {
   Mat4 to_world;
   Vec3 square, product, linear;
@@ -138,7 +140,7 @@ struct SuperellipsoidForm {  // (|x|^(2/e) + |z|^(2/e))^(e/n) + |y|^(2/n) ≤ 1
 struct PolygonForm {  // in the world
   std::vector<std::vector<Vec3>> outlines;
 };
-struct ExtrusionForm {  // of (x, z), from y = −1 to 1
+struct ExtrusionForm {  // outlines in (x, z), extruded from y = −1 to 1
   Mat4 to_world;
   std::vector<std::vector<Vec2>> outlines;
 };
@@ -146,7 +148,7 @@ struct BezierForm {  // rows of four control points
   std::array<Vec3, 16> net;
 };
 class Shape;
-// The points within any of `operands`, or where `all` within all of them, and within none of `removed`.
+// The points within any of `operands`, or if `all` within all of them, and within none of `removed`.
 struct CsgForm {
   bool all;
   std::vector<const Shape*> operands;
@@ -161,7 +163,7 @@ using ShapeForm =
 struct FormulaUse {
   std::shared_ptr<const formula::Formula> formula;
   Bounds box;
-  double lipschitz;       // as steep as it is stated to be; 0 where nothing is stated
+  double lipschitz;       // the stated bound of its steepness; 0 if none is stated
   bool declared = false;  // by the user, who may be wrong
 };
 
@@ -169,40 +171,44 @@ class Shape {
  public:
   virtual ~Shape() = default;
 
-  // The nearest intersection with t > 0, if there is one; with `iteration_limit` there need be none.
+  // The nearest intersection with t > 0, if there is one. A result with `iteration_limit` need not be an
+  // intersection.
   virtual std::optional<Intersection> intersect(const Ray& ray) const = 0;
   virtual SurfacePoint surface(const Ray& ray, const Intersection& hit) const = 0;
   virtual Bounds bounds() const = 0;
-  // The shape that has the surface there, and whose material it is of: itself, or a CSG object's part.
+  // The shape whose surface and material are hit: this one, or a part of a CSG object.
   virtual const Shape& part(const Intersection&) const { return *this; }
-  // True if it encloses a volume, so that CSG objects can be made of it.
+  // True if the shape encloses a volume, so that CSG objects can be made of it.
   virtual bool is_closed() const { return false; }
   // The spans of the ray's whole line, t < 0 included, that lie within a closed shape: in order, none touches
   // another. Beyond an end that is `iteration_limit` no span is known.
   virtual std::vector<Span> spans(const Ray&) const { return {}; }
-  // For exporters and for comparing with other renderers; monostate for shapes they lack.
+  // The shape's form, for exporters and for comparing with other renderers; monostate for shapes that they
+  // lack.
   virtual ShapeForm form() const { return {}; }
   // The formula of a shape that is made of one; else null.
   virtual const FormulaUse* formula_use() const { return nullptr; }
-  // True if each of its crossings weakens a shadow ray by √(the material's share), as a mesh's triangles do.
-  // That holds for open shapes that may be part of a closed surface. Others weaken it once in all.
+  // True if each crossing of the shape weakens a shadow ray by √(the material's share), as a mesh's triangles
+  // do. That holds for open shapes that may be part of a closed surface. Other shapes weaken a ray once in
+  // all.
   virtual bool counts_crossings() const { return false; }
-  // Its thickness as a multiple of the thinnest of its kind that can be computed, if a map could make it
-  // too thin.
+  // The shape's thickness, as a multiple of the least thickness that can be computed for its kind. Infinity
+  // if no map can make the shape too thin.
   virtual double thickness_margin() const { return std::numeric_limits<double>::infinity(); }
-  // The most times that a line crosses it, as far as that is known. Rounding may find more.
+  // The largest number of times that a line crosses the shape, as far as it is known. Rounding may add
+  // crossings.
   virtual int most_crossings() const { return 1 << 20; }
   // Appends the shape's one Primitive (and the data it refers to), or several, each with its bounds.
   virtual void pack(records::Packer& packer) const = 0;
 
   int material = 0;                 // index in Scene::materials
-  std::string_view type = "shape";  // its table in a scene file; of one that no file made "shape"
+  std::string_view type = "shape";  // the name of its table in a scene file; "shape" if no file made it
   NameRef name;                     // in Scene::names
   SourcePosition position;          // of its table in the scene file
 };
 
 // Calls visit(leaf) for each shape that a CSG object and the CSG objects in it are made of, in the order of
-// its table; for any other shape, once with that.
+// its table. For any other shape, calls visit once, with that shape.
 template <typename Visit>
 void for_each_leaf(const Shape& shape, const Visit& visit) {
   const ShapeForm form = shape.form();

@@ -11,7 +11,7 @@
 namespace eyeray::engine {
 namespace {
 
-// Appends another vertex like that one.
+// Appends a copy of the vertex, and returns its index.
 uint32_t split(Mesh& mesh, uint32_t vertex) {
   const auto again = [&](auto& values) {
     if (!values.empty())
@@ -60,7 +60,7 @@ void add_tangents(Mesh& mesh) {
       sums[vertex].w = side;
     }
   }
-  // If uv give no direction, any will do.
+  // If uv determine no tangent, any one will do.
   mesh.tangents.reserve(sums.size());
   for (size_t i = 0; i < sums.size(); ++i) {
     const Vec3& n = mesh.normals[i];
@@ -73,7 +73,7 @@ void add_tangents(Mesh& mesh) {
 }  // namespace
 
 void make_tangents(Scene& scene) {
-  std::map<int, bool> wanted;  // and whether along the second u
+  std::map<int, bool> wanted;  // by mesh: whether its tangents are along the second u
   const auto note = [&](const std::vector<Instance>& instances) {
     for (const Instance& instance : instances) {
       const Material& material = *scene.materials[size_t(instance.material)];

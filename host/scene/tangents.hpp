@@ -1,15 +1,14 @@
-// Tangents of meshes that bring none.
+// Computes the tangents of meshes that have none.
 #pragma once
 
 #include "host/scene/scene.hpp"
 
 namespace eyeray::engine {
 
-// Gives Mesh::tangents to each mesh of a material with a normal map that has normals and uv and none
-// yet. At a vertex this is the mean of its triangles' ∂p/∂u, of the uv that the map reads, in the
-// plane perpendicular to the normal. They are weighted by their angles there, as Mikkelsen has it
-// ("Simulation of Wrinkled Surfaces Revisited", 2008). Vertices are split where mirrored parts of a
-// picture join.
+// Gives Mesh::tangents to each mesh that has normals and uv but no tangents, and a material with a normal
+// map. A vertex's tangent is the mean of ∂p/∂u of its triangles, by the uv that the map reads, in the plane
+// perpendicular to the normal. Triangles are weighted by their angles at the vertex (Mikkelsen: "Simulation
+// of Wrinkled Surfaces Revisited", 2008). Vertices are split where mirrored parts of a picture join.
 void make_tangents(Scene& scene);
 
 }  // namespace eyeray::engine

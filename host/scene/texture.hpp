@@ -33,19 +33,20 @@ class Texture {
  public:
   virtual ~Texture() = default;
 
-  // Linear RGB. The reference's half: no float32.
+  // The colour in linear RGB. This is the reference's version: no float32.
   virtual Vec3 at(const TextureContext& place) const = 0;
-  // The colour of one that is the same everywhere.
+  // The colour of a texture that is the same everywhere; empty for any other.
   virtual std::optional<Vec3> constant() const { return std::nullopt; }
   // The texture's value as an alpha.
   virtual double alpha_at(const TextureContext& place) const { return at(place).x; }
-  // The same with the codes of pictures as they are, for data that is no colour; null: there are none.
+  // The same texture, but with the codes of its picture as they are, for data that is not a colour; null if
+  // it has no picture.
   virtual TexturePtr as_data() const { return nullptr; }
   // The distance for measuring a slope: in uv, or for a texture in_space() in the world.
   virtual double detail() const { return 0.01; }
-  // True if it asks for the position in the world, which nothing knows where cutouts are sampled.
+  // True if the texture depends on the position in the world, which is unknown where cutouts are sampled.
   virtual bool in_space() const { return false; }
-  // True if it reads the second texture coordinates of a mesh.
+  // True if the texture reads the second texture coordinates of a mesh.
   virtual bool reads_second_uv() const { return false; }
   // The index of the texture's record, which is added unless there is an equal one.
   virtual uint32_t pack(records::Packer& packer) const = 0;

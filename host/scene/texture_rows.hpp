@@ -1,4 +1,4 @@
-// The rows of shaders/textures/rows.h, for callers who need no more of a texture than they hold.
+// The rows of shaders/textures/rows.h, for callers that need to know no more about a texture.
 #pragma once
 
 #include <cstdint>

@@ -6,7 +6,8 @@
 namespace eyeray::engine {
 namespace {
 
-// On which side of the line through both points the origin is. Swapped ends give exactly the negative.
+// The sign is the side of the line through both points on which the origin is. Swapped ends give exactly the
+// negative.
 double edge(const Vec2& from, const Vec2& to) {
   return from.x * to.y - from.y * to.x;
 }
@@ -85,7 +86,7 @@ std::optional<Intersection> intersect_triangle(const Corners& corners, const Vec
   const double area = w0 + w1 + w2;
   if (area == 0) return std::nullopt;
 
-  // The plane gives t, to the same bit for all that lies in one axis-aligned plane.
+  // Compute t from the plane: it is the same to the last bit for all triangles in one axis-aligned plane.
   const double t = glm::dot(normal, corners[0] - ray.o) / glm::dot(normal, ray.d);
   if (!(t > 0) || !std::isfinite(t)) return std::nullopt;
   return Intersection{t, w1 / area, w2 / area};

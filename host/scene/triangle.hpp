@@ -22,7 +22,8 @@ inline constexpr double least_normal_cosine = 1e-6;
 // Twice the area over the square of the longest edge; 0 where corners coincide or lie on one line.
 double thickness(const Corners& corners);
 
-// Unit, by counter-clockwise winding; for any triangle of at least `thinnest_triangle`.
+// The unit normal by counter-clockwise winding, for any triangle whose thickness is at least
+// `thinnest_triangle`.
 Vec3 geometric_normal(const Corners& corners);
 
 // The gradients of coordinates that are linear over the triangle, from their values at its corners.
@@ -33,20 +34,21 @@ UvGradients uv_gradients(const Corners& corners, const std::array<Vec2, 3>& uv);
 // The derivatives of a point of the triangle by u and v, the inverse of the gradients; 0 if the mapping is
 // not one to one.
 std::pair<Vec3, Vec3> along_uv(const Corners& corners, const std::array<Vec2, 3>& uv);
-// Those of a triangle without any: the weights of the second and third corner.
+// The uv of a triangle that has none: the weights of the second and third corner.
 inline constexpr std::array<Vec2, 3> corner_weights{Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)};
 
-// The surface of a triangle with normals at its corners, of any length but 0, where the corners have these
-// weights: sets `normal` and `lift` of the point, whose normal_geometric is known.
+// Sets `normal` and `lift` of a point of a triangle with normals at its corners, which have any length but 0.
+// `weights`: those of the corners at the point, whose normal_geometric is known.
 void set_smooth(SurfacePoint& point, const Corners& corners, const Corners& normals,
                 const std::array<double, 3>& weights);
 
 // Sets `edges` and `weights` of the point that was hit.
 void set_edges(SurfacePoint& point, const Corners& corners, const Intersection& hit);
 
-// Takes shading normals at corners along where a map takes the triangle. To interpolate in the object's space
-// and then map is to interpolate between its results for the corners' normals, for it is linear. They are
-// unit no more, about 1 at most, and their lengths count. Under a similarity they stay unit.
+// Maps the shading normals at the corners of a triangle that `map` maps. Interpolating between the results
+// equals interpolating in the object's space and then mapping, since the map is linear. The results are no
+// longer unit: their lengths are about 1 at most, and count in the interpolation. Under a similarity they
+// stay unit.
 class CornerNormals {
  public:
   explicit CornerNormals(const Affine& map);

@@ -15,7 +15,7 @@ void whole_shares(std::span<const double> shares, std::span<uint32_t> ends) {
     ends[i] = shares[i] > 0 ? 1 + uint32_t(shares[i] * (choice_numbers - count)) : 0;
     all += ends[i];
   }
-  // The remainder goes to the largest.
+  // The remainder goes to the largest share.
   if (count > 0) *std::ranges::max_element(ends) += choice_numbers - all;
   uint32_t end = 0;
   for (uint32_t& each : ends) each = end += each;

@@ -1,4 +1,4 @@
-// Discrete choices by whole numbers, which every executor shares: no rounding parts them.
+// Discrete choices by whole numbers, which every executor shares, so that rounding makes none diverge.
 #pragma once
 
 #include <cstdint>
@@ -6,12 +6,12 @@
 
 namespace eyeray::engine {
 
-// The number of whole numbers among which a choice draws one.
+// The number of whole numbers, one of which a choice draws.
 inline constexpr uint32_t choice_numbers = 1u << 24;
 
-// Whole numbers in proportion to `shares`, which sum to 1 and are at most choice_numbers: `ends[i]` is where
-// those of i end, and those of i + 1 begin. What has a share at all has one number at least; all are
-// choice_numbers together, or 0 where no share is above 0.
+// Distributes whole numbers in proportion to `shares`, which sum to 1; at most choice_numbers of them are
+// above 0. The numbers of share i end at `ends[i]`, where those of share i + 1 begin. Every share above 0 has
+// at least one number. All shares together have choice_numbers, or 0 if no share is above 0.
 void whole_shares(std::span<const double> shares, std::span<uint32_t> ends);
 
 }  // namespace eyeray::engine
