@@ -11,10 +11,10 @@ namespace {
 
 struct Word {
   std::string_view ours;
-  std::string_view theirs;  // in lower case without - and _, each between two spaces
+  std::string_view theirs;  // words of other renderers in lower case without - and _, between spaces
 };
 
-// One of theirs may stand in many rows: the first row counts whose word is possible where it was written.
+// A foreign word may stand in several rows. The first row whose own word is among the possible names counts.
 constexpr Word words[] = {
     // Cameras
     {"eye", " location origin position pos from lookfrom viewpoint eyepoint "},
@@ -25,7 +25,7 @@ constexpr Word words[] = {
     {"aperture", " lensradius apertureradius aperturesize "},
     {"focus", " focaldistance focusdistance focaldist focalpoint "},
     {"size", " orthoscale screenwindow "},
-    // The picture and how it comes about
+    // The picture, its samples and the integrator
     {"width", " resolution xresolution resolutionx resx xres size w "},
     {"height", " yresolution resolutiony resy yres h "},
     {"samples", " spp samplecount pixelsamples samplesperpixel aa antialias antialiasing "},
@@ -36,7 +36,7 @@ constexpr Word words[] = {
     {"ambient", " ambientlight ambientcolor ka "},
     {"integrator", " method engine renderer tracer algorithm "},
     {"seed", " randomseed rngseed "},
-    // Lights; their position comes before a shape's center
+    // Lights: for the same foreign words, a light's position comes before a shape's center
     {"intensity",
      " color colour power energy strength radiance irradiance emission brightness rgb spectrum i l "},
     {"falloff", " attenuation decay fadepower "},
@@ -152,10 +152,10 @@ std::string plain(std::string_view word) {
 }  // namespace
 
 std::string suggest_name(std::string_view word, std::span<const std::string_view> names) {
-  constexpr size_t longest = 32;  // of theirs
+  constexpr size_t longest = 32;  // no foreign word of the table has more bytes
   if (word.size() > longest) return nearest_name(word, names);
 
-  // In order: a word that is joined differently, another renderer's word, a typing error.
+  // Try in this order: a name that is only joined differently, another renderer's word, a typing error.
   const std::string said = plain(word);
   for (const std::string_view name : names)
     if (plain(name) == said) return std::string(name);

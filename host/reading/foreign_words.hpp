@@ -7,8 +7,8 @@
 
 namespace eyeray::engine::reading {
 
-// The one of `names` that was most likely meant by `word`. That is one that POV-Ray, pbrt, Mitsuba or Blender
-// call so; else one of which `word` may be a typing error (nearest_name); "" when there is none.
+// The one of `names` that `word` most likely means. It is the name for which POV-Ray, pbrt, Mitsuba or
+// Blender have `word`. Else it is a name of which `word` may be a typing error (nearest_name), or "".
 std::string suggest_name(std::string_view word, std::span<const std::string_view> names);
 
 }  // namespace eyeray::engine::reading

@@ -1,4 +1,4 @@
-// Formulas of users from the keys of a scene's tables.
+// Reads users' formulas from the keys of a scene's tables.
 #pragma once
 
 #include <initializer_list>
@@ -10,8 +10,8 @@
 
 namespace eyeray::engine::reading {
 
-// Keys by which a table gives the text of a formula, and its constants. Another is `code`, whose doc each
-// table writes itself.
+// Keys by which a table gives the text of a formula, and its constants. A third key, `code`, is not here:
+// each table declares it with a doc of its own.
 inline constexpr Key formula_file_key{
     .name = "file",
     .type = KeyType::formula_file,
@@ -22,8 +22,8 @@ inline constexpr Key parameters_key{.name = "parameters",
                                     .doc = "Constants that the function may use.",
                                     .optional = true};
 
-// True if exactly one of the keys `sources` stands in the table; else an error is reported. `owner`, for
-// messages: "[[implicit]]".
+// True if exactly one of the keys `sources` stands in the table; else an error is reported. `owner` names the
+// table in messages: "[[implicit]]".
 bool has_one_source(TableReader& table, std::initializer_list<std::string_view> sources,
                     std::string_view owner);
 
@@ -33,7 +33,7 @@ std::string formula_title(const TableReader& table, std::string_view owner);
 // The value of the key `parameters`; empty if it is absent.
 std::vector<formula::FormulaParameter> formula_parameters(const TableReader& table);
 
-// The formula that `code` or `file` has, with its `parameters`; null after an error.
+// The formula in the table's `code` or `file`, with its `parameters`; null after an error.
 std::shared_ptr<const formula::Formula> read_formula(TableReader& table, std::string_view owner,
                                                      formula::FormulaKind kind);
 

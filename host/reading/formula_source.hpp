@@ -13,8 +13,8 @@ class FormulaSource {
  public:
   virtual ~FormulaSource() = default;
 
-  // The text of the file that `name` stands for, as it was written at `position`. Nothing, with an error in
-  // the log, where that cannot be had.
+  // The text of the file `name`, which the scene names at `position`. Nothing, with an error in the log, if
+  // the file may not or cannot be read.
   virtual std::optional<formula::FormulaText> load(const std::string& name,
                                                    const SourcePosition& position) = 0;
 };

@@ -14,10 +14,11 @@ class ImageSource {
  public:
   virtual ~ImageSource() = default;
 
-  // `wanted` with its texels: its name is a file's as it stands at `position`, its size and texels are still
-  // empty. Null, with an error in the log, where that cannot be had.
+  // `wanted` with the size and texels of the file that the scene names at `position`. `wanted` brings the
+  // file's name and the settings. Null, with an error in the log, if the file may not or cannot be read.
   virtual std::shared_ptr<const ImageTexture> load(ImageTexture wanted, const SourcePosition& position) = 0;
-  // The light that a file holds, of three channels: a .hdr, .exr or .pfm. Without an answer as above.
+  // The light that a .hdr, .exr or .pfm file holds, in three channels. Nothing, with an error in the log, if
+  // the file may not or cannot be read.
   virtual std::optional<image::Image> load_light(const std::string& name, const SourcePosition& position) = 0;
 };
 

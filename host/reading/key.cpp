@@ -19,8 +19,8 @@ std::string show(double value) {
   return text;
 }
 
-// " above 0 and below 180", " above 0, at most 64", " from 0 to below 90", " from 1 to 65536",
-// " of at least 0"; "" where every number will do.
+// The range of a key as text; "" if every number is allowed. Examples: " above 0 and below 180",
+// " above 0, at most 64", " from 0 to below 90", " from 1 to 65536", " of at least 0".
 std::string describe_range(const Key& key) {
   const bool low = std::isfinite(key.min), high = std::isfinite(key.max);
   const std::string min = low ? show(key.min) : "", max = high ? show(key.max) : "";
@@ -50,6 +50,7 @@ std::string describe_choices(std::span<const std::string_view> choices) {
   return text;
 }
 
+// The values of a texture key as text, such as
 // "a color [r, g, b], one number for all three, { checker = … } or { image = … }".
 std::string describe_textures() {
   std::string text = "a color [r, g, b], one number for all three", last;

@@ -15,8 +15,8 @@ namespace eyeray::engine::reading {
 struct TableReader::Table {
   struct Row {
     const Key* key;
-    const toml::node* node;  // null: not written
-    Value value;             // checked; a stand-in after an error
+    const toml::node* node;  // null: the key is not written
+    Value value;             // has been checked; a stand-in after an error
     bool failed;
   };
 
@@ -71,7 +71,7 @@ TableReader::Table::Row TableReader::Table::read(const Key& key) {
     failed = true;
   }
 
-  // Take the default, for want of a value or of a right one.
+  // Take the default if the value is absent or wrong.
   const bool wrong = node != nullptr;
   if (key.fallback.empty()) return {&key, node, stand_in(key, source.sources), wrong};
   auto value = read_value(key, fallback_of(key), log, source.sources);
@@ -79,7 +79,7 @@ TableReader::Table::Row TableReader::Table::read(const Key& key) {
   return {&key, node, std::move(*value), wrong};
 }
 
-// Reports keys that were not declared.
+// Reports the table's keys that were not declared.
 void TableReader::Table::check_names() {
   if (!source.table || source.open) return;
   std::vector<std::string_view> names;
@@ -200,7 +200,7 @@ std::shared_ptr<const ImageTexture> TableReader::load_image(std::string_view key
 void TableReader::error(std::string_view key, std::string message, std::initializer_list<size_t> element) {
   const Table::Row& row = table_->row(key);
   if (row.failed) return;
-  if (!row.node && table_->log.damaged()) {  // it may stand in the unparsed text
+  if (!row.node && table_->log.damaged()) {  // the key may stand in the unparsed text
     table_->failed = true;
     return;
   }

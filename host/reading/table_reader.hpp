@@ -25,10 +25,10 @@ namespace eyeray::engine::reading {
 
 class TableReader {
  public:
-  // The readers of declared keys. Each value has been checked against its Key; after an error a valid
-  // stand-in comes back, so that reading goes on and all errors are reported together. Reading an undeclared
-  // key is a CHECK.
-  bool has(std::string_view key) const;  // written in the table (not defaulted)
+  // The readers of declared keys. Each value has been checked by its Key. After an error they return a valid
+  // stand-in, so that reading goes on and all errors are reported together. A CHECK stops the program if an
+  // undeclared key is read.
+  bool has(std::string_view key) const;  // true if the key is written, not defaulted
   bool boolean(std::string_view key) const;
   int64_t integer(std::string_view key) const;
   double number(std::string_view key) const;
@@ -40,34 +40,34 @@ class TableReader {
   std::vector<Vec2> vec2_list(std::string_view key) const;
   std::vector<Vec3> vec3_list(std::string_view key) const;
   std::vector<std::vector<Vec3>> outlines(std::string_view key) const;
-  formula::FormulaText formula(std::string_view key) const;  // of formula and formula_file
+  formula::FormulaText formula(std::string_view key) const;  // for KeyType::formula and formula_file
   std::vector<formula::FormulaParameter> parameters(std::string_view key) const;
   Vec3 color(std::string_view key) const;
-  std::vector<Vec4> color_map(std::string_view key) const;  // color, then where it is
+  std::vector<Vec4> color_map(std::string_view key) const;  // r, g, b, and the color's position t
   TexturePtr texture(std::string_view key) const;
-  // `wanted` with the texels of the file that the key names; null where it cannot be had, which is an error
-  // then.
+  // `wanted` with the texels of the file that the key names; null, with an error, if they cannot be had.
   std::shared_ptr<const ImageTexture> load_image(std::string_view key, ImageTexture wanted);
   Vec2 scale2(std::string_view key) const;
   Vec3 scale3(std::string_view key) const;
   Mat4 transform(std::string_view key) const;
 
-  // Adds an error at the key's value, or at the table where the key is absent; nothing when the value already
-  // had one. `element`: of a list, [i], or of a list in it, [i, k], to which the error belongs.
+  // Adds an error at the key's value, or at the table if the key is absent. Adds nothing if the value already
+  // had an error. `element`: the element of a list that is wrong, [i], or that of a list in the list, [i, k].
   void error(std::string_view key, std::string message, std::initializer_list<size_t> element = {});
-  // Adds a warning at the key's value, or at the table where the key is absent.
+  // Adds a warning at the key's value, or at the table if the key is absent.
   void warning(std::string_view key, std::string message);
   // Adds the faults within the text of a formula.
   void error(const InputError& faults);
-  // True if the key's value, written or default, is valid: false after an error in it, or if it is missing.
+  // True if the key's value, written or default, is valid. False after an error in the value, or if there is
+  // no value.
   bool valid(std::string_view key) const;
   // True if this table has had an error so far.
   bool failed() const;
   SourcePosition position() const;
-  // The position of the key's value, or of the table where the key is absent.
+  // The position of the key's value, or of the table if the key is absent.
   SourcePosition position(std::string_view key) const;
 
-  struct Table;  // the parsed TOML behind it; reading/table_reader.cpp
+  struct Table;  // the parsed TOML; defined in reading/table_reader.cpp
   explicit TableReader(std::unique_ptr<Table> table);
   ~TableReader();
 

@@ -1,4 +1,4 @@
-// The facts about a kind of texture. Tables name textures among their values.
+// The facts about a kind of texture. A table's keys may have textures as values.
 #pragma once
 
 #include <span>
@@ -13,15 +13,15 @@ namespace eyeray::engine::reading {
 class TableReader;  // reading/table_reader.hpp
 
 struct TextureType {
-  std::string_view name;  // as a scene file has it, and its .glsl
+  std::string_view name;  // in scene files, and of its .glsl
   std::string_view manual;
   std::span<const Key> keys = {};
   TexturePtr (*parse)(TableReader& table) = nullptr;  // null after an error, which is reported to the table
   // Only for the kind that is written as a plain color, without a table.
   TexturePtr (*of_color)(const Vec3& color) = nullptr;
 
-  // True if its name is one of its keys and the others stand beside it: { image = "a.png", wrap = … }. False
-  // if they are in a table of that name: { checker = { … } }.
+  // True if the type's name is one of its keys, and the other keys stand beside it: { image = "a.png",
+  // wrap = … }. False if the keys stand in a table of that name: { checker = { … } }.
   bool is_flat() const {
     for (const Key& key : keys)
       if (key.name == name) return true;

@@ -1,4 +1,4 @@
-// A list of transform steps as one matrix. Private to this layer.
+// Reads a list of transform steps as one matrix. Private to this layer.
 #pragma once
 
 #include <toml++/toml.h>
@@ -10,11 +10,11 @@
 
 namespace eyeray::engine::reading {
 
-// The steps applied in the order written; nothing, with errors in the log, where a step is wrong or the whole
-// cannot be undone.
+// The matrix that applies the steps in the order written. Nothing, with errors in the log, if a step is wrong
+// or the matrix cannot be inverted.
 std::optional<Mat4> read_transform(const toml::array& steps, DiagnosticLog& log);
 
-// A turn about an axis through the origin.
+// The rotation about an axis through the origin; nothing after an error.
 std::optional<Mat4> read_rotation(const toml::table& table, DiagnosticLog& log);
 
 }  // namespace eyeray::engine::reading

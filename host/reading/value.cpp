@@ -34,7 +34,7 @@ TexturePtr plain_texture(const Vec3& color, const ValueSources& sources) {
   return (*plain)->of_color(color);
 }
 
-// Reads one value; keeps whether all of it was right.
+// Reads one value, and records whether all of it was right.
 class Reader {
  public:
   Reader(const Key& key, DiagnosticLog& log, const ValueSources& sources)
@@ -227,7 +227,8 @@ TexturePtr Reader::texture(const toml::node& node) {
 }
 
 TexturePtr Reader::texture(const TextureType& type, const toml::table& table) {
-  // Its colors have the range of the texture's; of an image no texel is above 1.
+  // The colors in the texture's table have the range of the key that the texture is for. No texel of an image
+  // is above 1.
   std::vector<Key> keys(type.keys.begin(), type.keys.end());
   for (Key& key : keys)
     if (key.type == KeyType::color || key.type == KeyType::color_map) key.max = std::min(key.max, key_.max);
@@ -324,7 +325,7 @@ std::optional<Value> read_value(const Key& key, const toml::node& node, Diagnost
 }
 
 Value stand_in(const Key& key, const ValueSources& sources) {
-  // The number of the range that is nearest to 1.
+  // Take the number in the key's range that is nearest to 1.
   const double low = key.above_min ? std::nextafter(key.min, Key::inf) : key.min;
   const double high = key.below_max ? std::nextafter(key.max, -Key::inf) : key.max;
   const double number = std::clamp(1.0, low, high);

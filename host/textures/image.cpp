@@ -50,7 +50,7 @@ constexpr Key keys[] = {
     {.name = "tint", .type = KeyType::color, .doc = "Factor for the picture's color.", .fallback = "1"},
 };
 
-// The index in an image of `size` of texel i of the endless row that continues it.
+// The index of the texel, in a row of `size` texels, that texel i of the row's endless continuation repeats.
 size_t wrapped(double i, int size, Wrap wrap) {
   const double n = size;
   double own = i;
@@ -62,7 +62,7 @@ size_t wrapped(double i, int size, Wrap wrap) {
   return own > 0 ? static_cast<size_t>(std::min(own, n - 1)) : 0;  // and NaN is 0
 }
 
-// The value that a code stands for.
+// The value from 0 to 1 that an 8-bit code represents.
 double decoded(uint8_t code, bool srgb) {
   static const auto curve = [] {
     std::array<double, 256> values;
@@ -73,8 +73,7 @@ double decoded(uint8_t code, bool srgb) {
   return srgb ? curve[code] : code / 255.0;
 }
 
-// Linear RGB and alpha of texel (i, j), counted from the lower left, of the plane that the image is continued
-// to.
+// Linear RGB and alpha of texel (i, j) of the image, endlessly continued. Texel (0, 0) is at the lower left.
 Vec4 texel(const ImageTexture& image, bool srgb, double i, double j) {
   const size_t row = static_cast<size_t>(image.height) - 1 - wrapped(j, image.height, image.wrap_v);
   const size_t column = wrapped(i, image.width, image.wrap_u);
@@ -82,13 +81,13 @@ Vec4 texel(const ImageTexture& image, bool srgb, double i, double j) {
   return {decoded(codes[0], srgb), decoded(codes[1], srgb), decoded(codes[2], srgb), codes[3] / 255.0};
 }
 
-// `uv` in the image's own unit.
+// The filtered RGB and alpha at `uv`, where the whole image spans [0, 1].
 Vec4 filtered(const ImageTexture& image, bool srgb, const Vec2& uv) {
   const Vec2 place = uv * Vec2(image.width, image.height);
   if (image.filter == Filter::nearest) return texel(image, srgb, std::floor(place.x), std::floor(place.y));
 
-  // Weigh each texel by how much of a texel's area around the point it covers; its centre is at a
-  // half-integer. Equal ones give that very value, which an alpha may be compared with.
+  // Weigh each texel by its overlap with a square of one texel around the point; texel centres are at
+  // half-integers. Equal texels give exactly their value, so an alpha may be compared with it.
   const Vec2 corner = glm::floor(place - 0.5);
   const Vec2 share = place - 0.5 - corner;
   const auto row = [&](double j) {
@@ -99,7 +98,7 @@ Vec4 filtered(const ImageTexture& image, bool srgb, const Vec2& uv) {
   return lower + (row(corner.y + 1) - lower) * share.y;
 }
 
-constexpr uint32_t wrap_codes[] = {WRAP_REPEAT, WRAP_MIRROR, WRAP_CLAMP};  // by Wrap
+constexpr uint32_t wrap_codes[] = {WRAP_REPEAT, WRAP_MIRROR, WRAP_CLAMP};  // indexed by Wrap
 
 uint32_t flags_of(const ImageTexture& image, bool srgb, bool second_uv) {
   return (image.filter == Filter::nearest ? IMAGE_NEAREST : 0) | (srgb ? 0 : IMAGE_LINEAR) |
@@ -119,7 +118,7 @@ class Image final : public Texture {
     return std::make_shared<Image>(image_, false, tint_, size_, second_uv_);
   }
   bool reads_second_uv() const override { return second_uv_; }
-  // A texel.
+  // The size of a texel in uv.
   double detail() const override { return std::min(size_.x / image_->width, size_.y / image_->height); }
 
   uint32_t pack(records::Packer& packer) const override {
@@ -144,7 +143,7 @@ class Image final : public Texture {
 };
 
 TexturePtr parse(TableReader& table) {
-  if (table.failed()) return nullptr;  // an error of the file would hide those found here
+  if (table.failed()) return nullptr;  // else an error of the file would hide the table's errors
   const auto [wrap_u, wrap_v] = table.choice2("wrap");
   ImageTexture wanted;
   wanted.name = table.string("image");

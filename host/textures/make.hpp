@@ -1,4 +1,5 @@
-// Textures built in code, by materials, importers and tests; a scene file's go through their TextureType.
+// Textures built in code, by materials, importers and tests. A scene file's textures are made by their
+// TextureType instead.
 #pragma once
 
 #include "host/formula/formula.hpp"
@@ -16,8 +17,9 @@ TexturePtr make_checker(const Vec3& even, const Vec3& odd, const Vec2& size);
 // The colour that the formula gives for uv, each component clamped to [0, 1], times `tint`.
 TexturePtr make_formula(std::shared_ptr<const formula::Formula> formula, const Vec3& tint = Vec3(1));
 
-// A picture in uv, times `tint`: (0, 0) is its lower left corner, `size` its upper right. As an alpha, its
-// own times the first component of `tint`. `second_uv`: the uv are a mesh's second; never of an alpha.
+// A picture in uv, times `tint`: (0, 0) is its lower left corner, `size` its upper right. Its alpha is the
+// picture's alpha times the first component of `tint`. `second_uv`: true if it takes a mesh's second uv, as
+// an alpha never does.
 TexturePtr make_image(std::shared_ptr<const ImageTexture> image, const Vec3& tint = Vec3(1),
                       const Vec2& size = Vec2(1), bool second_uv = false);
 

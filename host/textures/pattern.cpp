@@ -10,7 +10,7 @@
 namespace eyeray::engine::textures {
 namespace {
 
-// Perlin's twelve slopes, four of them twice; "Improving Noise" (2002).
+// The twelve gradients of Perlin's "Improving Noise" (2002), four of them twice.
 constexpr int slopes[16][3] = {{1, 1, 0},  {-1, 1, 0},  {1, -1, 0}, {-1, -1, 0}, {1, 0, 1},  {-1, 0, 1},
                                {1, 0, -1}, {-1, 0, -1}, {0, 1, 1},  {0, -1, 1},  {0, 1, -1}, {0, -1, -1},
                                {1, 1, 0},  {0, -1, 1},  {-1, 1, 0}, {0, -1, -1}};
@@ -75,7 +75,7 @@ Pattern::Pattern(const TableReader& table, uint32_t kind, const Vec4& parameters
 
 Vec3 Pattern::at(const TextureContext& place) const {
   const double t = share(to_pattern_.point(place.position));
-  // The last color that is no farther than t, and the one behind it.
+  // Find the last color at or below t, and the next one.
   const auto after = std::ranges::find_if(colors_, [&](const Vec4& color) { return color.w > t; });
   if (after == colors_.begin()) return Vec3(colors_.front());
   if (after == colors_.end()) return Vec3(colors_.back());
@@ -83,7 +83,8 @@ Vec3 Pattern::at(const TextureContext& place) const {
   return glm::mix(Vec3(from), Vec3(to), (t - from.w) / (to.w - from.w));
 }
 
-// In the pattern's own units. At smaller distances float32 could not distinguish heights.
+// 0.03 of the pattern's own units, in world units. At smaller distances float32 could not distinguish
+// heights.
 double Pattern::detail() const {
   return 0.03 / std::cbrt(std::fabs(glm::determinant(to_pattern_.linear)));
 }

@@ -1,4 +1,4 @@
-// Patterns in space: a share of [0, 1] at each point of the world, and a color for each share.
+// Patterns in space: a number in [0, 1], the share, at each point of the world, and a color for each share.
 #pragma once
 
 #include <vector>
@@ -33,7 +33,7 @@ constexpr Key colors_key(std::string_view fallback) {
 
 class Pattern : public Texture {
  public:
-  // `parameters`: as the pattern's .glsl defines them.
+  // `parameters`: four numbers, whose meaning the pattern's .glsl defines.
   Pattern(const TableReader& table, uint32_t kind, const Vec4& parameters = Vec4(0));
 
   Vec3 at(const TextureContext& place) const final;
@@ -42,7 +42,7 @@ class Pattern : public Texture {
   uint32_t pack(records::Packer& packer) const final;
 
  protected:
-  // In [0, 1], at a point of the pattern's own space.
+  // The share, in [0, 1], at a point of the pattern's own space.
   virtual double share(const Vec3& p) const = 0;
 
  private:
@@ -55,11 +55,11 @@ class Pattern : public Texture {
 // True if the table's transform can be inverted; else an error is reported.
 bool pattern_stands(TableReader& table);
 
-// 0 at whole numbers, 1 half way between them.
+// The triangle wave: 0 at whole numbers, 1 half way between them.
 double triangle_wave(double x);
-// Octaves of Perlin's noise.
+// The sum of so many octaves of Perlin's noise at p.
 double turbulence(const Vec3& p, int octaves);
-// The hash of the cell whose lower corner that is.
+// The hash of the cell that has this lower corner.
 uint32_t cell_hash(const Vec3& corner);
 uint32_t next_hash(uint32_t hash);
 

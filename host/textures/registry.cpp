@@ -4,7 +4,7 @@
 
 namespace eyeray::engine::textures {
 
-// Each texture's .cpp defines its own; one that is missing is a link error that bears its name.
+// Each texture's .cpp defines its own TextureType. If one is missing, the linker's error contains its name.
 #define X(name, ...) extern const TextureType name##_type;
 TEXTURES(X)
 #undef X

@@ -1,4 +1,4 @@
-// The kinds of textures, and the words that they have from reading.
+// The kinds of textures, and the names of host/reading that their code uses.
 #pragma once
 
 #include <span>
