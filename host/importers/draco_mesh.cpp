@@ -13,8 +13,8 @@ namespace eyeray::engine::importers {
 
 namespace {
 
-// The number of values that store the connectivity, from the head of its data, of which `buffer` is a copy;
-// empty if the data is cut short. Sequential data has three bytes a face, which Draco checks.
+// The number of values that store the connectivity, as the head of its data states it; empty if the data is
+// cut short. `buffer` is a copy. Sequential data has three bytes a face, which Draco checks.
 std::optional<uint64_t> connectivity_values(const draco::MeshSequentialDecoder&, draco::DecoderBuffer) {
   return 0;
 }
@@ -29,14 +29,15 @@ std::optional<uint64_t> connectivity_values(const draco::MeshEdgebreakerDecoder&
   uint32_t vertices = 0;
   uint32_t faces = 0;
   uint8_t attribute_tables = 0;
-  if (version < DRACO_BITSTREAM_VERSION(2, 2) && !count(vertices)) return std::nullopt;  // added by splits
+  if (version < DRACO_BITSTREAM_VERSION(2, 2) && !count(vertices))
+    return std::nullopt;  // the vertices that splits add
   if (!count(vertices) || !count(faces) || !buffer.Decode(&attribute_tables)) return std::nullopt;
   return uint64_t{3} * faces * (1 + attribute_tables);
 }
 
-// Draco 1.5.5 predicts uv by orientations, of which it reads and keeps as many as are written, be it 2^31.
-// They come after the values; `buffer` is a copy of the data where these begin. Whether there are at most
-// `most` of them.
+// True if the data has at most `most` orientations. Draco 1.5.5 predicts uv by orientations, and reads and
+// stores as many as the data claims, even 2^31. They follow the values; `buffer` is a copy of the data, and
+// begins at the values.
 bool orientations_within(uint64_t most, draco::DecoderBuffer buffer, bool plain_count, uint32_t entries,
                          int components) {
   uint8_t compressed = 0;
@@ -69,18 +70,18 @@ class BoundedDecoder : public Decoder {
     return values && take(*values) && Decoder::DecodeConnectivity();
   }
 
-  // Here the attributes are declared, and not yet decoded.
+  // When Draco calls this, the attributes are declared, and not yet decoded.
   bool DecodeAllAttributes() override {
     const draco::PointCloud& points = *this->point_cloud();
     uint64_t values = 0;
     for (int i = 0; i < points.num_attributes(); ++i)
-      values += 1 + points.attribute(i)->num_components();  // and the vertex's index of them
+      values += 1 + points.attribute(i)->num_components();  // 1: the vertex's index of its value
     attributes_ = this->buffer();
     return take(values * points.num_points()) && Decoder::DecodeAllAttributes() && !damaged_;
   }
 
-  // Draco calls this for each attribute that is predicted over the mesh, when the method is known and the
-  // values are next. After a null result, Draco would read them as if by another method.
+  // Draco calls this for each attribute that is predicted over the mesh, after it has read the prediction
+  // method and before the values. After a null result, Draco reads the values as if by another method.
   const draco::MeshAttributeIndicesEncodingData* GetAttributeEncodingData(int attribute) const override {
     const auto* data = Decoder::GetAttributeEncodingData(attribute);
     if (!data || !attributes_) return data;
@@ -109,8 +110,9 @@ class BoundedDecoder : public Decoder {
   mutable bool damaged_ = false;
 };
 
-// Reads over the tree of names and values that may stand before a mesh. Draco keeps a list of the branches to
-// come, whose length it takes on trust at each level; each has three bytes at least.
+// Steps over the tree of names and values that may stand before a mesh, and checks its size. Draco keeps a
+// list of the branches to come, and trusts the length that the data claims at each level. A branch has at
+// least three bytes.
 class MetadataCheck {
  public:
   explicit MetadataCheck(draco::DecoderBuffer buffer) : buffer_(buffer) {}
@@ -185,7 +187,7 @@ DracoResult decode_draco(std::string_view data, uint64_t most_values) {
       return decode<draco::MeshEdgebreakerDecoder>(buffer, most_values);
     if (header.encoder_method == draco::MESH_SEQUENTIAL_ENCODING)
       return decode<draco::MeshSequentialDecoder>(buffer, most_values);
-  } catch (const std::exception&) {  // of the standard library's containers
+  } catch (const std::exception&) {  // thrown by the standard library's containers
     return {nullptr, "are damaged: they need more memory than there is", 0};
   }
   return {nullptr, "are of a kind that eyeray does not support", 0};

@@ -1,4 +1,4 @@
-// One reader a format; import.cpp picks by the file's ending. Private to the importers.
+// The readers, one a format; import.cpp selects one by the file's ending. Private to the importers.
 #pragma once
 
 #include <optional>
@@ -19,8 +19,8 @@ struct MeshFile {
   Playing playing;
 };
 
-// Each fills all but `files`. InputError for a fault in the file; Error if a file that it refers to is
-// refused or cannot be read.
+// Each reader fills all of an ImportedScene but its `files`. InputError for a fault in the file; Error if a
+// file that it refers to is refused or cannot be read.
 ImportedScene import_obj(MeshFile& file);
 ImportedScene import_ply(MeshFile& file);
 ImportedScene import_gltf(MeshFile& file);  // .gltf and .glb, distinguished by their first bytes

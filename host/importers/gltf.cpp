@@ -76,7 +76,7 @@ class GltfReader {
   struct Visit {
     size_t node;
     Mat4 parent;
-    bool hidden;  // as the node above it
+    bool hidden;  // true if the node above it is hidden
   };
 
   void check_extensions();
@@ -100,9 +100,9 @@ class GltfReader {
   GltfMeshes meshes_;
   Playing playing_;
   GltfMotion motion_;
-  std::vector<std::optional<Mat4>> worlds_;               // of the nodes that stand in the scene
-  std::vector<bool> hidden_;                              // of all nodes
-  std::vector<std::optional<std::vector<Mat4>>> joints_;  // of the skins, once asked for
+  std::vector<std::optional<Mat4>> worlds_;  // from each node to the world, if the node is in the scene
+  std::vector<bool> hidden_;                 // one a node
+  std::vector<std::optional<std::vector<Mat4>>> joints_;  // one list a skin, once the skin is used
   size_t flattened_ = 0;
 };
 
@@ -133,7 +133,7 @@ void GltfReader::check_extensions() {
                               ", which eyeray does not support (extensionsRequired)");
 }
 
-// Depth first, children in the order written.
+// Visits the scene's nodes depth first, children in the order written.
 void GltfReader::read_nodes() {
   const size_t nodes = document_.size("nodes");
   std::vector<bool> seen(nodes, false);
@@ -162,12 +162,12 @@ void GltfReader::read_nodes() {
 
   check_parents();
 
-  // Only now is known where the joints of skins are.
+  // Read the nodes' contents only now: a skin needs the transforms of all its joints.
   for (const size_t index : order) read_node(index);
 }
 
-// A scene that shows a node without the nodes above it puts it elsewhere than they would, unless they move
-// nothing.
+// Refuses a scene that shows a node without the nodes above it, if one of these would move the node. A breach
+// if they move nothing.
 void GltfReader::check_parents() {
   const std::vector<size_t> parents = parents_of_nodes(document_);
   std::vector<bool> still(parents.size(), false);
@@ -190,7 +190,8 @@ void GltfReader::check_parents() {
   }
 }
 
-// Animations hide a node by scaling it to 0, which is not reported. Any other flat map is.
+// True if the map cannot be inverted, which is reported. Animations hide a node by scaling it to 0, which is
+// not reported.
 bool GltfReader::is_flat(const Mat4& world) {
   if (why_singular(world).empty()) return false;
   if (!scene_.played || Mat3(world) != Mat3(0.0)) ++flattened_;

@@ -15,7 +15,7 @@ namespace {
 struct AnimatedKey {
   std::string_view name;
   std::string_view type;
-  size_t width;  // numbers of one value; 0: as many as there are morph targets
+  size_t width;  // numbers of one value; 0: one a morph target
 };
 constexpr AnimatedKey animated_keys[] = {
     {"translation", "VEC3", 3}, {"rotation", "VEC4", 4}, {"scale", "VEC3", 3}, {"weights", "SCALAR", 0}};
@@ -23,13 +23,13 @@ constexpr AnimatedKey animated_keys[] = {
 enum class Interpolation { step, linear, cubic };
 constexpr std::string_view interpolations[] = {"STEP", "LINEAR", "CUBICSPLINE"};
 
-// A sampler, as a channel reads it.
+// The keys of a sampler that a channel reads.
 struct KeyCurve {
   Interpolation interpolation;
   bool rotates;
   std::vector<double> times;   // rising
-  std::vector<double> values;  // of each time one, or an in-tangent, a value and an out-tangent
-  size_t width = 0;            // of each
+  std::vector<double> values;  // for each time one, or an in-tangent, a value and an out-tangent
+  size_t width = 0;            // numbers of one value or tangent
 
   enum Part : size_t { in_tangent, value, out_tangent };
   const double* at(size_t key, Part part = value) const {
@@ -41,7 +41,7 @@ glm::dquat quaternion(const double* xyzw) {
   return {xyzw[3], xyzw[0], xyzw[1], xyzw[2]};
 }
 
-// Before the first key the first value, after the last the last.
+// The value at a time: before the first key it is the first value, after the last key the last one.
 std::vector<double> value_at(const KeyCurve& curve, double time) {
   const auto later = std::ranges::upper_bound(curve.times, time);
   const size_t next = size_t(later - curve.times.begin()), last = next == 0 ? 0 : next - 1;

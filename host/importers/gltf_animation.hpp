@@ -21,15 +21,15 @@ std::vector<std::string> animation_names(const GltfObject& document);
 // The index of the animation to play; empty for the file at rest.
 std::optional<size_t> find_animation(std::span<const std::string> names, const Playing& playing);
 
-// The values that replace those written in nodes: by node and key ("translation", "rotation", "scale",
-// "weights"), as many numbers as the key has. Rotations are of unit length.
+// The animated values, which replace those written in nodes. They are listed by node and key ("translation",
+// "rotation", "scale", "weights"), with as many numbers as the key has. Rotations are of unit length.
 struct GltfMotion {
   std::map<std::pair<size_t, std::string>, std::vector<double>> values;
   PlayedAnimation played;
 };
 
-// InputError, with the position, for times that do not increase, and for outputs that are not as many as the
-// times, not finite, or of a wrong type.
+// The animated values at the moment that `playing` gives. InputError, with the position, if times do not
+// increase, or if outputs do not match the times in number, are not finite, or have a wrong type.
 GltfMotion motion_at(const GltfObject& document, size_t animation, const Playing& playing,
                      GltfBuffers& buffers, GltfLeftOut& left_out, GltfBreaches& breaches);
 

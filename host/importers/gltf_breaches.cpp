@@ -11,10 +11,11 @@ namespace eyeray::engine::importers {
 
 namespace {
 
-// A hostile file may have more; to remember them takes far more memory than the file.
+// Limit on the positions that are remembered: a hostile file may have more, which would take far more memory
+// than the file.
 constexpr size_t most_places = 65536;
 
-// A set of component types: a bit for each, and one more for each that is normalized.
+// A set of component types: a bit for each type, and another bit for the normalized form of each.
 using Types = uint32_t;
 
 constexpr Types plain(uint64_t component) {
@@ -30,8 +31,8 @@ constexpr Types bytes_and_shorts =
 constexpr Types shares = any_float | normalized(unsigned_byte) | normalized(unsigned_short);
 constexpr Types directions = normalized(signed_byte) | normalized(signed_short);
 
-// A rule of the specification, 3.7.2.1 and 3.11. `quantized`: the types that KHR_mesh_quantization adds.
-// `clear`: types that nothing allows, but that can be read in only one way.
+// The component types of an attribute. `core`: allowed by the specification, 3.7.2.1 and 3.11. `quantized`:
+// added by KHR_mesh_quantization. `clear`: allowed by neither, but readable in only one way.
 struct AttributeRule {
   std::string_view name;
   Types core;
@@ -93,7 +94,7 @@ void GltfBreaches::check_attribute_names(const GltfObject& attributes) {
   constexpr std::string_view sets[] = {"TEXCOORD_", "COLOR_", "JOINTS_", "WEIGHTS_"};
   for (const std::string& name : attributes.keys()) {
     const auto place = [&] { return attributes.place() + "." + printable(name); };
-    // Names of applications and of extensions.
+    // Skip the names that applications and extensions define.
     if (name.starts_with('_') || name.find(':') != std::string::npos) continue;
     if (name == "POSITION" || name == "NORMAL" || name == "TANGENT") continue;
     const auto set = std::ranges::find_if(sets, [&](std::string_view s) { return name.starts_with(s); });

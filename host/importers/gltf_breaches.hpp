@@ -1,4 +1,4 @@
-// Rules of glTF that a file breaks though its meaning is clear. Private to the importers.
+// Breaches: rules of glTF that a file breaks though its meaning is clear. Private to the importers.
 #pragma once
 
 #include <set>
@@ -11,19 +11,19 @@
 
 namespace eyeray::engine::importers {
 
-// Warnings, one a kind, with how often and where first.
+// Collects breaches as warnings: one a kind, with the number of positions and the first one.
 class GltfBreaches {
  public:
   explicit GltfBreaches(const GltfObject& document);
 
-  // `kind` is a plural with its treatment, such as "rotations that are not of unit length, normalised".
+  // `kind` is a plural and its treatment, such as "rotations that are not of unit length, normalised".
   // The same position counts once, as long as the kind has at most 65536.
   void add(std::string_view kind, const std::string& place);
   // "rotations that are not of unit length, normalised: 3, the first nodes[1].rotation".
   void report(std::vector<std::string>& warnings) const;
 
-  // Checks the types of an attribute of a vertex or a morph target, and of an animation. InputError, at the
-  // attribute's accessor, for types that make the meaning of its numbers unclear. A breach if
+  // Checks the component type of an attribute of vertices, morph targets or an animation. InputError, at the
+  // attribute's accessor, if the type makes the meaning of its numbers unclear. A breach if
   // KHR_mesh_quantization must be declared and is not.
   void check_attribute(std::string_view name, size_t accessor);
 

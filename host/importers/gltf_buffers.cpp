@@ -54,7 +54,7 @@ double component_of(const T& element, size_t k) {
 
 }  // namespace
 
-// Elements that lie in a buffer, every one of them inside.
+// A range of elements, all of which lie inside a buffer.
 struct GltfBuffers::Elements {
   const char* bytes = nullptr;
   size_t stride = 0;
@@ -101,7 +101,7 @@ std::string_view GltfBuffers::buffer(size_t index) {
   return bytes.substr(0, length);
 }
 
-// `source` is a bufferView, or the object in one that describes its coded bytes.
+// The bytes that `source` points at. It is a bufferView, or the object in one that describes its coded bytes.
 std::string_view GltfBuffers::range(const GltfObject& source) {
   const auto owner = source.index("buffer", buffers_.size());
   if (!owner) source.fail("has no buffer");
@@ -139,7 +139,7 @@ void GltfBuffers::supply(std::map<size_t, std::string> elements) {
   supplied_ = std::move(elements);
 }
 
-// `owner` is an accessor, or the sparse part of one.
+// The elements of `owner`: an accessor, or the sparse part of one.
 GltfBuffers::Elements GltfBuffers::elements(const GltfObject& owner, std::optional<size_t> index,
                                             size_t components, uint64_t type, uint64_t count) {
   const size_t size = components * bytes_of(type);
@@ -156,7 +156,8 @@ GltfBuffers::Elements GltfBuffers::elements(const GltfObject& owner, std::option
   return {bytes.data() + offset, stride, type};
 }
 
-// Rules for those who hand bytes to a GPU as they are; here each number is read by itself.
+// Adds breaches of the alignment rules. They matter to programs that hand the bytes to a GPU as they are;
+// this importer reads each number by itself.
 void GltfBuffers::check_layout(const GltfObject& owner, size_t index, size_t component_size) {
   const GltfObject view = document_.element("bufferViews", index);
   const uint64_t offset = owner.count("byteOffset", 0);
@@ -167,11 +168,11 @@ void GltfBuffers::check_layout(const GltfObject& owner, size_t index, size_t com
     breaches_.add("strides that are not multiples of 4 from 4 to 252", view.place() + ".byteStride");
 }
 
-// Data that contradict their description are a sign of wrong data.
+// Compares the data with the accessor's min and max. A contradiction is a sign of wrong data.
 template <typename T>
 void GltfBuffers::check_range(const GltfObject& accessor, const std::vector<T>& all, size_t components) {
   if (all.empty() || !(accessor.has("min") || accessor.has("max"))) return;
-  double unit = 1;  // of the stated min and max, in the data's terms
+  double unit = 1;  // factor from the stated min and max to the data's values
   if (accessor.flag("normalized")) {
     visit_component(accessor.count("componentType", 0), [&](auto zero) {
       if constexpr (std::is_integral_v<decltype(zero)>)
@@ -221,12 +222,12 @@ std::vector<T> GltfBuffers::read(size_t index, std::string_view type, size_t com
     base = elements(accessor, index_of_view, components, component, count);
   }
 
-  // Bytes may be read by several accessors, and without bytes all is 0.
+  // Count the elements: several accessors may read the same bytes. Without bytes, all elements are 0.
   claim(accessor, count);
   std::vector<T> all(count, T(0));
   for (uint64_t i = 0; base && i < count; ++i) copy(*base, i, all[i]);
 
-  // Lay the sparse values over it.
+  // Overwrite elements with the sparse values.
   if (const auto sparse = accessor.object("sparse")) {
     const uint64_t changes = sparse->count("count", 0);
     if (changes == 0 || changes > count)
@@ -257,7 +258,7 @@ std::vector<T> GltfBuffers::read(size_t index, std::string_view type, size_t com
   return all;
 }
 
-// Data other than vertex attributes are packed, and some readers ignore a stride.
+// Refuses a stride: data other than vertex attributes must be packed, and some readers ignore a stride.
 void GltfBuffers::refuse_stride(const GltfObject& owner, size_t views) const {
   const auto view = owner.index("bufferView", views);
   if (!view) return;

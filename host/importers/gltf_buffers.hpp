@@ -1,4 +1,4 @@
-// The binary data of a glTF file: buffers, views of them, and accessors, all ranges checked. Private to the
+// The binary data of a glTF file: buffers, bufferViews and accessors. All ranges are checked. Private to the
 // importers.
 #pragma once
 
@@ -19,7 +19,7 @@ namespace eyeray::engine::importers {
 struct GltfContainer {
   std::string_view json;
   std::optional<std::string_view> binary;
-  std::vector<std::string> breaches = {};  // as GltfBreaches::add takes them
+  std::vector<std::string> breaches = {};  // kinds for GltfBreaches::add
 };
 GltfContainer open_gltf(std::string_view bytes, const std::string& file);
 
@@ -33,13 +33,13 @@ class GltfBuffers {
   // The bytes of a bufferView, decoded where they are coded (gltf_meshopt.hpp).
   std::string_view view(size_t index);
 
-  // From now on the elements of these accessors are those given here, packed, of the accessor's own type
-  // and count; those of all other accessors are their bufferViews' again.
+  // From now on, these accessors have the elements given here, packed, of the accessor's own type and count.
+  // All other accessors have the elements of their bufferViews again.
   void supply(std::map<size_t, std::string> elements);
-  // Counts elements that are read, of which even a short file may name any number. InputError, of `owner`,
-  // if they are more than a file of this size can mean …
+  // Counts elements that are read: even a short file may claim any number. InputError, at `owner`, if the sum
+  // exceeds the limit for a file of this size.
   void claim(const GltfObject& owner, uint64_t elements);
-  // … but allows so many more, for data that are coded.
+  // Raises the limit of claim() by `elements`, for data that are coded.
   void allow(uint64_t elements) { allowed_elements_ += elements; }
   // Size in bytes of the data read so far, in the form in which it was read.
   uint64_t byte_size() const;
@@ -51,7 +51,7 @@ class GltfBuffers {
   std::vector<Mat4> mat4(size_t accessor);
   // The numbers of an animation's accessor, one after the other: of type SCALAR, VEC3 or VEC4.
   std::vector<double> numbers(size_t accessor, std::string_view type);
-  std::vector<Vec4> colors(size_t accessor);  // RGBA; of RGB the alpha is 1
+  std::vector<Vec4> colors(size_t accessor);  // RGBA; the alpha of an RGB colour is 1
   std::vector<uint32_t> indices(size_t accessor);
 
  private:
@@ -72,15 +72,15 @@ class GltfBuffers {
   GltfContainer container_;
   AssetFiles& assets_;
   GltfBreaches& breaches_;
-  std::vector<std::optional<std::string>> buffers_;        // as they are first asked for
-  std::vector<std::optional<std::string>> decoded_views_;  // likewise
+  std::vector<std::optional<std::string>> buffers_;        // each is read when it is first used
+  std::vector<std::optional<std::string>> decoded_views_;  // each is decoded when it is first used
   std::map<size_t, std::string> supplied_;                 // by accessor
-  uint64_t decoded_bytes_ = 0;                             // in the views
+  uint64_t decoded_bytes_ = 0;                             // in decoded_views_
   uint64_t allowed_elements_ = 0;
   uint64_t elements_read_ = 0;
 };
 
-// The name of a file as it is written in a URI: %20 is a space.
+// The name of the file that a URI gives: %20 becomes a space.
 std::string decode_uri(std::string_view uri);
 
 }  // namespace eyeray::engine::importers

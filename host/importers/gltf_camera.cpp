@@ -8,7 +8,8 @@ namespace eyeray::engine::importers {
 
 namespace {
 
-// Checks the planes of one form of a camera. `sound`: true if its other values are in range.
+// Checks the clipping planes of a perspective or orthographic camera. `sound`: true if its other values are
+// in range.
 void check_planes(const GltfObject& form, bool sound, GltfBreaches& breaches) {
   if (!sound || (form.has("zfar") && !(form.number("zfar", 0) > form.number("znear", 0))))
     breaches.add("cameras whose aspectRatio, ymag, znear or zfar is out of range, which is ignored",

@@ -7,7 +7,7 @@
 namespace eyeray::engine::importers {
 
 // The camera at a node whose transform in the world is `world`: it looks along −z, and y is up. InputError
-// for one of neither type or of both, or whose view has no size.
+// for a camera of neither type or of both, and for one whose view has no size.
 ImportedCamera gltf_camera(const GltfObject& source, const Mat4& world, GltfBreaches& breaches);
 
 }  // namespace eyeray::engine::importers

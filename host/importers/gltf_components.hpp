@@ -8,7 +8,7 @@
 
 namespace eyeray::engine::importers {
 
-// Numbers of the specification.
+// The specification's numbers for component types.
 enum GltfComponent : uint64_t {
   signed_byte = 5120,
   unsigned_byte = 5121,
@@ -18,7 +18,8 @@ enum GltfComponent : uint64_t {
   floating = 5126
 };
 
-// The result of `visit` for a 0 of the C++ type of a component; of a float for an unknown componentType.
+// Calls `visit` with a 0 of the component's C++ type (float for an unknown componentType); returns its
+// result.
 template <typename Visit>
 constexpr auto visit_component(uint64_t component, const Visit& visit) {
   switch (component) {
@@ -37,14 +38,14 @@ constexpr auto visit_component(uint64_t component, const Visit& visit) {
   }
 }
 
-// 0 for a componentType that there is not.
+// Size of a component in bytes; 0 for an unknown componentType.
 constexpr size_t bytes_of(uint64_t component) {
   const bool known = (component >= signed_byte && component <= unsigned_short) || component == unsigned_int ||
                      component == floating;
   return known ? visit_component(component, [](auto zero) { return sizeof zero; }) : 0;
 }
 
-// 0 for types that a vertex does not have: matrices, and unknown ones.
+// Number of components; 0 for types that a vertex does not have, which are matrices and unknown types.
 constexpr size_t components_of(std::string_view type) {
   if (type == "SCALAR") return 1;
   if (type == "VEC2") return 2;

@@ -1,4 +1,4 @@
-// The .glb container, and the URIs that bring the rest.
+// Reads the .glb container, and the data outside it that URIs name.
 #include <array>
 #include <cstring>
 
@@ -13,7 +13,7 @@ constexpr uint32_t magic = 0x46546c67;         // "glTF"
 constexpr uint32_t json_chunk = 0x4e4f534a;    // "JSON"
 constexpr uint32_t binary_chunk = 0x004e4942;  // "BIN"
 
-// A little-endian number; the caller has looked whether it is there.
+// A little-endian number of 32 bits; the caller has checked that the bytes have it.
 uint32_t word(std::string_view bytes, size_t at) {
   uint32_t value = 0;
   for (size_t i = 4; i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
@@ -26,7 +26,7 @@ int hex(char c) {
   return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
 }
 
-// Nothing where it is not base64 (RFC 4648); the padding at the end may be missing.
+// The decoded bytes; nothing if the text is not base64 (RFC 4648). The padding at the end may be missing.
 std::optional<std::string> decode_base64(std::string_view text) {
   constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   static const std::array<int8_t, 256> values = [&] {
@@ -60,7 +60,7 @@ GltfContainer open_gltf(std::string_view bytes, const std::string& file) {
   if (bytes.size() < 12) throw malformed(file, "the file ends too early");
   if (word(bytes, 4) != 2) throw malformed(file, fmt::format("it must be glTF 2, not {}", word(bytes, 4)));
 
-  // Cut the chunks: JSON first, then perhaps binary data; further chunks mean nothing to us.
+  // Find the chunks: JSON first, then perhaps binary data. Further chunks are ignored.
   std::optional<std::string_view> json;
   std::optional<std::string_view> binary;
   std::vector<std::string> breaches;

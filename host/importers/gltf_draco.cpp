@@ -15,12 +15,12 @@ namespace {
 constexpr uint64_t list_of_triangles = 4;
 constexpr uint64_t strip_of_triangles = 5;
 
-// Limit on the numbers decoded from a file, in all its meshes. A vertex and its two triangles have about 30;
-// they are coded in 1.5 bytes where the mesh is smooth, in next to none where it is flat and regular.
+// Limit on the numbers decoded from a file, in all its meshes. A vertex and its two triangles have about 30
+// numbers. They are coded in 1.5 bytes if the mesh is smooth, in almost none if it is flat and regular.
 constexpr uint64_t most_values_always = uint64_t{1} << 25;
 constexpr uint64_t most_values_a_byte = 128;
 
-// Types that accessors have too, and int32, which encoders make of whole numbers.
+// True for the types that accessors have too, and for int32, in which encoders store whole numbers.
 bool readable(draco::DataType type) {
   switch (type) {
     case draco::DT_INT8:
@@ -36,7 +36,7 @@ bool readable(draco::DataType type) {
   }
 }
 
-// Each point's value as T, packed; nothing where one does not fit into it, or is not there.
+// Each point's value as T, packed; nothing if a value is missing or does not fit into T.
 template <typename T>
 std::optional<std::string> pack(const draco::PointAttribute& attribute, uint32_t points) {
   const size_t components = attribute.num_components();
@@ -78,7 +78,8 @@ const draco::Mesh& GltfDraco::mesh(const GltfObject& coding) {
   return *mesh;
 }
 
-// A strip's indices have no count to compare: Draco has triangles.
+// Checks the primitive's mode, and the count of a list's indices. The count of a strip's indices cannot be
+// compared: Draco stores triangles.
 void GltfDraco::check(const GltfObject& primitive, const draco::Mesh& mesh) {
   const uint64_t mode = primitive.count("mode", list_of_triangles);
   if (mode != list_of_triangles && mode != strip_of_triangles)
@@ -132,7 +133,7 @@ std::optional<std::vector<uint32_t>> GltfDraco::open(const GltfObject& primitive
   }
   buffers_.supply(std::move(elements));
 
-  // Read the corners; whether there are such vertices is checked where they are used.
+  // Read the corners. The code that uses them checks that their vertices exist.
   std::vector<uint32_t> corners;
   corners.reserve(size_t{3} * mesh.num_faces());
   for (draco::FaceIndex face(0); face < mesh.num_faces(); ++face)

@@ -19,9 +19,9 @@ class GltfDraco {
  public:
   GltfDraco(const GltfObject& document, GltfBuffers& buffers);
 
-  // Supplies the buffers with the elements of the primitive's accessors that its Draco data have, and returns
-  // the corners of its triangles, three each. Where it is not coded: the accessors are as they are, and
-  // nothing is returned. InputError for data that are damaged, or contradict the accessors.
+  // Decodes the primitive's Draco data, supplies the buffers with the elements of its accessors, and returns
+  // the corners of its triangles, three each. Without Draco data, the accessors have the elements of their
+  // bufferViews, and nothing is returned. InputError for data that are damaged, or contradict the accessors.
   std::optional<std::vector<uint32_t>> open(const GltfObject& primitive);
 
  private:
@@ -31,7 +31,7 @@ class GltfDraco {
   const GltfObject& document_;
   GltfBuffers& buffers_;
   std::map<size_t, std::shared_ptr<const draco::Mesh>> meshes_;  // by bufferView
-  uint64_t values_ = 0;                                          // in them
+  uint64_t values_ = 0;                                          // numbers decoded in all meshes_
 };
 
 }  // namespace eyeray::engine::importers

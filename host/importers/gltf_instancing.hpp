@@ -9,7 +9,7 @@
 namespace eyeray::engine::importers {
 
 // The transforms of the instances in the space of the node that has the extension. InputError, with the
-// position, unless all attributes have as many elements and every rotation has a length.
+// position, unless all attributes have equally many elements and every rotation has a length.
 std::vector<Mat4> instance_transforms(const GltfObject& extension, const GltfObject& document,
                                       GltfBuffers& buffers, GltfBreaches& breaches);
 

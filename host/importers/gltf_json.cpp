@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// An integer from 0 that a double holds exactly.
+// The value if it is an integer from 0 to 2^53, which a double holds exactly; else nothing.
 std::optional<uint64_t> as_count(const Json& json) {
   if (!json.is_number()) return std::nullopt;
   const double value = json.get<double>();
@@ -20,7 +20,7 @@ std::optional<uint64_t> as_count(const Json& json) {
   return static_cast<uint64_t>(value);
 }
 
-// True if a reader of glTF 2.0 may read a file that requires this version: "MAJOR.MINOR", up to 2.0.
+// True if a reader of glTF 2.0 may read a file that requires `version`: "MAJOR.MINOR", up to 2.0.
 bool is_readable(std::string_view version) {
   return version == "2.0" || version.starts_with("1.") || version.starts_with("0.");
 }
@@ -149,7 +149,7 @@ std::optional<GltfObject> GltfObject::extension(const char* name) const {
   return extensions ? extensions->object(name) : std::nullopt;
 }
 
-// The depth of the document is bounded by parse_gltf_json.
+// This recursion is safe: parse_gltf_json limits the depth of the document.
 std::set<std::string> extensions_of_objects(const Json& document) {
   std::set<std::string> names;
   for (const auto& [key, value] : document.items()) {

@@ -9,19 +9,19 @@ namespace eyeray::engine::importers {
 
 namespace {
 
-// The lights of glTF shine on surfaces that scatter 1/π of the arriving light; ours scatter all of it.
+// Factor for the intensity of lights: surfaces in glTF scatter 1/π of the arriving light, ours all of it.
 constexpr double unit_of_light = 1 / std::numbers::pi;
 constexpr double quarter_turn = std::numbers::pi / 2;
 // Least width of the border of a spot light's cone, in radians; lights/spot.cpp wants a little less.
 constexpr double least_border = 2e-5;
 
-// It shines along −z. Angles out of range are clamped, so a spot never becomes a light of another type.
+// The spot light of a node: it shines along −z. Angles out of range are clamped, so it stays a spot light.
 SpotLight spot_light(const GltfObject& light, const Mat4& world, const Vec3& intensity,
                      GltfBreaches& breaches) {
   const auto cone = light.object("spot");
   const double inner = cone ? cone->number("innerConeAngle", 0) : 0;
   const double outer = cone ? cone->number("outerConeAngle", quarter_turn / 2) : quarter_turn / 2;
-  // A quarter turn in float32 is a little more.
+  // Allow for a quarter turn in float32, which is a little larger.
   if (!cone || !(inner >= 0 && inner < outer && outer <= quarter_turn + 1e-6))
     breaches.add("spot lights whose angles do not grow from 0 to a quarter turn, clamped", light.place());
   const double border = std::clamp(outer, least_border, quarter_turn);

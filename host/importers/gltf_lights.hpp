@@ -9,8 +9,8 @@
 
 namespace eyeray::engine::importers {
 
-// Appends the light `source` of a node whose transform to the world is `world`. InputError, with the
-// position, for values that no light has.
+// Appends the light `source` of a node to the scene; `world` is the node's transform to the world.
+// InputError, with the position, for values that no light has.
 void add_gltf_light(const GltfObject& source, const Mat4& world, GltfLeftOut& left_out,
                     GltfBreaches& breaches, ImportedScene& scene);
 

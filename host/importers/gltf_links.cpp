@@ -13,8 +13,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-// The functions below return null, `no_object`, the fallback or an empty list where the document has a value
-// of another type than glTF.
+// The functions below return null, `no_object`, the fallback or an empty list if the type of the document's
+// value is not glTF's.
 constexpr size_t no_object = ~size_t{0};
 
 const Json* member(const Json& object, std::string_view key) {
@@ -42,7 +42,7 @@ size_t index(const Json& object, std::string_view key, size_t size) {
   return found ? as_index(*found, size) : no_object;
 }
 
-// The nodes, numbered in the order of a walk in which each comes before all that are below it.
+// The tree of nodes. A walk numbers them so that each node comes before all nodes below it.
 class Tree {
  public:
   explicit Tree(const Json& nodes)
@@ -61,7 +61,7 @@ class Tree {
   }
 
   size_t parents(size_t node) const { return parents_[node]; }
-  // True if no walk from a node without parents comes to it, since it is below itself.
+  // True if no walk from a node without parents reaches this node: it is in a loop, or below one.
   bool is_in_loop(size_t node) const { return first_[node] == no_object; }
   size_t root(size_t node) const { return roots_[node]; }
   bool is_at_or_below(size_t node, size_t above) const {
@@ -70,7 +70,7 @@ class Tree {
 
  private:
   void walk(size_t root) {
-    std::vector<std::pair<size_t, size_t>> path;  // nodes, and how many of their children are done
+    std::vector<std::pair<size_t, size_t>> path;  // nodes, and the number of their children that are done
     const auto enter = [&](size_t node) {
       roots_[node] = root;
       first_[node] = next_++;
@@ -91,8 +91,8 @@ class Tree {
   }
 
   const Json& nodes_;
-  std::vector<size_t> parents_;  // how many
-  std::vector<size_t> first_;    // the numbers of a node, and of the last one below it
+  std::vector<size_t> parents_;  // number of each node's parents
+  std::vector<size_t> first_;    // the walk's number of each node; last_: of the last node below it
   std::vector<size_t> last_;
   std::vector<size_t> roots_;
   size_t next_ = 0;
@@ -102,10 +102,10 @@ class Tree {
 struct Role {
   static constexpr unsigned attribute = 1, corner = 2, other = 4;
   static constexpr unsigned any = attribute | corner | other;
-  static constexpr unsigned bounded = 8;  // beside one of these: it needs min and max
+  static constexpr unsigned bounded = 8;  // set beside another role: the accessor needs min and max
 };
 
-// The roles of accessors and, by them, of views.
+// The roles of accessors, and those of views, which follow from them.
 struct Roles {
   explicit Roles(const Json& document)
       : accessors(list(document, "accessors").size()),
@@ -143,7 +143,7 @@ struct Roles {
 
   std::vector<unsigned> accessors;
   std::vector<unsigned> views;
-  std::vector<size_t> sharing;  // accessors of attributes in each view
+  std::vector<size_t> sharing;  // number of attributes' accessors in each view
 };
 
 struct Links {
@@ -154,7 +154,7 @@ struct Links {
   Roles roles;
 };
 
-// True if the values that `value_of` has for the primitives of a mesh differ.
+// True if `value_of` has different values for the primitives of a mesh.
 template <typename Value>
 bool differ(const Json& mesh, const Value& value_of) {
   const Json& primitives = list(mesh, "primitives");
@@ -210,7 +210,7 @@ bool fits_target(unsigned roles, uint64_t target) {
   return target != target_corners || (roles & (Role::attribute | Role::other)) == 0;
 }
 
-// A row of the table: objects of a list of the document, and how one breaks the rule.
+// A row of the table: a list of the document, and a rule that each object of the list must keep.
 struct LinkRule {
   std::string_view list;
   std::string_view breach;

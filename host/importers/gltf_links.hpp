@@ -8,8 +8,8 @@
 
 namespace eyeray::engine::importers {
 
-// Adds a breach for each rule of the table that an object breaks, shown or not. A reference that leads
-// nowhere is none: check_properties warns of it, and who follows it refuses it.
+// Adds a breach for each rule of the table that an object breaks, shown or not. A reference to a missing
+// object is no such breach: check_properties warns of it, and code that follows it refuses it.
 void check_links(const nlohmann::json& document, GltfBreaches& breaches);
 
 }  // namespace eyeray::engine::importers
