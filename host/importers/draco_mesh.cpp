@@ -30,7 +30,7 @@ std::optional<uint64_t> connectivity_values(const draco::MeshEdgebreakerDecoder&
   uint32_t faces = 0;
   uint8_t attribute_tables = 0;
   if (version < DRACO_BITSTREAM_VERSION(2, 2) && !count(vertices))
-    return std::nullopt;  // the vertices that splits add
+    return std::nullopt;  // no count of the vertices that splits add
   if (!count(vertices) || !count(faces) || !buffer.Decode(&attribute_tables)) return std::nullopt;
   return uint64_t{3} * faces * (1 + attribute_tables);
 }

@@ -1,4 +1,4 @@
-// The extensions of metallic-roughness, and their pictures.
+// Reads the extensions of metallic-roughness materials, and their pictures.
 #include <algorithm>
 #include <cmath>
 
@@ -40,7 +40,7 @@ void GltfMaterials::add_extension_textures(const GltfObject& material, std::vect
       if (const auto reference = extension->object(map)) textures.push_back(*reference);
 }
 
-// 0 is infinity: a surface that mirrors all.
+// The index of refraction; 0 stands for infinity, for a surface that mirrors all light.
 double GltfMaterials::ior(const GltfObject& material) {
   const auto extension = material.extension("KHR_materials_ior");
   const double written = extension ? extension->number("ior", 1.5) : 1.5;
@@ -58,7 +58,8 @@ std::unique_ptr<Material> GltfMaterials::glass(const GltfObject& material, const
   return materials::make_dielectric(glass);
 }
 
-// The absorption of KHR_materials_volume, by Beer's law, from the colour that is left at a distance.
+// The absorption of KHR_materials_volume, by Beer's law, from the colour of light that has crossed a
+// distance.
 Vec3 GltfMaterials::absorption(const GltfObject& material) {
   const auto volume = material.extension("KHR_materials_volume");
   if (!volume) return Vec3(0);
@@ -70,7 +71,7 @@ Vec3 GltfMaterials::absorption(const GltfObject& material) {
   return -glm::log(glm::max(Vec3(color[0], color[1], color[2]), Vec3(1e-6))) / distance;
 }
 
-// `stand_in` for a surface that transmits most of its light: glass.
+// `stand_in` is glass if the surface transmits most of its light.
 std::unique_ptr<Material> GltfMaterials::principled(const GltfObject& source, const Surface& surface,
                                                     std::unique_ptr<Material> stand_in) {
   materials::PrincipledValues values;
@@ -91,7 +92,7 @@ std::unique_ptr<Material> GltfMaterials::principled(const GltfObject& source, co
   if (const auto transmission = source.extension("KHR_materials_transmission")) {
     values.transmission = scaled(source, *transmission, "transmissionTexture",
                                  Vec3(factor(*transmission, "transmissionFactor", 0)));
-    // Without thickness it has no inside; how thick it is paths see for themselves.
+    // A surface without thickness has no inside. Paths measure the thickness themselves.
     const auto volume = source.extension("KHR_materials_volume");
     values.thin = !(volume && not_negative(*volume, "thicknessFactor", 0) > 0);
     values.absorption = absorption(source);

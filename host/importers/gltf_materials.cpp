@@ -1,7 +1,8 @@
-// Metallic-roughness, and for Whitted's pictures a stand-in in the terms of Phong. F0 is the reflectance at
-// normal incidence (0.04, or the base colour of a metal), and r the roughness. A smooth surface mirrors F0 ·
-// (1 − r)², and lights show a Blinn highlight of exponent 2 / r⁴ − 2 (Karis: Specular BRDF Reference, 2013).
-// A rough metal scatters the light that it does not mirror. An unlit material emits its base colour.
+// Metallic-roughness materials, with a stand-in by Phong's model for Whitted's pictures. F0 is the
+// reflectance at normal incidence (0.04, or the base colour of a metal), and r the roughness. A smooth
+// surface mirrors F0 · (1 − r)², and lights show a Blinn highlight of exponent 2 / r⁴ − 2 (Karis: Specular
+// BRDF Reference, 2013). A rough metal scatters the light that it does not mirror. An unlit material emits
+// its base colour.
 #include "host/importers/gltf_materials.hpp"
 
 #include <algorithm>
@@ -16,7 +17,7 @@ namespace eyeray::engine::importers {
 
 namespace {
 
-// A mirrored ray that would count for less is not worth its time.
+// Least reflectance of a mirror: a mirrored ray that counts for less is not worth its time.
 constexpr double least_reflectance = 0.02;
 
 double share(double value) {
@@ -26,25 +27,25 @@ Vec3 share(const std::vector<double>& rgb) {
   return {share(rgb[0]), share(rgb[1]), share(rgb[2])};
 }
 
-// Brighter than any screen.
+// Limit on emission; it is brighter than any screen.
 constexpr double most_emission = 1e6;
 
-// The predecessor of metallic-roughness; we take its scattering part.
+// The predecessor of metallic-roughness; its scattering part is read.
 constexpr const char* specular_glossiness = "KHR_materials_pbrSpecularGlossiness";
 
-// Those that a material which is unlit, or has the extension above, cannot have.
+// The extensions that an unlit material, or one with specular_glossiness, cannot have.
 constexpr const char* lit_extensions[] = {"KHR_materials_ior",       "KHR_materials_transmission",
                                           "KHR_materials_volume",    "KHR_materials_specular",
                                           "KHR_materials_clearcoat", "KHR_materials_sheen"};
 
-// The mean of green and blue, linear: roughness and metalness.
+// The linear means of the green and blue channels, which are roughness and metalness.
 Vec2 mean_green_blue(const ImageTexture& image) {
   Vec2 sum(0);
   for (const auto& texel : image.texels) sum += Vec2(texel[1], texel[2]);
   return sum / (255.0 * static_cast<double>(std::max<size_t>(1, image.texels.size())));
 }
 
-// The values of samplers, in the numbers of the specification.
+// The specification's numbers for the settings of samplers.
 constexpr uint64_t nearest = 9728, linear = 9729;
 constexpr uint64_t repeat = 10497, clamp_to_edge = 33071, mirrored_repeat = 33648;
 
@@ -117,7 +118,7 @@ ImageTexture GltfMaterials::decode_image(size_t index, image::PixelBudget& budge
   return decode_image_texture(std::as_bytes(std::span(bytes)), image.place(), budget, warnings);
 }
 
-// Null where the picture cannot be had.
+// The picture that `reference` names; null if it cannot be read.
 std::shared_ptr<const ImageTexture> GltfMaterials::texture(const GltfObject& reference, Content content) {
   const auto index = reference.index("index", document_.size("textures"));
   if (!index) reference.fail("has no index");
@@ -139,12 +140,13 @@ std::shared_ptr<const ImageTexture> GltfMaterials::texture(const GltfObject& ref
       return code;
     };
     filter = one_of("magFilter", {linear, nearest});
-    one_of("minFilter", {linear, nearest, 9984, 9985, 9986, 9987});  // with mipmaps, which nothing here has
+    one_of("minFilter", {linear, nearest, 9984, 9985, 9986,
+                         9987});  // the last four use mipmaps, which eyeray does not have
     wrap_s = one_of("wrapS", {repeat, clamp_to_edge, mirrored_repeat});
     wrap_t = one_of("wrapT", {repeat, clamp_to_edge, mirrored_repeat});
   }
 
-  // The same picture with other settings is another texture.
+  // Include the settings in the name: the same picture with other settings is another texture.
   ImageTexture settings;
   settings.srgb = content == Content::color;
   settings.filter = filter == nearest ? Filter::nearest : Filter::bilinear;
@@ -262,7 +264,7 @@ std::unique_ptr<Material> GltfMaterials::material(size_t index) {
       made->mask = mask(source, blends);
     }
   }
-  // Rays leave glass through its back.
+  // Glass needs its back: rays leave through it.
   made->front_only = !source.flag("doubleSided") && !made->medium() && !made->thin();
   made->emits_in_front = made->front_only && made->emits();
   made->normal_map = normal_map(source, source.object("normalTexture"));
@@ -282,7 +284,7 @@ std::optional<NormalMap> GltfMaterials::normal_map(const GltfObject& material,
   return NormalMap{textures::make_image(image, Vec3(1), Vec2(1), *second), reference->number("scale", 1)};
 }
 
-// Nothing where the cutoff cuts nothing out.
+// The alpha mask of the material; nothing if its cutoff of 0 cuts nothing out.
 std::optional<AlphaMask> GltfMaterials::mask(const GltfObject& material, bool blends) {
   const double cutoff = blends ? 1 : not_negative(material, "alphaCutoff", 0.5);
   if (!(cutoff > 0)) return std::nullopt;
@@ -303,7 +305,7 @@ std::optional<GltfObject> GltfMaterials::base_texture(const GltfObject& material
   return old ? old->object("diffuseTexture") : std::nullopt;
 }
 
-// The base colour's texture comes first: an alpha takes the first uv.
+// The textures of the material. The base colour's texture comes first: an alpha takes the first uv.
 std::vector<GltfObject> GltfMaterials::textures_of(const GltfObject& material) {
   std::vector<GltfObject> textures;
   const auto add = [&](const std::optional<GltfObject>& texture) {

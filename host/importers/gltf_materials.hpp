@@ -25,8 +25,8 @@ class GltfLeftOut {
   std::vector<std::pair<std::string, size_t>> counts_;
 };
 
-// The set of uv (TEXCOORD_0, …) of a mesh that a texture takes, and its transform before v is flipped: glTF's
-// v starts at the top of the picture.
+// The uv that a texture takes: the number of their set (TEXCOORD_0, …) in the mesh, and their transform. It
+// applies before v is flipped, since glTF's v starts at the top of the picture.
 struct GltfUv {
   uint64_t set = 0;
   glm::dmat2 linear{1.0};
@@ -38,7 +38,7 @@ struct GltfUv {
 // The uv of a mesh that a material's pictures use.
 struct GltfUvUse {
   std::vector<GltfUv> uv;        // at most two, for a vertex has no more
-  bool second_tangents = false;  // whether TANGENT is along the second u: that of the normalTexture
+  bool second_tangents = false;  // true: the normalTexture takes the second uv, so TANGENT is along their u
 };
 
 class GltfMaterials {
@@ -50,14 +50,14 @@ class GltfMaterials {
   GltfUvUse uv_use(size_t index) const;
 
  private:
-  // Metallic-roughness, as numbers and pictures.
+  // The values of a metallic-roughness material, as numbers and pictures.
   struct Surface {
     Vec3 base{1};
     TexturePtr emission;
     std::shared_ptr<const ImageTexture> image;
-    double metalness = 1;  // in the mean, as the next
-    double roughness = 1;
-    TexturePtr metal_rough;  // these two over the surface: of blue and green
+    double metalness = 1;    // mean over the surface
+    double roughness = 1;    // mean over the surface
+    TexturePtr metal_rough;  // over the surface: blue is the metalness, green the roughness
 
     TexturePtr metalness_texture() const {
       return metal_rough ? metal_rough : textures::make_constant(Vec3(metalness));
@@ -78,11 +78,10 @@ class GltfMaterials {
   Vec3 absorption(const GltfObject& material);
   std::optional<AlphaMask> mask(const GltfObject& material, bool blends);
   std::optional<NormalMap> normal_map(const GltfObject& material, const std::optional<GltfObject>& reference);
-  // The content of a picture that counts: its sRGB colours, its numbers, or its alpha in place of each
-  // channel.
+  // The content to take from a picture: its sRGB colours, its numbers, or its alpha in place of each channel.
   enum class Content { color, data, alpha };
   std::shared_ptr<const ImageTexture> texture(const GltfObject& reference, Content content);
-  // `factor` times the picture `map` of an extension, where that is to be had.
+  // `factor` times the picture `map` of an extension; only `factor` if there is no such picture.
   TexturePtr scaled(const GltfObject& material, const GltfObject& extension, const char* map,
                     const Vec3& factor, Content content = Content::data);
   ImageTexture decode_image(size_t index, image::PixelBudget& budget, std::vector<std::string>& warnings);
@@ -94,7 +93,7 @@ class GltfMaterials {
   // the loss is counted as `what`.
   std::optional<bool> takes_second(const GltfObject& material, const GltfObject& reference, const char* what);
   void note_rest(const GltfObject& material);
-  // Numbers that are shares, from 0 to 1.
+  // A number that is a share, from 0 to 1.
   double factor(const GltfObject& owner, const char* key, double fallback);
   double not_negative(const GltfObject& owner, const char* key, double fallback);
   std::vector<double> factors(const GltfObject& owner, const char* key, std::vector<double> fallback);

@@ -34,14 +34,14 @@ std::vector<IndexTriangle> assemble(uint64_t mode, const std::vector<uint32_t>& 
   return triangles;
 }
 
-// True if a normal's length is clearly not 1. Rounding alone makes a deviation of 0.007 if normals are in
-// bytes. A normal of length 0 is counted elsewhere.
+// True if a normal's length is clearly not 1. Rounding alone makes a deviation of 0.007 if normals are stored
+// in bytes. A normal of length 0 is counted elsewhere.
 bool is_no_unit(const Vec3& normal) {
   const double length = glm::length(normal);
   return length > 0 && !(std::abs(length - 1) < 0.01);
 }
 
-// True if a vertex has a direction along u, and a side of it for v.
+// True if a tangent has a direction along u, and a sign that gives the side of v.
 bool is_direction(const Vec4& tangent) {
   const double length = glm::length(Vec3(tangent));
   return std::isfinite(length) && length > 0 && std::abs(tangent.w) == 1;
@@ -87,7 +87,7 @@ std::vector<GltfMeshes::Part> GltfMeshes::posed_parts(size_t index, const GltfPo
   return parts;
 }
 
-// Nothing for points and lines.
+// The mesh of a primitive; nothing for points and lines.
 std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std::optional<size_t> material,
                                                const GltfPose& pose) {
   const uint64_t mode = primitive.count("mode", triangle_list);
@@ -118,7 +118,7 @@ std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std:
   const std::string second_name = fmt::format("TEXCOORD_{}", second_use.set);
   const auto uv = attributes->index(uv_name.c_str(), accessors);
   const auto second_uv = two_uv ? attributes->index(second_name.c_str(), accessors) : std::nullopt;
-  // Two transforms of one attribute make two uv.
+  // One attribute with two transforms makes two uv.
   const auto other_uv = second_name == uv_name ? std::nullopt : second_uv;
   const auto colors = attributes->index("COLOR_0", accessors);
   // A skin or morph target that bends a mesh does not define the new tangents.
@@ -158,7 +158,7 @@ std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std:
     std::vector<Vec2> values = buffers_.vec2(accessor);
     for (Vec2& place : values) {
       place = use.linear * place + use.offset;
-      place.y = 1 - place.y;  // theirs starts at the top of the picture
+      place.y = 1 - place.y;  // glTF's v starts at the top of the picture
     }
     return values;
   };

@@ -1,5 +1,5 @@
-// The meshes of a glTF file, each converted once, when a node first shows it, or for each node that bends it.
-// Private to the importers.
+// The meshes of a glTF file. Each is converted once, when a node first shows it, and again for each node that
+// deforms it. Private to the importers.
 #pragma once
 
 #include <optional>
@@ -18,16 +18,17 @@ class GltfMeshes {
   GltfMeshes(const GltfObject& document, GltfBuffers& buffers, const GltfMaterials& materials,
              GltfLeftOut& left_out, GltfBreaches& breaches, const std::string& file, double smooth);
 
-  // A primitive of a mesh: an index of all our meshes, and of the file's materials, or −1.
+  // A primitive of a mesh: its index in the meshes made here, and the index of its material in the file, or
+  // −1.
   struct Part {
     int mesh;
     int material;
   };
-  // The parts of a mesh, as shown everywhere or as deformed by one node.
+  // The parts of a mesh: as all nodes show it that do not deform it, and as one node deforms it.
   const std::vector<Part>& parts(size_t index);
   std::vector<Part> posed_parts(size_t index, const GltfPose& pose);
 
-  // All meshes so far, with warnings of their faults.
+  // Hands over all meshes made so far, and adds warnings of their faults.
   std::vector<Mesh> take(std::vector<std::string>& warnings);
 
  private:
@@ -44,8 +45,8 @@ class GltfMeshes {
   GltfDraco draco_;
   MeshCounts counts_;
   std::vector<Mesh> meshes_;
-  std::vector<bool> seen_;                               // of each mesh of the file: in any pose
-  std::vector<std::optional<std::vector<Part>>> parts_;  // of each mesh of the file
+  std::vector<bool> seen_;  // one a mesh of the file: true once it was converted, in any pose
+  std::vector<std::optional<std::vector<Part>>> parts_;  // one list a mesh of the file
 };
 
 }  // namespace eyeray::engine::importers

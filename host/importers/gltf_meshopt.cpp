@@ -20,7 +20,7 @@ constexpr uint64_t divide_up(uint64_t a, uint64_t b) {
   return (a + b - 1) / b;
 }
 
-// The fewest bytes that stand for so many elements.
+// The fewest bytes that can encode the elements of `coding`.
 uint64_t least_bytes(const Coding& coding) {
   if (coding.mode == "TRIANGLES") return 1 + coding.count / 3 + 16;
   if (coding.mode == "INDICES") return 1 + coding.count + 4;
@@ -31,7 +31,7 @@ uint64_t least_bytes(const Coding& coding) {
   return 1 + coding.stride * blocks + std::max<uint64_t>(32, coding.stride);
 }
 
-// Checks the values of the extension, also those that the library takes for granted.
+// Checks the values of the extension, including those that the library does not check.
 void check(const GltfObject& view, const GltfObject& object, const Coding& coding) {
   const bool attributes = coding.mode == "ATTRIBUTES";
   const uint64_t stride = coding.stride;
@@ -63,7 +63,7 @@ void check(const GltfObject& view, const GltfObject& object, const Coding& codin
   }
 }
 
-// The first byte is the mode's and a version.
+// Checks the first byte, which contains the mode's number and a version.
 void check_version(const GltfObject& object, const Coding& coding, std::string_view coded) {
   const bool attributes = coding.mode == "ATTRIBUTES";
   const int known = attributes ? 0 : 1;
@@ -76,7 +76,7 @@ void check_version(const GltfObject& object, const Coding& coding, std::string_v
   }
 }
 
-// True if the bytes could be decoded.
+// Decodes the bytes; false if that fails.
 bool decode(const Coding& coding, std::string_view coded, std::string& decoded) {
   const auto* bytes = reinterpret_cast<const unsigned char*>(coded.data());
   if (coding.mode == "TRIANGLES")

@@ -8,18 +8,18 @@
 
 namespace eyeray::engine::importers {
 
-// Translation · rotation · scale. A rotation that is not of unit length is a breach, one without length an
-// InputError: at the member `key` of `owner`.
+// The matrix translation · rotation · scale. A rotation that is not of unit length is a breach, and a
+// rotation of length 0 an InputError; both are reported at the member `key` of `owner`.
 Mat4 gltf_transform(const GltfObject& owner, const char* key, const Vec3& translation, const Vec4& rotation,
                     const Vec3& scale, GltfBreaches& breaches);
 
 // True if the matrix is not a rotation combined with a scale along each axis.
 bool shears(const Mat3& matrix);
 
-// The nodes at the top of the scene that is shown, or of a file without scenes those without a parent.
+// The root nodes of the scene that is shown; in a file without scenes, the nodes without a parent.
 std::vector<size_t> root_nodes(const GltfObject& document, std::vector<std::string>& warnings);
 
-// For each node the one above it, or `no_parent`.
+// The parent of each node, or `no_parent`.
 constexpr size_t no_parent = ~size_t{0};
 std::vector<size_t> parents_of_nodes(const GltfObject& document);
 

@@ -23,14 +23,14 @@ enum class Type { object, index, count, number, flag, text, word };
 struct Property {
   std::string_view name;  // "*": any name that no other row has
   Type type;
-  std::string_view of = {};           // the list that an index refers to, or the words that may be written
-  const Property* members = nullptr;  // of an object
+  std::string_view of = {};           // the list that an index refers to, or the allowed words
+  const Property* members = nullptr;  // the members of an object
   size_t member_count = 0;
-  bool list = false;  // of such values
-  double least = 0;   // of a count, or the length of a list
+  bool list = false;  // true: the property is a list of such values
+  double least = 0;   // least and most: the limits of a count, or of a list's length
   double most = std::numeric_limits<double>::infinity();
   bool required = false;
-  bool extension = false;  // in `extensions` of the object
+  bool extension = false;  // true: the property stands in the object's `extensions`
 
   constexpr Property must() const {
     Property changed = *this;
@@ -188,7 +188,7 @@ constexpr Property sampler[] = {one_of("magFilter", "9728 9729"),
                                 one_of("wrapS", "33071 33648 10497"), one_of("wrapT", "33071 33648 10497")};
 constexpr Property image[] = {text("uri"), text("mimeType"), index("bufferView", "bufferViews")};
 
-// Nodes, and the objects at them.
+// Nodes, and the objects that they refer to.
 constexpr Property perspective[] = {number("aspectRatio"), number("yfov"), number("zfar"), number("znear")};
 constexpr Property orthographic[] = {number("xmag"), number("ymag"), number("zfar"), number("znear")};
 constexpr Property camera[] = {text("type"), object("perspective", perspective),
@@ -245,7 +245,7 @@ constexpr Property document[] = {object("asset", asset).must(),
 
 }  // namespace shapes
 
-// The extensions that are read, or change nothing that is read.
+// The extensions that are read, and those that do not change the parts that are read.
 constexpr std::string_view known_extensions[] = {
     "KHR_lights_punctual",     "KHR_materials_ior",       "KHR_materials_transmission",
     "KHR_materials_volume",    "KHR_materials_unlit",     "KHR_materials_emissive_strength",
@@ -264,7 +264,7 @@ const Property* find(Members table, std::string_view name, bool extension) {
   return found == table.end() ? nullptr : &*found;
 }
 
-// An integer from 0; nothing for any other value.
+// The value if it is an integer of at least 0; else nothing.
 std::optional<double> as_count(const Json& value) {
   const double number = value.is_number() ? value.get<double>() : -1;
   return number >= 0 && number == std::trunc(number) ? std::optional(number) : std::nullopt;
@@ -286,7 +286,7 @@ class PropertyCheck {
  public:
   PropertyCheck(const Json& document, GltfBreaches& breaches) : document_(document), breaches_(breaches) {}
 
-  // Recursion ends where the table does.
+  // The recursion goes only as deep as the table.
   void check_object(const Json& object, const std::string& place, Members table) {
     const std::string before = place.empty() ? "" : place + ".";
     if (object.empty() && table[0].name == "*") empty(place);
@@ -328,7 +328,8 @@ class PropertyCheck {
     if (length == 0) return empty(here);
     if (length < row.least || length > row.most) out_of_range(here);
     for (size_t i = 0; i < value.size(); ++i) {
-      if (row.type == Type::number && value[i].is_number()) continue;  // most lists, without their positions
+      if (row.type == Type::number && value[i].is_number())
+        continue;  // saves the text of a position in most lists
       check_single(value[i], fmt::format("{}[{}]", here, i), row);
     }
     if (row.type != Type::index && row.type != Type::text) return;
@@ -338,7 +339,7 @@ class PropertyCheck {
       breaches_.add("lists that contain the same element twice", here);
   }
 
-  // A value that is no list, or an element of one.
+  // Checks a value that is no list, or an element of a list.
   void check_single(const Json& value, const std::string& here, const Property& row) {
     switch (row.type) {
       case Type::object:

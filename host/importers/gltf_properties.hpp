@@ -1,4 +1,5 @@
-// The properties that glTF 2.0 and the extensions that are read define, by object. Private to the importers.
+// Checks properties by a table of those that glTF 2.0 and the extensions read here define. Private to the
+// importers.
 // Source: Khronos Group: glTF 2.0 Specification (2.0.1), 5.
 #pragma once
 
@@ -11,10 +12,10 @@ namespace eyeray::engine::importers {
 // True if the extension is read, or changes no picture.
 bool is_known_extension(std::string_view name);
 
-// Adds a breach for each property that does not fit the table of properties. That is one that glTF does not
-// define there, one that is missing though required, and a value of another type, length, range or list. The
-// whole document is checked, shown or not; a property that a reader itself refuses or warns of has no range
-// in the table. `extras` and the objects of unknown extensions may hold anything.
+// Adds a breach for each property that does not fit the table of properties. Either glTF does not define it
+// there, or it is missing though required, or its value has a wrong type, length, range or list. The whole
+// document is checked, shown or not. A property that a reader itself refuses or warns of has no range in the
+// table. `extras` and the objects of unknown extensions may contain anything.
 void check_properties(const nlohmann::json& document, GltfBreaches& breaches);
 
 }  // namespace eyeray::engine::importers

@@ -13,12 +13,12 @@ namespace eyeray::engine::importers {
 
 namespace {
 
-// The map of normals, up to a factor: the result is perpendicular to two mapped edges.
+// The matrix that maps normals, up to a factor: a mapped normal is perpendicular to the mapped edges.
 Mat3 cofactors(const Mat3& m) {
   return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
 }
 
-// The attribute's elements, as many as there are vertices.
+// Checks that there are as many elements of an attribute as vertices.
 template <typename T>
 void check_count(const GltfObject& owner, const std::vector<T>& elements, const VertexPool& vertices) {
   if (elements.size() != vertices.positions.size()) owner.fail("do not all have as many elements");
@@ -98,7 +98,7 @@ void check_targets(const GltfObject& primitive, const GltfObject& document, Gltf
 
 void move_to_joints(const GltfObject& attributes, std::span<const Mat4> joints, const GltfObject& document,
                     GltfBuffers& buffers, GltfBreaches& breaches, VertexPool& vertices) {
-  // Sum up by sets of four: JOINTS_0, JOINTS_1, …
+  // Sum up the joints' matrices by sets of four: JOINTS_0, JOINTS_1, …
   std::vector<Mat4> sums(vertices.positions.size(), Mat4(0.0));
   std::vector<double> total(vertices.positions.size(), 0.0);
   bool no_weight = false, no_joint = false, twice = false;
@@ -145,7 +145,7 @@ void move_to_joints(const GltfObject& attributes, std::span<const Mat4> joints, 
     breaches.add("weights of joints that do not sum to 1, divided by their sum",
                  attributes.place() + ".WEIGHTS_0");
 
-  // A vertex that no joint holds is held by the first.
+  // A vertex to which no joint gives weight moves with the first joint.
   for (size_t i = 0; i < sums.size(); ++i) {
     const Mat4 matrix = total[i] > 0 ? sums[i] / total[i] : joints[0];
     vertices.positions[i] = Vec3(matrix * Vec4(vertices.positions[i], 1));

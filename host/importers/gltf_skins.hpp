@@ -1,5 +1,5 @@
-// Skins of a glTF file: where joints and weights put the vertices as the file's nodes stand. Private to the
-// importers.
+// Skins and morph targets of a glTF file, which move vertices by the joints and weights of its nodes. Private
+// to the importers.
 #pragma once
 
 #include <optional>
@@ -13,12 +13,12 @@ namespace eyeray::engine::importers {
 
 // The deformation of a mesh by the node that shows it.
 struct GltfPose {
-  std::span<const Mat4> joints;  // from a vertex to the world, by each joint; empty: it has no skin
-  std::vector<double> weights;   // of the morph targets; empty: the mesh's own
+  std::span<const Mat4> joints;  // each joint's map from a vertex to the world; empty: the mesh has no skin
+  std::vector<double> weights;   // weights of the morph targets; empty: the mesh's own weights
 };
 
-// The joints' matrices of a skin; `worlds` are those of the file's nodes, as far as they stand in the scene.
-// Empty where a joint does not, or there are none.
+// The matrices of a skin's joints. `worlds`: the matrices of those of the file's nodes that are in the scene.
+// Empty if a joint is not in the scene, or if the skin has no joints.
 std::vector<Mat4> joint_matrices(const GltfObject& document, GltfBuffers& buffers, size_t skin,
                                  std::span<const std::optional<Mat4>> worlds);
 
@@ -30,7 +30,7 @@ void add_targets(const GltfObject& primitive, std::span<const double> weights, c
 void check_targets(const GltfObject& primitive, const GltfObject& document, GltfBuffers& buffers,
                    GltfBreaches& breaches);
 
-// Moves vertices to where their joints hold them, each by the mean of its joints' matrices.
+// Moves each vertex by the weighted mean of its joints' matrices.
 void move_to_joints(const GltfObject& attributes, std::span<const Mat4> joints, const GltfObject& document,
                     GltfBuffers& buffers, GltfBreaches& breaches, VertexPool& vertices);
 

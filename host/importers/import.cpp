@@ -14,7 +14,7 @@ namespace {
 
 using Reader = ImportedScene (*)(MeshFile&);
 
-// Null for other endings.
+// The reader for the file's ending; null for an ending of another format.
 Reader find_reader(const std::filesystem::path& file) {
   std::string ending = file.extension().string();
   std::ranges::transform(ending, ending.begin(),
@@ -25,7 +25,7 @@ Reader find_reader(const std::filesystem::path& file) {
   return nullptr;
 }
 
-// Takes out the meshes of which no triangle is left.
+// Removes the meshes that have no triangle left.
 void drop_empty(ImportedScene& scene) {
   std::vector<int> now(scene.meshes.size(), -1);
   int count = 0;

@@ -17,12 +17,13 @@ struct PixelBudget;  // image/coded_image.hpp
 
 namespace eyeray::engine::importers {
 
-// The animation of a file that is shown, and its time.
+// The animation to play, and the moment to show.
 struct Playing {
   double seconds = 0;
-  // Its name, or else its number, from 0; absent: the first. The file's rest where it has none such.
+  // The animation's name, or else its number, from 0; absent: the first. A file without such an animation is
+  // shown at rest.
   std::optional<std::string> animation = {};
-  bool loop = false;  // whether it begins again at 0 after its last key, or stays there
+  bool loop = false;  // true: it begins again at 0 after its last key; false: it stays at that key
 
   auto operator<=>(const Playing&) const = default;
 };
@@ -34,7 +35,7 @@ struct ImportOptions {
   // Folders, beside the file's own folder tree, that may contain the files it names (materials, buffers,
   // pictures).
   std::vector<std::filesystem::path> allowed_folders = {};
-  // The budget for the pictures of the scene that the file is for; null if it is for none.
+  // The pixel budget of the scene that imports the file; null if there is no scene.
   image::PixelBudget* pixels = nullptr;
   Playing playing = {};
 };
@@ -58,19 +59,18 @@ struct ImportedScene {
   std::vector<std::unique_ptr<Material>> materials;
   std::vector<std::variant<PointLight, DirectionalLight, SpotLight>> lights;
   std::optional<ImportedCamera> camera;
-  std::vector<std::string> animations;  // their names, of glTF; "" where one has none
+  std::vector<std::string> animations;  // names of glTF's animations; "" for one without a name
   std::optional<PlayedAnimation> played;
   std::vector<std::string> warnings;         // the features left out, once each, with counts
-  std::vector<std::filesystem::path> files;  // every file read, this one first
+  std::vector<std::filesystem::path> files;  // every file that was read, the mesh file first
 };
 
-// True if the name ends as those of mesh files do, in any case: .obj .ply .gltf .glb.
+// True if the name has a mesh file's ending, in upper or lower case: .obj .ply .gltf .glb.
 bool is_mesh_file(const std::filesystem::path& file);
 
-// Reads a mesh file by its ending, and the files it refers to. Error (file_io) when a file cannot be read,
-// InputError, with the position where there is one, when its contents are wrong, or nothing of it could be
-// seen. Of an animation there may be nothing to see at its moment. The memory it takes is bounded by the size
-// of the files.
+// Reads a mesh file by its ending, and the files it refers to. Error (file_io) if a file cannot be read.
+// InputError, with the position if there is one, if its contents are wrong or nothing in it could be seen. An
+// animated file may have nothing to see at its moment. The size of the files bounds the memory needed.
 ImportedScene import_file(const std::filesystem::path& file, const ImportOptions& options = {});
 
 // Imports from memory, for scenes in memory and for tests. `name` stands in messages, and its ending gives

@@ -14,7 +14,7 @@ namespace eyeray::engine::importers {
 
 namespace {
 
-// A tree of them takes about 1 GiB.
+// Limit on the values of a text: a tree of so many values takes about 1 GiB.
 constexpr size_t most_values = size_t{1} << 24;
 
 // An object or a list that is open.
@@ -24,13 +24,13 @@ struct Level {
   std::unordered_set<std::string> keys = {};
 };
 
-// The end of the string that begins at `i`, its closing quote, or of the text.
+// The index of the closing quote of the string that begins at `i`, or the end of the text.
 size_t end_of_string(std::string_view text, size_t i) {
   for (++i; i < text.size() && text[i] != '"'; ++i) i += text[i] == '\\';
   return std::min(i, text.size());
 }
 
-// Its value; "\u0061" is "a".
+// The value of the string whose quotes are at `first` and `last`: "\u0061" is "a".
 std::string value_of_string(std::string_view text, size_t first, size_t last) {
   const std::string_view inner = text.substr(first + 1, last - first - 1);
   if (inner.find('\\') == std::string_view::npos) return std::string(inner);

@@ -1,4 +1,4 @@
-// JSON as text, before a tree is made of it. Private to the importers.
+// Checks JSON as text, before a tree is made of it. Private to the importers.
 #pragma once
 
 #include <string>
@@ -6,9 +6,9 @@
 
 namespace eyeray::engine::importers {
 
-// InputError, with the position, where the text has more brackets in each other or more values than a tree of
-// it should. Also for one key twice in an object: readers differ in which of them counts. Takes time that
-// grows with the length. Text that is no JSON may pass.
+// InputError, with the position, if the text has too many nested brackets, or too many values for a tree.
+// Also if an object has a key twice: readers differ in which of the two counts. The time is linear in the
+// length. Text that is no JSON may pass.
 void check_json_text(std::string_view text, const std::string& file);
 
 }  // namespace eyeray::engine::importers

@@ -19,14 +19,14 @@ namespace {
 // uv. If there are more, some vertices are made twice, but importing takes no longer.
 constexpr int most_compared = 8;
 
-// Corners are counted in 32 bits.
+// Limit on the triangles of a mesh: their corners are counted in 32 bits.
 constexpr size_t most_triangles = size_t{1} << 30;
 
 bool finite(const Vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-// Texture coordinates have the range of any other.
+// True if the uv are in range, which is that of all coordinates.
 bool usable(const Vec2& uv) {
   return std::fabs(uv.x) <= max_coordinate && std::fabs(uv.y) <= max_coordinate;
 }
@@ -43,7 +43,7 @@ Vec3 sound_color(const Vec3& rgb) {
 }
 
 Vec3 color_from_display(const Vec3& rgb) {
-  // Nearly all are codes of 8 bits, and a power takes its time.
+  // Use a table for codes of 8 bits: nearly all colours are such codes, and a power takes its time.
   static const std::vector<double> codes = [] {
     std::vector<double> table;
     for (int code = 0; code < 256; ++code) table.push_back(image::linear_from_srgb(code / 255.0));
@@ -81,7 +81,7 @@ MeshBuilder::MeshBuilder(VertexPool& pool, MeshCounts& counts) : pool_(pool), co
   mesh_.resize(pool.positions.size(), 0);
 }
 
-// Unit normals; 0 for faces to leave out.
+// The unit normals of faces; 0 for faces to leave out.
 std::vector<Vec3> MeshBuilder::face_normals(const RawTriangles& raw) {
   std::vector<Vec3> normals(raw.positions.size());
   const auto corners = [&](size_t face) {
@@ -103,7 +103,8 @@ std::vector<Vec3> MeshBuilder::face_normals(const RawTriangles& raw) {
   return normals;
 }
 
-// Texture coordinates and colours that belong to single faces are the same if their values are.
+// True if both make the same vertex. Texture coordinates and colours may belong to single faces, so their
+// values are compared.
 bool MeshBuilder::is_same(const Source& a, const Source& b) const {
   const auto same = [](const auto& values, uint32_t i, uint32_t k) {
     return i == k || (i != no_index && k != no_index && values[i] == values[k]);
@@ -112,7 +113,7 @@ bool MeshBuilder::is_same(const Source& a, const Source& b) const {
          same(pool_.colors, a.color, b.color);
 }
 
-// no_index where the mesh has none yet.
+// The mesh's vertex that was made from `source`; no_index if none is found.
 uint32_t MeshBuilder::find_vertex(const Source& source) {
   if (mesh_[source.position] != meshes_) return no_index;
   uint32_t vertex = last_[source.position];
@@ -167,7 +168,7 @@ Mesh MeshBuilder::build(const RawTriangles& raw, double smooth) {
       const uint32_t position = raw.positions[face][i];
       Source source{position, no_index, no_index, raw.colors.empty() ? position : raw.colors[face]};
 
-      // A normal that cannot be used is the face's; its vertex is shared with no other face.
+      // A corner whose normal cannot be used gets the face's normal, and a vertex that no other face shares.
       Vec3 normal = faces[face];
       if (raw.has_normals) {
         const uint32_t written = raw.normals.empty() ? position : raw.normals[face][i];

@@ -1,4 +1,4 @@
-// From a file's contents to a Mesh that keeps the promises of scene/mesh.hpp. Private to the importers.
+// Turns a file's contents into a Mesh that keeps the promises of scene/mesh.hpp. Private to the importers.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace eyeray::engine::importers {
 
-// A corner without a normal or without uv.
+// The index of a corner's normal or uv if it has none.
 inline constexpr uint32_t no_index = 0xffffffff;
 
 using IndexTriangle = std::array<uint32_t, 3>;
@@ -34,40 +34,40 @@ struct VertexPool {
   std::vector<Vec3> positions;
   std::vector<Vec3> normals;  // of any length
   std::vector<Vec2> uv;
-  std::vector<Vec3> colors;     // linear RGB, one a position or as RawTriangles::colors has it, or none
-  std::vector<double> alphas;   // likewise, and only with colours
-  std::vector<Vec4> tangents;   // one a position, or none: of any length, and the side of v
+  std::vector<Vec3> colors;     // linear RGB, one a position or one a face (RawTriangles::colors), or none
+  std::vector<double> alphas;   // one a position, or none; only with colours
+  std::vector<Vec4> tangents;   // one a position, or none: along u, of any length, and in w the side of v
   std::vector<Vec2> second_uv;  // one a position, or none
 };
 
-// Within 0 to 1; 0 for NaN.
+// The colour with each component clamped to 0 to 1; NaN becomes 0.
 Vec3 sound_color(const Vec3& rgb);
-// From values that are shown as they are, which is how PLY and OBJ have colours.
+// The linear colour for sRGB values, which are shown as they are: PLY and OBJ contain such colours.
 Vec3 color_from_display(const Vec3& rgb);
 
-// Triangles as indices of a pool, in range.
+// Triangles as indices into a pool, all in range.
 struct RawTriangles {
   std::string name;
   bool has_normals = false;
   bool has_uv = false;
   std::vector<IndexTriangle> positions;
-  std::vector<IndexTriangle> normals;  // empty, where they have some: with the same indices as the positions
-  std::vector<IndexTriangle> uv;       // the same
-  std::vector<uint32_t> colors;        // one for all corners of a triangle; empty: as the positions
+  std::vector<IndexTriangle> normals;  // empty: if has_normals, they have the indices of the positions
+  std::vector<IndexTriangle> uv;       // empty: if has_uv, they have the indices of the positions
+  std::vector<uint32_t> colors;        // one a triangle; empty: colours have the indices of the positions
 };
 
 class MeshBuilder {
  public:
-  // `pool` is changed: its normals are made unit, those that have no direction 0.
+  // Changes `pool`: its normals become unit vectors, or 0 if they have no direction.
   MeshBuilder(VertexPool& pool, MeshCounts& counts);
 
-  // Leaves out triangles that no ray can hit. A corner with a wrong normal gets the normal of its face. If
-  // there are no normals and `smooth` (degrees) is above 0, makes them. Vertices that no face has are
-  // dropped.
+  // Makes a mesh. Leaves out triangles that no ray can hit, and vertices that no face has. A corner with a
+  // wrong normal gets the normal of its face. If there are no normals and `smooth` (degrees) is above 0,
+  // makes smooth normals.
   Mesh build(const RawTriangles& raw, double smooth);
 
  private:
-  // A vertex of the mesh in the making, made from these of the pool.
+  // The indices in the pool from which a vertex of the current mesh is made.
   struct Source {
     uint32_t position;
     uint32_t normal;
@@ -83,7 +83,7 @@ class MeshBuilder {
   VertexPool& pool_;
   MeshCounts& counts_;
   std::vector<Source> sources_;  // one a vertex of the mesh
-  std::vector<uint32_t> next_;   // the vertex before it that has the same position
+  std::vector<uint32_t> next_;   // for each vertex, the previous one at the same position
   std::vector<uint32_t> last_;   // the last vertex of each position of the pool …
   std::vector<uint32_t> mesh_;   // … in the mesh of this number
   uint32_t meshes_ = 0;

@@ -1,6 +1,6 @@
-// Wavefront OBJ: polygons, one mesh a material. The statements of geometry are read here, those of materials
-// by tinyobjloader, which reads `nan`, `1,5` and any other number that is none as 0 and does not report
-// where. Source: Wavefront: Advanced Visualizer Manual, appendix B1.
+// Wavefront OBJ: polygons, one mesh a material. This file reads the statements of geometry; tinyobjloader
+// reads those of materials. It takes `nan`, `1,5` and any other malformed number as 0, and does not report
+// its position. Source: Wavefront: Advanced Visualizer Manual, appendix B1.
 #include <array>
 #include <charconv>
 #include <cstdlib>
@@ -28,7 +28,7 @@ struct Corner {
 struct Part {
   std::string material;
   std::vector<Corner> corners;
-  std::vector<uint32_t> sizes;  // how many corners each face has
+  std::vector<uint32_t> sizes;  // number of corners of each face
 };
 
 bool is_space(char c) {
@@ -45,7 +45,7 @@ class ObjReader {
       read_statement();
       begin_ = end_ + 1;
     }
-    // Corners may name vertices that come later, so that all must be known.
+    // Check indices at the end: corners may refer to later vertices.
     check(highest_position_, vertices.positions.size(), "vertex");
     check(highest_uv_, vertices.uv.size(), "texture coordinate");
     check(highest_normal_, vertices.normals.size(), "normal");
@@ -58,7 +58,7 @@ class ObjReader {
   bool curves = false;
 
  private:
-  // The highest index seen of one kind, and where.
+  // The highest index of one kind so far, and its position in the text.
   struct Highest {
     uint32_t index = 0;
     size_t at = 0;
@@ -81,7 +81,7 @@ class ObjReader {
   int read_numbers(std::array<double, 7>& numbers, int most);
   void use_material(std::string_view name);
 
-  // Steps over spaces and, at the end of a line that goes on, to the next one.
+  // Steps over spaces, and from the end of a line to the next line if a backslash continues it.
   void skip_space() {
     for (;;) {
       while (at_ < end_ && is_space(text_[at_])) ++at_;
@@ -108,8 +108,8 @@ class ObjReader {
 
   MeshFile& file_;
   std::string_view text_;
-  size_t begin_ = 0;  // of the line
-  size_t end_ = 0;    // where its line break is
+  size_t begin_ = 0;  // the beginning of the line
+  size_t end_ = 0;    // the position of its line break
   size_t at_ = 0;     // the next character
   size_t part_ = no_part;
   static constexpr size_t no_part = std::numeric_limits<size_t>::max();
@@ -144,7 +144,7 @@ void ObjReader::read_statement() {
   } else if (takes("curv") || takes("surf")) {
     curves = true;
   }
-  // Groups, names, smoothing groups and programs' own statements change nothing here.
+  // Groups, names, smoothing groups and statements of single programs are ignored.
 }
 
 void ObjReader::read_vertex() {
@@ -154,14 +154,14 @@ void ObjReader::read_vertex() {
   vertices.positions.emplace_back(numbers[0], numbers[1], numbers[2]);
   if (count < 6 && vertices.colors.empty()) return;
 
-  // A colour comes last, behind the weight where there is one. Vertices without one are white.
+  // A colour comes last, behind the weight if there is one. Vertices without a colour are white.
   vertices.colors.resize(vertices.positions.size() - 1, Vec3(1));
   const auto first = static_cast<size_t>(count) - 3;
   vertices.colors.push_back(
       count < 6 ? Vec3(1) : color_from_display({numbers[first], numbers[first + 1], numbers[first + 2]}));
 }
 
-// Reads numbers, up to `most`; text that follows them is left.
+// Reads at most `most` numbers, and leaves the text that follows them. Returns their count.
 int ObjReader::read_numbers(std::array<double, 7>& numbers, int most) {
   int count = 0;
   for (; count < most; ++count) {
@@ -188,7 +188,7 @@ void ObjReader::read_face() {
   part.sizes.push_back(static_cast<uint32_t>(part.corners.size() - start));
 }
 
-// `position`, `position/uv`, `position//normal` or `position/uv/normal`.
+// Reads a corner: `position`, `position/uv`, `position//normal` or `position/uv/normal`.
 Corner ObjReader::read_corner() {
   const auto slash = [this] {
     const bool found = at_ < end_ && text_[at_] == '/';
@@ -206,7 +206,7 @@ Corner ObjReader::read_corner() {
   return corner;
 }
 
-// Counts from 1, or backwards from the last one so far, −1.
+// Reads an index and returns it counted from 0. The file counts from 1, or backwards: −1 is the last so far.
 uint32_t ObjReader::read_index(size_t count, Highest& highest, const char* what) {
   const size_t start = at_;
   int64_t written = 0;
@@ -231,7 +231,7 @@ void ObjReader::use_material(std::string_view name) {
   part_ = known->second;
 }
 
-// The part's faces as triangles of the pool.
+// The part's faces as triangles with indices into the pool.
 RawTriangles triangulate(const Part& part, const VertexPool& vertices, MeshCounts& counts) {
   RawTriangles raw;
   for (const Corner& corner : part.corners) {

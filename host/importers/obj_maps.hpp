@@ -6,9 +6,9 @@
 
 namespace eyeray::engine::importers {
 
-// The text of a .mtl file with each option of a map followed by as many numbers as it may have. `-s`, `-o`
-// and `-t` have one to three, `-mm` one or two; tinyobjloader takes the file's name for a missing number.
-// Source: Alias|Wavefront: Object Files, B1, "Options for texture map statements".
+// The text of a .mtl file with each option of a map completed to its full count of numbers. `-s`, `-o` and
+// `-t` may have one to three numbers, `-mm` one or two; tinyobjloader takes the file's name for a missing
+// number. Source: Alias|Wavefront: Object Files, B1, "Options for texture map statements".
 std::string with_all_map_numbers(std::string_view mtl);
 
 }  // namespace eyeray::engine::importers

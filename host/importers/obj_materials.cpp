@@ -47,12 +47,12 @@ bool is_glass(const tinyobj::material_t& source) {
   return refracts(source.illum) && (source.ior > 1 || source.dissolve < 1);
 }
 
-// True if it has a value of the physically based extension (Pr, Pm, Pc, Ps), which `illum` does not describe.
+// True if a value of the physically based extension (Pr, Pm, Pc, Ps) is set, which `illum` does not describe.
 bool is_principled(const tinyobj::material_t& source) {
   return source.roughness > 0 || source.metallic > 0 || source.clearcoat_thickness > 0 || source.sheen > 0;
 }
 
-// Emission of the material; beyond this a value is a mistake.
+// Limit on a material's emission: a larger value is a mistake.
 constexpr double most_emission = 1e6;
 
 TexturePtr emission(const tinyobj::material_t& source, std::shared_ptr<const ImageTexture> picture) {
@@ -94,12 +94,12 @@ std::unique_ptr<Material> convert(const tinyobj::material_t& source, const Maps&
       {.diffuse = diffuse, .reflectance = reflectance, .emission = emitted, .highlight = highlight(source)});
 }
 
-// The alpha mask of `d` and `map_d`. It blends where either is between 0 and 1; else it cuts out.
+// The alpha mask of `d` and `map_d`. It blends if either has a value between 0 and 1; else it cuts out.
 std::optional<AlphaMask> mask(double dissolve, const std::shared_ptr<const ImageTexture>& picture) {
   const double factor = share(dissolve);
   if (!picture && factor == 1) return std::nullopt;
   if (!picture) return AlphaMask{.alpha = textured(Vec3(factor), nullptr), .blends = factor > 0};
-  // Beside a map some writers set `d 0`.
+  // Ignore a `d 0`, which some writers set beside a map.
   const bool counts = factor > 0 && factor < 1;
   const auto between = [](const auto& texel) { return texel[3] != 0 && texel[3] != 255; };
   return AlphaMask{.alpha = textured(Vec3(counts ? factor : 1), picture),
@@ -151,7 +151,8 @@ void ObjMaterials::load(std::string_view names) {
   for (std::string name; words >> name;) read(name, true);
 }
 
-// True if there is such a file; where there is none and this was the `last` name to try, warns.
+// Reads a .mtl file. If it cannot be read: warns and returns true if this is the `last` name to try; else
+// returns false.
 bool ObjMaterials::read(const std::string& name, bool last) {
   if (done_.contains(name)) return true;
   std::string text;
@@ -174,11 +175,12 @@ void ObjMaterials::parse(std::string text) {
   std::string unused;
   tinyobj::LoadMtl(&names, &sources, &stream, &unused, &unused);
   for (const tinyobj::material_t& source : sources) {
-    // Statements before the first `newmtl` belong to no name, and are unused.
+    // Skip statements before the first `newmtl`, which have no material's name.
     if (source.name.empty() || indices_.contains(source.name)) continue;
     indices_[source.name] = static_cast<int>(materials.size());
 
-    // Load its pictures. A vertex has one uv: the first picture's options apply to all.
+    // Load the material's pictures. A vertex has one uv, so the first picture's options apply to all
+    // pictures.
     std::optional<ObjUv> uv;
     const auto load = [&](const std::string& name, const tinyobj::texture_option_t& options, MapUse use) {
       if (name.empty()) return std::shared_ptr<const ImageTexture>();

@@ -26,13 +26,13 @@ class ObjMaterials {
       : assets_(assets), textures_(assets, pixels, warnings) {}
 
   // Reads the .mtl files of an `mtllib` statement, which are separated by spaces, or one file whose name
-  // contains spaces. A warning if one cannot be read, or has parts without a counterpart here.
+  // contains spaces. Adds a warning if a file cannot be read, or has parts without a counterpart here.
   void load(std::string_view names);
-  // Takes the materials of a .mtl file's text.
+  // Adds the materials in the text of a .mtl file.
   void parse(std::string text);
   // The index of a material, or −1.
   int find(const std::string& name) const;
-  // The placement of a material's maps.
+  // The uv transform of a material's maps.
   const ObjUv& uv(int material) const { return uv_[static_cast<size_t>(material)]; }
 
   std::vector<std::string> warnings;

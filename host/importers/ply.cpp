@@ -15,7 +15,7 @@ namespace eyeray::engine::importers {
 
 namespace {
 
-// The meaning of a property of a vertex, or none.
+// The meaning of a vertex's property; `none` if it has none here.
 enum Slot { x, y, z, nx, ny, nz, u, v, red, green, blue, none };
 
 constexpr std::pair<std::string_view, Slot> slot_names[] = {
@@ -49,7 +49,7 @@ Slot slot_of(std::string_view name) {
   return known == std::end(slot_names) ? none : known->second;
 }
 
-// The largest value of a colour.
+// The value of full brightness in a colour of this type.
 double brightest(PlyType type) {
   switch (type) {
     case PlyType::uint8:
@@ -107,11 +107,12 @@ class PlyReader {
   Values values_;
 };
 
-// The file's size bounds the header's counts, so memory may be allocated for all of them.
+// Checks the header's count against the file's size, so that memory may be allocated for all elements.
 template <typename Values>
 void PlyReader<Values>::check_count(const PlyElement& element) const {
   const size_t least = element.least_bytes(header_.format);
-  const size_t left = file_.bytes.size() - header_.size + 1;  // the last number of a text needs no space
+  const size_t left =
+      file_.bytes.size() - header_.size + 1;  // the last number of a text file needs no space after it
   if (least > 0 && element.count > left / least) {
     values_.fail(fmt::format("the header declares {} of `{}`, more than the file's {} bytes can contain",
                              element.count, element.name, file_.bytes.size()));
@@ -165,7 +166,7 @@ const PlyProperty& PlyReader<Values>::corners_of(const PlyElement& element) cons
   return *found;
 }
 
-// Polygons, with the texture coordinates, the colours and the picture's number that each may have.
+// Reads polygons, with the texture coordinates, the colours and the picture's number that each may have.
 template <typename Values>
 void PlyReader<Values>::read_faces(const PlyElement& element) {
   const PlyProperty& corners = corners_of(element);
@@ -214,7 +215,7 @@ void PlyReader<Values>::read_faces(const PlyElement& element) {
   }
 }
 
-// A pair for each corner, or none.
+// Reads the uv of a face: a pair for each corner, or none.
 template <typename Values>
 void PlyReader<Values>::read_uv(const PlyProperty& property, std::vector<Vec2>& uv) {
   const uint64_t count = read_length(property);
@@ -259,7 +260,7 @@ uint64_t PlyReader<Values>::read_length(const PlyProperty& property) {
   return static_cast<uint64_t>(length);
 }
 
-// no_index for −1; whether it is that of a vertex is checked once all are known.
+// The index of a vertex, no_index for −1. It is compared with the number of vertices later, in triangulate().
 template <typename Values>
 uint32_t PlyReader<Values>::read_index(PlyType type) {
   const double index = values_.next(type);
@@ -269,7 +270,8 @@ uint32_t PlyReader<Values>::read_index(PlyType type) {
   return static_cast<uint32_t>(index);
 }
 
-// Each corner makes a triangle with the two before it, every other one reversed; −1 starts anew.
+// Reads a strip: each corner makes a triangle with the two before it, and every other triangle is reversed.
+// An index of −1 begins a new strip.
 template <typename Values>
 void PlyReader<Values>::read_strip(uint64_t count, PlyType type) {
   std::array<uint32_t, 2> before{};
@@ -290,8 +292,8 @@ void PlyReader<Values>::read_strip(uint64_t count, PlyType type) {
   }
 }
 
-// Makes a material of each picture that the file names, if it has uv for it and faces name the one they show.
-// Returns for each the index of its material, or −1.
+// Makes a material of each picture that the file names, if there are uv, and faces name the picture that they
+// show. Returns the index of each picture's material, or −1.
 std::vector<int> show_pictures(const PlyHeader& header, MeshFile& file, size_t shown, bool has_uv,
                                ImportedScene& scene) {
   std::vector<int> materials(shown, -1);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr size_t sizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
 
-// Both generations of names.
+// The names of types, in both generations of the format.
 constexpr std::pair<std::string_view, PlyType> type_names[] = {
     {"char", PlyType::int8},       {"int8", PlyType::int8},       {"uchar", PlyType::uint8},
     {"uint8", PlyType::uint8},     {"short", PlyType::int16},     {"int16", PlyType::int16},
@@ -40,7 +40,7 @@ class HeaderReader {
     for (;;) {
       const std::vector<std::string_view> words = next_line();
       if (words.size() > 2 && words[0] == "comment" && words[1] == "TextureFile") {
-        // A name may have blanks.
+        // A picture's name may contain blanks.
         const std::string_view last = words.back();
         header_.pictures.emplace_back(words[2].data(), last.data() + last.size());
       }
@@ -122,7 +122,7 @@ class HeaderReader {
   std::string_view bytes_;
   const std::string& file_;
   size_t at_ = 0;
-  size_t start_ = 0;  // of the line read last
+  size_t start_ = 0;  // the beginning of the last line read
   bool formatted_ = false;
   PlyHeader header_ = {};
 };

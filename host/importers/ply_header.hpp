@@ -26,7 +26,7 @@ struct PlyElement {
   uint64_t count = 0;
   std::vector<PlyProperty> properties;
 
-  // The least bytes that one of them takes in a file: whatever the count, no more fit.
+  // The least bytes that one element takes in a file. They limit the number of elements that fit into it.
   size_t least_bytes(PlyFormat format) const;
   bool has_lists() const;
 };
@@ -34,11 +34,11 @@ struct PlyElement {
 struct PlyHeader {
   PlyFormat format;
   std::vector<PlyElement> elements;
-  std::vector<std::string> pictures;  // by comments `TextureFile NAME`, as MeshLab and others write them
+  std::vector<std::string> pictures;  // from comments `TextureFile NAME`, which MeshLab and others write
   size_t size = 0;                    // bytes up to the data
 };
 
-// InputError with the line where it is wrong.
+// Reads the header. InputError, with the line, if it is wrong.
 PlyHeader read_ply_header(std::string_view bytes, const std::string& file);
 
 }  // namespace eyeray::engine::importers

@@ -14,7 +14,7 @@ namespace eyeray::engine::importers {
 
 class AsciiValues {
  public:
-  // `bytes` end with a NUL that is not theirs, as those of strings do.
+  // A NUL must follow `bytes`, as it follows those of a string.
   AsciiValues(std::string_view bytes, size_t begin, const std::string& file)
       : bytes_(bytes), at_(begin), file_(file) {}
 
@@ -38,7 +38,7 @@ class AsciiValues {
     for (uint64_t i = 0; i < count; ++i) next(type);
   }
 
-  // The most values that may still come.
+  // The most values that the rest of the file can contain.
   uint64_t room(PlyType) const { return (bytes_.size() - at_ + 1) / 2; }
 
   [[noreturn]] void fail(const std::string& message) const {

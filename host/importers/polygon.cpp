@@ -11,7 +11,8 @@ double area(const Vec2& a, const Vec2& b, const Vec2& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-// Twice the vector area (Newell): right for polygons that are not quite flat, and blind to their start.
+// Twice the vector area (Newell). It is right for polygons that are not quite flat, whichever corner is the
+// first.
 Vec3 vector_area(std::span<const Vec3> corners) {
   Vec3 sum(0.0);
   for (size_t i = 1; i + 1 < corners.size(); ++i)
@@ -30,7 +31,8 @@ const std::vector<std::array<uint32_t, 3>>& Triangulator::cut(std::span<const Ve
   };
   if (n == 3) return fan(), triangles_;
 
-  // Lay it flat along the main axis of its normal; one without a normal will be left out in any case.
+  // Project the polygon along the main axis of its normal. A polygon without a normal will be left out in any
+  // case.
   const Vec3 normal = vector_area(corners);
   const Vec3 size = glm::abs(normal);
   const int z = size.x > size.y && size.x > size.z ? 0 : size.y > size.z ? 1 : 2;
@@ -39,7 +41,7 @@ const std::vector<std::array<uint32_t, 3>>& Triangulator::cut(std::span<const Ve
   flat_.clear();
   for (const Vec3& corner : corners) flat_.emplace_back(corner[x], corner[y]);
 
-  // A fan will do where all of its triangles have the polygon's winding.
+  // A fan is right if all of its triangles have the polygon's winding.
   bool convex = true;
   for (uint32_t i = 1; i + 1 < n && convex; ++i) convex = !(area(flat_[0], flat_[i], flat_[i + 1]) < 0);
   if (convex || n > most_ear_corners || !std::isfinite(normal.x + normal.y + normal.z)) {
@@ -50,7 +52,7 @@ const std::vector<std::array<uint32_t, 3>>& Triangulator::cut(std::span<const Ve
   return triangles_;
 }
 
-// Clips the corner whose triangle holds no other corner, until three are left.
+// Clips ears until three corners are left. An ear is a corner whose triangle contains no other corner.
 void Triangulator::cut_ears() {
   const auto n = static_cast<uint32_t>(flat_.size());
   before_.resize(n);
@@ -65,8 +67,8 @@ void Triangulator::cut_ears() {
     const uint32_t a = before_[i];
     const uint32_t c = after_[i];
     if (!(turn(i) > 0)) return false;
-    // Only a corner that turns inward can lie in it; one that coincides with a corner of the ear touches
-    // only.
+    // Only a corner that turns inward can lie in the ear. A corner that coincides with one of the ear's only
+    // touches it.
     for (uint32_t p = after_[c]; p != a; p = after_[p]) {
       if (turn(p) > 0 || flat_[p] == flat_[a] || flat_[p] == flat_[i] || flat_[p] == flat_[c]) continue;
       if (area(flat_[a], flat_[i], flat_[p]) >= 0 && area(flat_[i], flat_[c], flat_[p]) >= 0 &&

@@ -10,18 +10,19 @@
 
 namespace eyeray::engine::importers {
 
-// Cuts polygons, one after the other; keeps its memory between them.
+// Cuts polygons into triangles, one polygon after the other, and reuses its memory.
 class Triangulator {
  public:
   // The triangles of the polygon, as indices of its corners, with its winding: n − 2 for n ≥ 3 corners, none
-  // for fewer. Concave polygons are cut by ears, at most `most_ear_corners` corners; larger ones as fans,
-  // which is right where they are convex. Corners that are not finite give triangles that are not either.
+  // for fewer. Concave polygons of at most `most_ear_corners` corners are cut by ears. Larger ones are cut as
+  // fans, which is right only if they are convex. Corners that are not finite give triangles that are not
+  // finite.
   const std::vector<std::array<uint32_t, 3>>& cut(std::span<const Vec3> corners);
 
   // Polygons that were too large to be cut by ears and are not convex.
   size_t fans() const { return fans_; }
 
-  // Cutting takes the square of it.
+  // Limit, because the time for cutting ears grows with the square of the number of corners.
   static constexpr size_t most_ear_corners = 1000;
 
  private:

@@ -24,7 +24,7 @@ uint64_t hash(const Vec3& p) {
   return sum;
 }
 
-// The number of each vertex's point: vertices at the same position have the same.
+// The number of each vertex's point, and the count of points. Vertices at the same position share a point.
 std::pair<std::vector<uint32_t>, uint32_t> weld(const std::vector<Vec3>& positions) {
   std::vector<uint32_t> points(positions.size());
   std::vector<uint32_t> table(std::bit_ceil(2 * positions.size() + 1),
@@ -59,7 +59,7 @@ class Smoother {
     over_points([&](uint32_t point) { sum(point); });
   }
 
-  // The surface that a corner (face · 3 + i) belongs to, of all surfaces around all points, and its normal.
+  // The surface that a corner (face · 3 + i) belongs to, numbered over all points, and a surface's normal.
   uint32_t surface(uint32_t corner) const { return firsts_[points_[vertex(corner)]] + group_[corner]; }
   const Vec3& normal(uint32_t surface) const { return sums_[surface]; }
   uint32_t surfaces() const { return firsts_[count_]; }
@@ -82,12 +82,12 @@ class Smoother {
   const Mesh& mesh_;
   std::span<const Vec3> faces_;
   double least_cosine_;
-  std::vector<uint32_t> points_;  // of each vertex
-  uint32_t count_ = 0;            // of points
+  std::vector<uint32_t> points_;  // the point of each vertex
+  uint32_t count_ = 0;            // number of points
   std::vector<uint32_t> starts_;  // where the corners of each point start in …
   std::vector<uint32_t> corners_;
-  std::vector<float> angles_;     // of each corner
-  std::vector<uint32_t> group_;   // of each corner: which of its point's surfaces
+  std::vector<float> angles_;     // the angle at each corner
+  std::vector<uint32_t> group_;   // the surface of each corner, numbered at its point
   std::vector<uint32_t> firsts_;  // the first surface of each point
   std::vector<Vec3> sums_;        // the normal of each surface
 };
@@ -118,7 +118,7 @@ void Smoother::measure_angles() {
   });
 }
 
-// Numbers the surfaces around a point, and returns their number.
+// Numbers the surfaces around a point, and returns their count.
 uint32_t Smoother::join(uint32_t point) {
   const std::span<const uint32_t> corners = around(point);
   const auto count = static_cast<uint32_t>(corners.size());
@@ -142,7 +142,7 @@ uint32_t Smoother::join(uint32_t point) {
   }
   std::ranges::sort(edges, {}, [](const Edge& edge) { return std::pair(edge.end, edge.corner); });
 
-  // Join the faces that adjoin at a small angle.
+  // Join neighbours that are at a small angle to each other.
   const auto root = [&](uint32_t i) {
     while (parents[i] != i) i = parents[i] = parents[parents[i]];
     return i;
@@ -157,7 +157,7 @@ uint32_t Smoother::join(uint32_t point) {
     parents[std::max(one, two)] = std::min(one, two);
   }
 
-  // A root comes before all that hang on it.
+  // Number the surfaces by their roots. A root comes before the corners that are joined to it.
   uint32_t surfaces = 0;
   for (uint32_t i = 0; i < count; ++i)
     group_[corners[i]] = parents[i] == i ? surfaces++ : group_[corners[root(i)]];
@@ -180,7 +180,7 @@ void add_smooth_normals(Mesh& mesh, std::span<const Vec3> faces, double degrees)
   // Split each vertex into one for each surface that it is on. (Where surfaces and seams of uv cross, a
   // vertex may be made more than once.) The smoother reads a corner of the mesh before that corner changes.
   std::vector<uint32_t> made(smoother.surfaces(), no_vertex);  // the last vertex made for a surface …
-  std::vector<uint32_t> from;                                  // … and which vertex each was made from
+  std::vector<uint32_t> from;                                  // … and the vertex from which each was made
   from.reserve(mesh.positions.size());
   std::vector<Vec3> normals;
   normals.reserve(mesh.positions.size());

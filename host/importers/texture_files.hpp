@@ -13,7 +13,7 @@
 
 namespace eyeray::engine::importers {
 
-// A color, times a picture where there is one.
+// A color, times `picture` unless it is null.
 TexturePtr textured(const Vec3& color, std::shared_ptr<const ImageTexture> picture);
 
 class TextureFiles {
@@ -24,7 +24,7 @@ class TextureFiles {
   // Makes a picture; may throw Error, and add warnings.
   using Decode = std::function<ImageTexture(image::PixelBudget&, std::vector<std::string>& warnings)>;
 
-  // The picture in a file; null, with a warning, where it cannot be had. TooManyPixels beyond the budget.
+  // The picture in a file; null, with a warning, if it cannot be read. TooManyPixels beyond the budget.
   std::shared_ptr<const ImageTexture> load(const std::string& name);
   // The picture called `name`, which `decode` makes on first use.
   std::shared_ptr<const ImageTexture> load(const std::string& name, const Decode& decode);
