@@ -17,14 +17,15 @@ class AllowedFolders {
   AllowedFolders(const std::filesystem::path& scene, std::span<const std::filesystem::path> others);
 
   struct File {
-    std::filesystem::path path;   // as people know it
-    std::filesystem::path whole;  // canonical: the same for every way to name the file
+    std::filesystem::path path;   // as messages show it
+    std::filesystem::path whole;  // the canonical path: the same for every way to name the file
   };
-  // The file that the value `name` of `key`, written in the file `from`, stands for; it need not exist. Error
-  // (bad_input) where the name is none, or leads out of the allowed folders, links followed.
+  // The file that `name` means: the value of `key`, written in the file `from`. The file need not exist.
+  // Error (bad_input) if the name is none, or if it leads out of the allowed folders after links are
+  // followed.
   File find(std::string_view key, const std::string& name, const std::filesystem::path& from) const;
-  // Finds the file named by a value at a position. A value in none of the scene's `sources`, such as an
-  // override, is relative to the scene's folder.
+  // The file that `name` means, where `from` may be no file: a value that is in none of the scene's
+  // `sources`, such as an override, is relative to the scene's folder.
   File find(std::string_view key, const std::string& name, const std::string& from,
             std::span<const std::filesystem::path> sources) const;
 

@@ -67,12 +67,12 @@ constexpr Key table_of_track[] = {
      .choices = curves},
 };
 
-// The values that tracks have moved so far. A later track may move a part of an earlier one's value, and
-// nothing that holds an earlier one's, whose keyframes would then count for nothing.
+// The values that tracks have moved so far. A later track may move a part of an earlier track's value. It may
+// not move that whole value or more, because the earlier track's keyframes would then have no effect.
 class MovedValues {
  public:
-  // Moves the value at `place` (apply_track) by `track`, whose target is at `at`. Of several tracks that undo
-  // the same one, the first is an error.
+  // Records that `track`, whose target is at `at`, moves the value at `place` (apply_track). If several
+  // tracks undo the same earlier track, only the first of them is an error.
   void add(const std::vector<std::string>& place, const SourcePosition& at, reading::TableReader& track) {
     const auto earlier = tracks_.lower_bound(place);
     const bool undone = earlier != tracks_.end() && earlier->first.size() >= place.size() &&
@@ -155,7 +155,7 @@ Animation apply_animation(toml::table& root, DiagnosticLog& log) {
                       .shutter_steps = int(reader.integer("shutter_steps"))};
   root.erase(settings.name);
 
-  // Take the tracks out of the tree first: the values that they set change it.
+  // Take the tracks out of the tree first: setting their values changes the tree.
   toml::array tracks;
   if (toml::node* const list = root.get(track.name)) tracks = std::move(*list->as_array());
   root.erase(track.name);

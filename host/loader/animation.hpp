@@ -16,14 +16,14 @@ std::span<const reading::Key> animation_keys();
 std::span<const reading::Key> track_keys();
 extern const std::string_view track_manual;
 
-// Takes [animation] and every [[track]] out of the tree, and puts each track's value at the frame shown where
-// it belongs, as -D does. Returns the parts that the scene keeps. Faults go to the log, those of a value at
-// its keyframes.
+// Takes [animation] and every [[track]] out of the tree. Sets each track's target, as -D does, to its value
+// at the frame shown. Returns the parts that the scene keeps. Faults go to the log; those of a value are
+// reported at its keyframes.
 Animation apply_animation(toml::table& root, DiagnosticLog& log);
 
-// The moment that is shown.
+// The moment that the picture shows, in seconds.
 double seconds(const Animation& animation);
-// Counts values that move from one frame to another.
+// Counts values that move, from the frame `first` to the frame `last`.
 void add_moving(int values, double first, double last, Animation& animation);
 
 }  // namespace eyeray::engine::loader

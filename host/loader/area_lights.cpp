@@ -91,7 +91,7 @@ const AreaShape* area_shape(const toml::table& light, DiagnosticLog& log) {
   const std::string_view name = light["shape"].value_or(std::string_view());
   const auto found = std::ranges::find(area_shapes(), name, &AreaShape::name);
   if (found != area_shapes().end()) return &*found;
-  // Reading reports the shape. Which other keys there may be depends on it.
+  // Read the table to report the wrong shape. Other keys are allowed, since the shape determines them.
   reading::read_table({.title = "[[light]] of type area",
                        .table = &light,
                        .keys = {keys_of_every_area_light()},

@@ -13,16 +13,16 @@ namespace eyeray::engine::loader {
 // A shape that an area light may have.
 struct AreaShape {
   std::string_view name;  // `shape` in the light's table
-  Section section;        // how the table is read: as a shape's, with the keys of lights for its own
+  Section section;        // the keys to read the table by: the shape's, and those of area lights
 };
 
-// In the order of the manual.
+// The shapes in the order of the manual.
 std::span<const AreaShape> area_shapes();
 
-// The keys that all area lights have, beside those of every light.
+// The keys that all area lights have in addition to those of every light.
 std::span<const reading::Key> area_keys();
 
-// Markdown, without the keys.
+// The manual's text about area lights in Markdown, without the keys.
 std::string_view area_manual();
 
 bool is_area_light(const toml::table& light);

@@ -11,16 +11,16 @@
 
 namespace eyeray::engine::loader {
 
-// A batch of a table's values, as it was checked.
+// The batch of a table, once it has been checked.
 struct Batch {
   const toml::table* lists = nullptr;  // null: the table is one object
   size_t count = 1;                    // 0 after an error
 };
 
-// Checks that all lists of a table's batch are lists of its values, and equally long.
+// Checks that the lists in a table's batch contain values for keys of the table, and are equally long.
 Batch read_batch(const Section& section, const toml::table& table, DiagnosticLog& log);
 
-// The name that a table, or an element of its batch, gives itself, where it is one; "" where there is none.
+// The name that is written in a table, or for an element of its batch; "" if there is no valid name.
 std::string_view written_name(const toml::table& table, const Batch& batch, size_t element);
 
 }  // namespace eyeray::engine::loader

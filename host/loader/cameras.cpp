@@ -19,7 +19,7 @@ void check_view(reading::TableReader& table, const Camera& camera) {
     table.error("up", "`up` has no length");
     return;
   }
-  // The sine of the angle between them must be a number that survives normalising.
+  // The sine of the angle between view and `up` must be large enough for normalising their cross product.
   const double sine = glm::length(glm::cross(glm::normalize(view), glm::normalize(camera.up)));
   if (!(sine > 1e-9)) {
     table.error(table.has("up") ? "up" : "target",

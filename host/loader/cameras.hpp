@@ -7,7 +7,8 @@
 
 namespace eyeray::engine::loader {
 
-// `table` null: not written. Errors are in the log; after one the camera may have no projection.
+// The camera. `table`: null if it is not written. Errors are in the log; after an error the camera may have
+// no projection.
 Camera read_camera(const Section& section, const toml::table* table, const reading::ValueSources& sources,
                    DiagnosticLog& log);
 

@@ -30,7 +30,7 @@ std::string why_two_media(const Shape& csg, const std::vector<std::unique_ptr<Ma
   std::string why;
   for_each_leaf(csg, [&](const Shape& leaf) {
     const int index = leaf.material;
-    if (size_t(index) >= materials.size()) return;  // after an error
+    if (size_t(index) >= materials.size()) return;  // an error has left it without a material
     if (!materials[size_t(index)]->medium() || index == first) return;
     if (first >= 0 && why.empty())
       why = fmt::format(

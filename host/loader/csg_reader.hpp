@@ -13,14 +13,14 @@
 
 namespace eyeray::engine::loader {
 
-// `Host` reads tables, materials and shapes: the scene's builder, whose own these functions would be if they
-// were fewer.
+// A part of the scene's builder, which is `Host` and reads tables, materials and shapes. It is a class of its
+// own only because these functions are many.
 template <typename Host>
 class CsgReader {
  public:
   CsgReader(Host& host, DiagnosticLog& log) : host_(host), log_(log) {}
 
-  // `material`: of the CSG object around it.
+  // Reads a CSG object; null after an error. `material`: that of the CSG object around it.
   template <typename Placing>
   std::unique_ptr<Shape> read(const Section& section, const toml::table& table, reading::TableReader& reader,
                               const Placing& placing, std::optional<int> material) {
@@ -85,7 +85,7 @@ class CsgReader {
     return ok;
   }
 
-  // `material`: of the CSG object that it is in.
+  // Reads a shape of a CSG object; null after an error. `material`: that of the CSG object around it.
   template <typename Placing>
   std::unique_ptr<Shape> read_part(const Section& section, reading::TableReader& reader,
                                    const Placing& placing, std::optional<int> material) {

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 constexpr size_t deepest_include = 16;
 
-// Lays `over` upon `below`: the keys of `over` win, and the table's position is that of `over`.
+// Overlays `below` with `over`: the keys of `over` win, and the table's position is that of `over`.
 void merge_settings(toml::table& over, toml::table& below) {
   for (auto&& [key, node] : below) {
     if (!over.contains(key.str())) over.insert_or_assign(key, std::move(node));
@@ -36,7 +36,7 @@ void merge(toml::table& root, toml::table& file, DiagnosticLog& log) {
       continue;
     }
 
-    // A single table.
+    // Merge a single table.
     toml::node* known = root.get(key.str());
     if (!section->many()) {
       if (!node.is_table()) {
@@ -49,7 +49,8 @@ void merge(toml::table& root, toml::table& file, DiagnosticLog& log) {
       continue;
     }
 
-    // A list of tables. One that lacks its second brackets is read on, for other faults in it.
+    // Append a list of tables. A table that lacks its second brackets is read, too, to report its other
+    // faults.
     if (!known) known = &root.insert_or_assign(key, toml::array()).first->second;
     if (node.is_table()) {
       log.error(at, fmt::format("write {}, in double brackets: a scene can have many", section->title));
@@ -108,7 +109,7 @@ class Includer {
     try {
       const auto [file, whole] = folders_.find(include_key, node.value_or(std::string()), from);
       if (std::ranges::find(chain_, whole) != chain_.end()) return log_.error(at, cycle(whole));
-      if (std::ranges::find(done_, whole) != done_.end()) return;  // once is enough
+      if (std::ranges::find(done_, whole) != done_.end()) return;  // the file has been included already
       if (chain_.size() > deepest_include) {
         return log_.error(at, fmt::format("includes are nested more than {} deep", deepest_include));
       }
@@ -118,7 +119,7 @@ class Includer {
     }
   }
 
-  // "a.toml includes itself: a.toml → b.toml → a.toml".
+  // The error's text "a.toml includes itself: a.toml → b.toml → a.toml".
   std::string cycle(const fs::path& again) const {
     std::string text = again.filename().string() + " includes itself: ";
     for (auto link = std::ranges::find(chain_, again); link != chain_.end(); ++link) {

@@ -1,4 +1,4 @@
-// A scene's files laid over each other: the scene itself, and the files it includes. Private to the loader.
+// Merges a scene's files: the scene itself, and the files that it includes. Private to the loader.
 #pragma once
 
 #include <toml++/toml.h>
@@ -11,16 +11,17 @@
 
 namespace eyeray::engine::loader {
 
-// One TOML tree in which every top table is a known section: [name] a table, [[name]] a list of tables. What
-// is not is reported and left out.
+// One TOML tree in which every top-level entry is a known section: [name] is a table, [[name]] a list of
+// tables. Any other entry is reported and left out.
 struct Document {
   toml::table root;
   std::vector<std::filesystem::path> files;  // the scene first
 };
 
-// Error (file_io) when the scene itself cannot be read; all else goes to the log.
+// Reads and merges the files of a scene. Error (file_io) if the scene itself cannot be read; all other errors
+// go to the log.
 Document read_document(const std::filesystem::path& scene, const AllowedFolders& folders, DiagnosticLog& log);
-// A document without files; includes are refused.
+// Reads a document from text, without files: includes are refused.
 Document parse_document(std::string_view text, const std::string& name, DiagnosticLog& log);
 
 }  // namespace eyeray::engine::loader

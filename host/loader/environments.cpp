@@ -14,7 +14,7 @@ using reading::Key, reading::KeyType;
 namespace {
 
 constexpr double brightest = 1e15;
-// 16 bytes each on the device, and the number of one must be an index.
+// Limit on texels: each takes 16 bytes on the device, and their numbers must be valid indices.
 constexpr int64_t most_texels = int64_t{1} << 26;
 
 constexpr std::string_view image_manual =
@@ -41,7 +41,7 @@ constexpr Key keys_of_image[] = {
      .fallback = "0"},
 };
 
-// The fault of the texels, or "".
+// A description of wrong texels, or "".
 std::string fault_of(const image::Image& image) {
   int64_t wrong = 0;
   int x = 0, y = 0;

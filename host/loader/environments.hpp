@@ -16,12 +16,12 @@ struct Surroundings {
   std::unique_ptr<Light> sun;
 };
 
-// A kind of environment: `type` in the table, and how it comes to be.
+// A kind of environment: its name, which is `type` in the table, its keys and its reader.
 struct EnvironmentType {
   std::string_view name;
   std::string_view manual;
-  std::span<const reading::Key> keys;  // beside those that all have
-  // Nothing after an error, which is reported to the table.
+  std::span<const reading::Key> keys;  // beside the keys of all kinds
+  // Makes the environment; nothing after an error, which is reported to the table.
   Surroundings (*parse)(reading::TableReader& table, const reading::ValueSources& sources,
                         DiagnosticLog& log);
 };
@@ -29,7 +29,7 @@ struct EnvironmentType {
 std::span<const EnvironmentType* const> environment_types();
 std::span<const reading::Key> environment_keys();
 
-// Nothing where the table is not written, or after an error.
+// The environment of a scene; nothing if the table is not written, or after an error.
 Surroundings read_environment(const Section& section, const toml::table* table,
                               const reading::ValueSources& sources, DiagnosticLog& log);
 

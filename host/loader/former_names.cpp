@@ -18,7 +18,7 @@ void rename_in(toml::node& node) {
   }
 }
 
-// Appends the value of the former name where both were written.
+// Moves the value of the former name to today's name. If both have lists, appends one to the other.
 void rename(toml::table& table, toml::table::iterator it, std::string_view today) {
   toml::array* both = table[today].as_array();
   toml::array* more = it->second.as_array();

@@ -12,14 +12,14 @@ namespace eyeray::engine::loader {
 
 class FormulaFiles final : public reading::FormulaSource {
  public:
-  // Names in `scene` or in one of the other `sources`, which it includes, are relative to the folder of the
-  // file that they stand in. Names that stand in no file (an override) are relative to the scene's.
+  // `sources`: the scene's file, then the files that it includes. A name in one of them is relative to that
+  // file's folder. A name in none of them, such as an override, is relative to the scene's folder.
   FormulaFiles(const AllowedFolders& folders, std::vector<std::filesystem::path> sources, DiagnosticLog& log)
       : folders_(folders), sources_(std::move(sources)), log_(log) {}
 
   std::optional<formula::FormulaText> load(const std::string& name, const SourcePosition& position) override;
 
-  // Every file that was to be read, in the order in which they were first named.
+  // Every file that was requested, in the order in which they were first named.
   const std::vector<std::filesystem::path>& files() const { return files_; }
 
  private:

@@ -9,7 +9,7 @@ namespace eyeray::engine::loader {
 
 namespace {
 
-// `may_have`: true if the tables in it may have a function.
+// Adds the errors in a node. `may_have`: true if tables in the node may have a function.
 void refuse(const toml::node& node, bool may_have, DiagnosticLog& log) {
   if (const toml::array* array = node.as_array())
     for (const toml::node& element : *array) refuse(element, may_have, log);

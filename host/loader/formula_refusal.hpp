@@ -7,7 +7,7 @@
 
 namespace eyeray::engine::loader {
 
-// An error at each `code` and `file` of an [[implicit]], wherever it stands; before any of them is read.
+// Adds an error at each `code` and `file` of an [[implicit]], wherever it stands, before any of them is read.
 void refuse_formulas(const toml::table& root, DiagnosticLog& log);
 
 }  // namespace eyeray::engine::loader

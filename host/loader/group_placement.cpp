@@ -34,7 +34,7 @@ bool GroupPlacer::surely_fits(int index, const Mat4& transform) const {
     }
   }
 
-  // A turn alone changes some measures of thickness by up to three times.
+  // Leave a margin: a rotation alone changes some measures of thickness by up to three times.
   constexpr double turn = 10;
   if (extent.thickness * thinning(map.linear) < turn) return false;
   return std::ranges::all_of(group.instances, [&](const Instance& instance) {

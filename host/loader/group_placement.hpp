@@ -1,4 +1,4 @@
-// Instanced groups, and their instances, put into a scene. Private to the loader.
+// Puts instanced groups, and their instances, into a scene. Private to the loader.
 #pragma once
 
 #include <vector>
@@ -11,13 +11,13 @@ class GroupPlacer {
  public:
   GroupPlacer(Scene& scene, const MeshPlacer& meshes) : scene_(scene), meshes_(meshes) {}
 
-  // Takes a group into the scene; its index there. `stretch`: the worst condition of the maps
-  // from its members to its space.
+  // Puts a group into the scene, and returns its index there. `stretch`: the worst condition number of the
+  // maps from its members to its space.
   int keep(Group group, double stretch);
 
-  // True if all shapes of the group can surely stand there. If not, each must be checked.
+  // True if this transform surely keeps all shapes of the group valid. If false, each shape must be checked.
   bool surely_fits(int group, const Mat4& transform) const;
-  // Shows the group once more.
+  // Adds an instance of the group.
   void place(int group, const Mat4& transform, const SourcePosition& position, const NameRef& name);
 
  private:
@@ -25,10 +25,10 @@ class GroupPlacer {
   const MeshPlacer& meshes_;
   struct Extent {
     Bounds bounds;     // of the shapes
-    double thickness;  // the least margin of any shape
-    double condition;  // of the worst map
+    double thickness;  // the least thickness_margin() of any shape
+    double condition;  // the condition number of the worst map
   };
-  std::vector<Extent> extents_;  // as Scene::groups
+  std::vector<Extent> extents_;  // one for each of Scene::groups
 };
 
 }  // namespace eyeray::engine::loader

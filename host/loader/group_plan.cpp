@@ -13,18 +13,18 @@ namespace eyeray::engine::loader {
 
 namespace {
 
-// Limit on the objects kept one by one, shown or not.
+// Limit on the objects that are stored one by one, shown or not.
 constexpr double most_kept = 0x4000000;
-// Primitives are identified by 31 bits.
+// Limit on the objects shown: primitives' ids have 31 bits.
 constexpr double most_shown = std::numeric_limits<int32_t>::max();
 constexpr int deepest = 64;
 
 // An instance takes as much memory as about this many shapes.
 constexpr double instance_cost = 2;
-// Rays in a separate group are traced alone: the saved memory must be worth it.
+// Objects that instancing a group must save. Rays traverse an instanced group separately, which costs time.
 constexpr double worth_keeping_once = 0x40000;
 
-// The number of copies that the table's batch shows. An unsound batch counts as one.
+// The number of copies that the table's batch makes. A faulty batch counts as one.
 double batch_size(const toml::table& table) {
   const toml::table* batch = table[batch_key].as_table();
   if (!batch || batch->empty()) return 1;
@@ -32,7 +32,7 @@ double batch_size(const toml::table& table) {
   return values ? double(values->size()) : 1;
 }
 
-// The tables of a list in a table.
+// The tables in the list `name` of a table.
 std::vector<const toml::table*> tables(const toml::table& holder, std::string_view name) {
   std::vector<const toml::table*> found;
   const toml::array* list = holder[name].as_array();
@@ -68,7 +68,7 @@ GroupPlan::GroupPlan(const toml::table& root, GroupStorage storage, DiagnosticLo
   for (const auto& [name, node] : by_name_) visit(*node, chain);
   if (!sound_) return;
 
-  // A group comes after all that hold it, so that it is known how often it stands.
+  // Visit each group after all groups that contain it: only then is its number of copies known.
   scene.shown = 1;
   for (auto node = children_first_.rbegin(); node != children_first_.rend(); ++node) choose(**node, storage);
   check_counts(scene);
@@ -100,7 +100,7 @@ void GroupPlan::enter_names(const toml::table& root) {
       Node& node = node_of(group);
       node.name = name->get();
       const auto [entry, fresh] = by_name_.try_emplace(name->get(), &node);
-      // Names may be shared where nobody asks for one.
+      // Groups may share a name that no instance uses.
       if (!fresh) shared_names_.insert(name->get());
     } else if (is_pattern(group)) {
       log_.error(reading::position_of(group.get("pattern")->source()),
@@ -134,7 +134,8 @@ void GroupPlan::link(Node& node) {
   }
 }
 
-// The names of those that an [[instance]] shows stand in it, or in its batch.
+// Adds the groups that an [[instance]] shows to the node's members. It names them by its key, or in its
+// batch.
 void GroupPlan::link_instances(Node& node, const toml::table& table) {
   const auto add = [&](const toml::node& name, double count) {
     const auto found = name.is_string() ? by_name_.find(name.as_string()->get()) : by_name_.end();
@@ -149,7 +150,7 @@ void GroupPlan::link_instances(Node& node, const toml::table& table) {
     for (const toml::node& name : *names) add(name, 1);
 }
 
-// Adds up the totals of the groups below.
+// Adds the totals of the node's groups to those of the node.
 void GroupPlan::visit(Node& node, std::vector<std::string_view>& chain) {
   if (node.visit == Node::Visit::done) return;
   chain.push_back(node.name);
@@ -181,7 +182,7 @@ void GroupPlan::visit(Node& node, std::vector<std::string_view>& chain) {
 }
 
 void GroupPlan::choose(Node& node, GroupStorage storage) {
-  // Its cost if it is instanced, and its least cost if its groups are instead.
+  // Compare the node's cost if it is instanced with its least cost if its groups may be instanced instead.
   const double once = node.items + instance_cost * node.shown;
   double apart = node.own * node.shown;
   for (const auto& [group, count] : node.members) {

@@ -1,4 +1,4 @@
-// The groups of a scene's files: which holds which, how often each is placed, and which of them are
+// The groups of a scene's files: their members, the number of their copies, and the choice of those that are
 // instanced. Private to the loader.
 #pragma once
 
@@ -18,43 +18,43 @@ namespace eyeray::engine::loader {
 
 class GroupPlan {
  public:
-  // Goes by the tables' outlines: faults within them are for others to report. Groups that hold themselves
-  // or come to more than any memory holds are errors here.
+  // Reads only the structure of the tables; the reader of each table reports the faults within it. Reports
+  // groups that contain themselves, and groups that make too many objects for any memory.
   GroupPlan(const toml::table& root, GroupStorage storage, DiagnosticLog& log);
 
-  // True if the groups can be shown; if not, there were errors.
+  // True if the groups can be shown; false after errors.
   bool sound() const { return sound_; }
 
   // True if the group is instanced where it stands in the world.
   bool is_instanced(const toml::table& group) const;
 
-  // True if a group stands only where instances show it.
+  // True if the group is a pattern, which only instances show.
   static bool is_pattern(const toml::table& group);
 
-  // The group of that name that is in no other, or null.
+  // The top-level group of that name, or null.
   const toml::table* find(std::string_view name) const;
   std::vector<std::string_view> names() const;
-  // Patterns that nothing shows.
+  // The patterns that no instance shows.
   std::vector<const toml::table*> idle() const;
 
  private:
   // A group, or the scene. Counts are floating-point numbers: batches of groups in groups multiply.
   struct Node {
     const toml::table* table = nullptr;
-    std::string_view name;  // "" of those in groups, too
+    std::string_view name;  // "" for a group within a group, too
     bool is_scene = false;
     struct Member {
       Node* group;
       double count;  // the number of its copies in one of these nodes
     };
     std::vector<Member> members;
-    double own = 0;       // its own shapes and meshes, …
-    double items = 0;     // … with those of its groups, …
-    double objects = 0;   // … and with the groups themselves
-    bool bounded = true;  // all of it
-    int height = 0;       // of groups in groups
+    double own = 0;       // number of its own shapes and meshes, …
+    double items = 0;     // … also with those of its groups, …
+    double objects = 0;   // … and also with the groups themselves
+    bool bounded = true;  // true if all its items are bounded
+    int height = 0;       // depth of nested groups below it
     enum class Visit { none, begun, done } visit = Visit::none;
-    double shown = 0;  // in the world, not counting where it is a part of an instance
+    double shown = 0;  // number of its copies in the world, except those within an instance
     bool instanced = false;
     bool idle = false;
   };

@@ -14,8 +14,8 @@ namespace eyeray::engine::loader {
 
 class ImageFiles final : public reading::ImageSource {
  public:
-  // Names in `scene` or in one of the other `sources`, which it includes, are relative to the folder of the
-  // file that they stand in. Names that stand in no file (an override) are relative to the scene's.
+  // `sources`: the scene's file, then the files that it includes. A name in one of them is relative to that
+  // file's folder. A name in none of them, such as an override, is relative to the scene's folder.
   ImageFiles(const AllowedFolders& folders, std::vector<std::filesystem::path> sources,
              image::PixelBudget& budget, DiagnosticLog& log)
       : folders_(folders), sources_(std::move(sources)), budget_(budget), log_(log) {}
@@ -23,7 +23,7 @@ class ImageFiles final : public reading::ImageSource {
   std::shared_ptr<const ImageTexture> load(ImageTexture wanted, const SourcePosition& position) override;
   std::optional<image::Image> load_light(const std::string& name, const SourcePosition& position) override;
 
-  // Every file that was to be read, in the order in which they were first named.
+  // Every file that was requested, in the order in which they were first named.
   const std::vector<std::filesystem::path>& files() const { return files_; }
 
  private:
@@ -38,7 +38,7 @@ class ImageFiles final : public reading::ImageSource {
   struct Entry {
     // The texels with each requested filter, wrap and colour space.
     std::vector<std::shared_ptr<const ImageTexture>> variants;
-    std::string refused;  // why there are none
+    std::string refused;  // the reason why there are no variants
   };
   std::map<std::filesystem::path, Entry> images_;  // by canonical path
 };

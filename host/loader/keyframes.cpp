@@ -26,19 +26,19 @@ bool is_number(const toml::node& node) {
   return node.is_integer() || node.is_floating_point();
 }
 
-// The number as TOML text that is read back as a number of the same kind and value.
+// The number as TOML text, which a reader turns back into a number of the same kind and value.
 std::string number_text(double value, bool integer) {
   if (integer && value == std::floor(value) && std::abs(value) < 0x1p53) return fmt::format("{:.0f}", value);
   const std::string text = fmt::format("{}", value);
   return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
 }
 
-// Names of tables that transforms and textures have need no escapes.
+// The key in quotes. The keys in tables of transforms and textures need no escapes.
 std::string key_text(std::string_view key) {
   return fmt::format("\"{}\"", key);
 }
 
-// The value itself.
+// The value itself as TOML text.
 std::string unchanged(const toml::node& node) {
   if (is_number(node)) return number_text(node.value_or(0.0), node.is_integer());
   if (node.is_boolean()) return node.value_or(false) ? "true" : "false";
@@ -76,7 +76,7 @@ std::optional<Rotation> as_rotation(const toml::node& node) {
   return rotation;
 }
 
-// The values from which that between the middle two is made: null for a neighbour that is not there.
+// Values at four successive keyframes. The result lies between the middle two. A missing outer value is null.
 using Four = std::array<const toml::node*, 4>;
 
 class Between {
@@ -84,7 +84,7 @@ class Between {
   Between(const std::array<double, 4>& frames, double frame, Curve curve, DiagnosticLog& log)
       : frames_(frames), share_((frame - frames[1]) / (frames[2] - frames[1])), curve_(curve), log_(log) {}
 
-  // True if no two values were unlike so far.
+  // True if all values so far could be interpolated: no two had different forms.
   bool sound() const { return sound_; }
 
   std::string text(const Four& values) {
@@ -121,7 +121,7 @@ class Between {
         if (!outer || !is_number(*outer)) return straight;
         return (inner - outer->value_or(0.0)) / (inner_frame - outer_frame);
       };
-      // Hermite's form.
+      // Evaluate the cubic in Hermite's form.
       const double a = length * slope(values[0], frames_[0], to, frames_[2]);
       const double b = length * slope(values[3], frames_[3], from, frames_[1]);
       const double t = share_;
@@ -174,8 +174,8 @@ class Between {
   bool sound_ = true;
 };
 
-// The part of the node that cannot move: a string, which may name a file or be a formula, a date, or a key
-// that no scene has; null if there is none.
+// A part of the node that cannot be animated, or null. Such a part is a string, which may name a file or be a
+// formula, a date, or a key that no scene has.
 const toml::node* immovable(const toml::node& node) {
   if (const toml::array* array = node.as_array()) {
     for (const toml::node& element : *array)

@@ -16,8 +16,8 @@
 
 namespace eyeray::engine::loader {
 
-// The row of `types` that the table's `type` names, or where it is not written, its default; null where it
-// names none.
+// The row of `types` that the table's `type` names, or the default of `type` if it is not written. Null if
+// there is no such row.
 template <typename Type>
 const Type* named_type(const toml::table* table, const Section& section, std::span<const Type* const> types) {
   const toml::node* name = table ? table->get("type") : nullptr;
@@ -28,7 +28,7 @@ const Type* named_type(const toml::table* table, const Section& section, std::sp
   return found == types.end() ? nullptr : *found;
 }
 
-// The names of the keys that other kinds than `own` have and it has not, each once.
+// The names of the keys that `own` lacks and other kinds have, each once.
 template <typename Type>
 std::vector<std::string_view> keys_of_others(const Type& own, std::span<const Type* const> types) {
   std::vector<std::string_view> names;
@@ -40,7 +40,7 @@ std::vector<std::string_view> keys_of_others(const Type& own, std::span<const Ty
   return names;
 }
 
-// Reports each of the keys, which other kinds have, that is written.
+// Adds an error at each of `keys` that is written: only other kinds have them.
 template <typename Type>
 void refuse_keys(const toml::table& table, std::span<const std::string_view> keys,
                  std::span<const Type* const> types, DiagnosticLog& log) {
@@ -62,8 +62,8 @@ struct Kind {
   reading::TableReader reader;
 };
 
-// The table by the keys of its type, which comes first: it decides which other keys there are. The type is
-// null after an error in it, which is in the log. `table` null: not written.
+// Reads the type of a table, and the table by the keys of that type. The type is null after an error in it,
+// which is in the log. `table`: null if it is not written.
 template <typename Type>
 Kind<Type> read_kind(const Section& section, const toml::table* table, std::span<const Type* const> types,
                      const reading::ValueSources& sources, DiagnosticLog& log) {

@@ -1,4 +1,4 @@
-// A [[light]] of a scene file.
+// Reads a [[light]] of a scene file.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace eyeray::engine::loader {
 
-// Null after an error, which is in the log.
+// The light; null after an error, which is in the log.
 std::unique_ptr<Light> read_light(const Section& section, const toml::table& table,
                                   const reading::ValueSources& sources, DiagnosticLog& log);
 

@@ -57,7 +57,7 @@ std::string textures_manual() {
   return text;
 }
 
-// The values of a key that have their own page.
+// The manual's text about the values of a key: each value has its own section.
 template <typename Manual>
 std::string values_manual(std::string_view key, std::span<const std::string_view> names,
                           const Manual& manual) {
@@ -76,7 +76,7 @@ std::string scene_manual() {
       "This page is generated from the keys by which eyeray checks scenes (`host/loader/manual.cpp`). A test "
       "compares the page with them. [scene-file.md](scene-file.md) is the introduction.\n\n";
 
-  // The tables, then the additions of their types and values.
+  // Write each table, then the text about its types and values.
   for (const Section& section : sections()) {
     text += fmt::format("## `{}`\n\n", section.title);
     if (section.shape) {

@@ -28,7 +28,7 @@ void Materials::add(const Section& section, const toml::table& table) {
   auto [type, reader] = read_kind(section, &table, materials::types(), values_, log_);
   std::unique_ptr<Material> material = type ? type->parse(reader) : nullptr;
 
-  // Enter the name even after an error, so that its users are not reported too.
+  // Enter the name even after an error, so that shapes that use it are not reported too.
   const std::string name = reader.string("name");
   if (!reader.valid("name")) return;
   if (name.empty()) return reader.error("name", "a material's name must not be empty");

@@ -13,19 +13,19 @@ namespace eyeray::engine::loader {
 
 class Materials {
  public:
-  // They go into `scene`. All three must outlive it.
+  // The materials go into `scene`. The three arguments must outlive this object.
   Materials(Scene& scene, const reading::ValueSources& values, DiagnosticLog& log)
       : scene_(scene), values_(values), log_(log) {}
 
-  // Errors are in the log, here and below.
+  // Reads a material. This function and those below report errors to the log.
   void add(const Section& section, const toml::table& table);
-  // The index in Scene::materials of the table's `material`; after an error 0.
+  // The index in Scene::materials of a shape's `material`; 0 after an error.
   int find(reading::TableReader& shape);
-  // The index in Scene::materials of one that emits this radiance, in front or on both sides, and reflects
-  // nothing.
+  // The index in Scene::materials of a material that emits this radiance, in front or on both sides, and
+  // reflects nothing.
   int emitter(const Vec3& radiance, bool in_front);
-  // Reports too many materials that light passes through, and unused ones, in a scene that is otherwise
-  // whole.
+  // Reports unused materials, and too many materials that light passes through. To be called at the end, for
+  // a scene that is otherwise complete.
   void check() const;
 
  private:

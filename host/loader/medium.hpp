@@ -10,8 +10,8 @@ namespace eyeray::engine::loader {
 std::span<const reading::Key> medium_keys();
 std::string_view medium_manual();
 
-// Read the table, and report errors between its values to it. The medium is the vacuum for
-// integrators that know no other.
+// These functions read the table, and report conflicts between its values to it. The medium is a vacuum for
+// integrators that do not support media.
 Medium read_medium(reading::TableReader& table, IntegratorType integrator);
 MediumExtent read_medium_extent(reading::TableReader& table);
 

@@ -10,7 +10,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// "bunny.obj:12:3: message", without the frame of a list of diagnostics.
+// The error as one sentence, "bunny.obj:12:3: message", without the frame of a list of diagnostics.
 std::string one_sentence(const InputError& error) {
   const Diagnostic& first = error.diagnostics().front();
   const SourcePosition& at = first.position;
@@ -59,7 +59,8 @@ void MeshImports::import(Entry& entry, const fs::path& file, const Wanted& wante
     if (!memory_)
       for (const fs::path& each : entry.scene.files) add_file(each);
     entry.scene.warnings = warnings_of(entry.scene, file);
-    // The file may have been read before, for another animation or other normals.
+    // Leave out warnings that were given before: the file may have been read for another animation or other
+    // normals.
     std::erase_if(entry.scene.warnings,
                   [&](const std::string& each) { return !reported_.insert(each).second; });
   } catch (const InputError& wrong) {

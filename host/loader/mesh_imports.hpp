@@ -19,43 +19,44 @@ inline constexpr const char* no_animation = "none";
 
 class MeshImports {
  public:
-  // Names in one of `sources` (the scene, first, and its includes) are relative to the folder of the file
-  // that they stand in. Names that stand in no file (an override) are relative to the scene's. `trees`:
+  // `sources`: the scene's file, then the files that it includes. A name in one of them is relative to that
+  // file's folder. A name in none of them, such as an override, is relative to the scene's folder. `trees`:
   // folder trees that may contain the files that mesh files name.
   MeshImports(const AllowedFolders& folders, std::vector<std::filesystem::path> trees,
               std::vector<std::filesystem::path> sources, image::PixelBudget& budget)
       : folders_(&folders), trees_(std::move(trees)), sources_(std::move(sources)), budget_(budget) {}
-  // For a scene that is in no file. `memory` must outlive this object.
+  // The mesh files of a scene in memory. `memory` must outlive this object.
   MeshImports(const MemoryFiles& memory, image::PixelBudget& budget) : memory_(&memory), budget_(budget) {}
 
   struct Loaded {
     importers::ImportedScene* scene;
-    bool fresh;  // this is the first time that it is asked for
+    bool fresh;  // true if this is the first request for it
   };
-  // The moment that animated files are shown at, in seconds; 0 until it is set.
+  // Sets the moment at which animated files are shown, in seconds; it is 0 before that.
   void show(double seconds) { seconds_ = seconds; }
 
-  // The contents of the file `name`, as the file `from` writes it. The pointer stays valid. The moment in
-  // `playing` is ignored. Error, one sentence, if the file cannot be read; the same one each time.
+  // The contents of the file that is called `name` in the file `from`. The pointer stays valid. The moment in
+  // `playing` is ignored. If the file cannot be read: Error, one sentence, the same each time.
   Loaded load(const std::string& name, std::optional<double> smooth, importers::Playing playing,
               const std::string& from);
 
-  // The contents of a mesh file that is itself the scene; it will not be fresh again. InputError and Error as
-  // import_file.
+  // The contents of a mesh file that is itself the scene; later requests do not return it as fresh.
+  // InputError and Error as import_file.
   Loaded load_alone(const std::filesystem::path& file);
-  // The file at rest, which is not shown. InputError, as from import_file, if nothing could be seen.
+  // The file without animation, which is read but not shown. InputError, as from import_file, if nothing
+  // could be seen.
   importers::ImportedScene rest(const std::filesystem::path& file) const;
 
-  // The animations of the loaded files, each once for each way in which it is shown.
+  // The animations of the files shown: one for each way in which a file is shown.
   std::vector<importers::PlayedAnimation> played() const;
 
-  // Every file that was to be read, in the order in which they were first named.
+  // Every file that was requested, in the order in which they were first named.
   const std::vector<std::filesystem::path>& files() const { return files_; }
 
  private:
   struct Entry {
     importers::ImportedScene scene;
-    std::string refused;  // why there is none
+    std::string refused;  // the reason why there is no scene
     ExitCode code = ExitCode::ok;
     bool shown = false;
   };
@@ -72,14 +73,14 @@ class MeshImports {
   void import(Entry& entry, const std::filesystem::path& file, const Wanted& wanted);
   void add_file(const std::filesystem::path& file);
 
-  const AllowedFolders* folders_ = nullptr;  // or else
-  const MemoryFiles* memory_ = nullptr;
+  const AllowedFolders* folders_ = nullptr;  // null for a scene in memory
+  const MemoryFiles* memory_ = nullptr;      // null for a scene in a file
   std::vector<std::filesystem::path> trees_;
   std::vector<std::filesystem::path> sources_;
   image::PixelBudget& budget_;
   std::vector<std::filesystem::path> files_;
   std::map<Wanted, Entry> entries_;
-  std::set<std::string> reported_;  // warnings
+  std::set<std::string> reported_;  // the warnings given so far
   double seconds_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// Instances of mesh files' contents, put into a scene. Private to the loader.
+// Puts instances of mesh files' contents into a scene. Private to the loader.
 #pragma once
 
 #include <map>
@@ -15,13 +15,14 @@ class MeshPlacer {
  public:
   explicit MeshPlacer(Scene& scene) : scene_(scene) {}
 
-  // Adds everything that the file shows to `into`, moved by `transform`, with one material for all or,
-  // absent, with the file's own. The first time, the file's meshes, and its materials once they are needed,
-  // move into the scene. Why it cannot stand there, or "".
+  // Adds everything that the file shows to `into`, moved by `transform`. `material` is for all of it; if
+  // absent, the file's own materials are used. The file's meshes move into the scene at the first call, its
+  // materials when they are first needed. Returns the reason why the file cannot be shown under `transform`,
+  // or "".
   std::string place(importers::ImportedScene& import, const Mat4& transform, std::optional<int> material,
                     const SourcePosition& position, const NameRef& name, std::vector<Instance>& into);
 
-  // Why a mesh of the scene cannot stand under this map, or "".
+  // The reason why a mesh of the scene cannot be shown under this map, or "".
   std::string check(size_t mesh, const Mat4& transform) const;
 
  private:
@@ -33,7 +34,7 @@ class MeshPlacer {
   // The facts that decide whether a map leaves a mesh sound.
   struct Extent {
     Bounds bounds;
-    double thinnest;  // triangle, see thickness()
+    double thinnest;  // least thickness() of a triangle
   };
 
   void take_meshes(importers::ImportedScene& import, Place& place);

@@ -19,7 +19,8 @@ toml::array list(const Vec3& v) {
   return toml::array{v.x, v.y, v.z};
 }
 
-// If there are more vertices, the boxes of their meshes are framed instead.
+// Limit on the vertices that the camera frames; if there are more, it frames the boxes of their meshes
+// instead.
 constexpr size_t most_points = 4'000'000;
 
 // Calls visit(p) for points in the world that span all instances.
@@ -42,20 +43,21 @@ void each_point(const importers::ImportedScene& import, const Visit& visit) {
   }
 }
 
-// From where all is seen, and little else, in pictures of any shape.
+// A camera that shows all of the file, and little else, in pictures of any aspect ratio.
 importers::ImportedCamera framing(const importers::ImportedScene& import) {
   Bounds box;
   each_point(import, [&](const Vec3& p) { box.include(p); });
   const Vec3 centre = box.min + (box.max - box.min) / 2.0;
 
-  // Four planes through the eye bound the view. Push each towards the points until it touches one: two that
-  // face each other then intersect at the nearest possible eye for that direction. The farther one of both
-  // directions sees everything, with as much room on either side.
+  // Four planes through the eye bound the view. Push each plane towards the points until it touches one. Two
+  // opposite planes then intersect at the nearest possible eye for their axis. The farther of the two axes'
+  // eyes sees everything, with equal margins on both sides.
   const Vec3 right = glm::normalize(glm::cross(Vec3(0, 1, 0), towards_eye));
   const Vec3 up = glm::cross(towards_eye, right);
   const double slope = std::tan(glm::radians(fov_degrees / 2)) * (1 - margin);
   constexpr double lowest = std::numeric_limits<double>::lowest();
-  Vec2 most[2] = {Vec2(lowest), Vec2(lowest)};  // by right and up: on the positive side, on the negative
+  Vec2 most[2] = {Vec2(lowest),
+                  Vec2(lowest)};  // along right and up: on the positive side; on the negative side
   each_point(import, [&](const Vec3& p) {
     const Vec3 from_centre = p - centre;
     const double nearer = slope * glm::dot(from_centre, towards_eye);
@@ -110,8 +112,8 @@ toml::table table(const SpotLight& light) {
                      {"outer_angle", std::min(glm::degrees(light.outer), 90.0)}};
 }
 
-// The two lights of a studio: a key light over the left shoulder of whoever looks, and a weak one from the
-// right that gives the shadows form.
+// The two lights of a studio: a key light over the viewer's left shoulder, and a weak light from the right
+// that gives the shadows form.
 decltype(importers::ImportedScene::lights) studio_lights(const importers::ImportedCamera& camera) {
   const Vec3 back = unit(camera.eye - camera.target);
   const Vec3 right = unit(glm::cross(camera.up, back));
