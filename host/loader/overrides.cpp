@@ -14,7 +14,7 @@ namespace eyeray::engine::loader {
 
 namespace {
 
-// True if it is a name or the path of a file, which needs no quotes.
+// True if the text is a name or the path of a file, which needs no quotes.
 bool is_word(std::string_view text) {
   const auto letter = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||
@@ -40,13 +40,14 @@ std::optional<size_t> as_index(std::string_view text) {
 
 class Assignment {
  public:
-  // `at`: where errors of the key stand; `value_at`: where the text's value does, if in a file.
+  // `at`: the position for errors in the key. `value_at`: the position of the text's value, if it is in a
+  // file.
   Assignment(std::string text, SourcePosition at, SourcePosition value_at, toml::table& root,
              DiagnosticLog& log)
       : text_(std::move(text)), at_(std::move(at)), value_at_(std::move(value_at)), root_(root), log_(log) {}
 
-  // Returns the parts of the key, where elements of lists have their index in place of a name; none after an
-  // error.
+  // Sets the value. Returns the parts of the key, with indices in place of the names of list elements; none
+  // after an error.
   std::vector<std::string> apply() {
     if (!parse()) return {};
     toml::node* const section = enter_section();
@@ -60,7 +61,7 @@ class Assignment {
  private:
   void fail(std::string message) { log_.error(at_, std::move(message)); }
 
-  // Parses as if the text's value stood at its position in a file, all of it in one line.
+  // Parses the text, all in one line, with its value at the value's position in the file.
   toml::table parse_in_place(const std::string& text) const {
     const size_t value = text.find('=') + 1;
     const auto lines = size_t(std::max(0, value_at_.line - 1));
@@ -70,7 +71,7 @@ class Assignment {
     return toml::parse(before + text, value_at_.file);
   }
 
-  // Reads KEY=VALUE as the TOML it is; a bare word gets its quotes.
+  // Reads KEY=VALUE as TOML, after adding quotes to a bare word.
   bool parse() {
     const size_t equals = text_.find('=');
     TreeBudget budget;
@@ -104,7 +105,7 @@ class Assignment {
     return true;
   }
 
-  // The table that the first one or two parts name; null, with an error, where there is none.
+  // The table that the first one or two parts of the key name; null, with an error, if there is none.
   toml::node* enter_section() {
     const std::string_view name = path_[0].str();
     const Section* section = find_section(name);
@@ -122,7 +123,7 @@ class Assignment {
     return find_element(*section, found ? found->as_array() : nullptr);
   }
 
-  // An element of a list of tables, by index or by its `name`.
+  // The element of a list of tables that the key's second part selects, by index or by its `name`.
   toml::node* find_element(const Section& section, toml::array* list) {
     const std::string_view wanted = path_[1].str();
     const size_t count = list ? list->size() : 0;
@@ -148,7 +149,7 @@ class Assignment {
     return nullptr;
   }
 
-  // Goes down the other parts, and sets the last; false after an error.
+  // Follows the other parts of the key, and sets the value at the last part; false after an error.
   bool assign(toml::node& section) {
     toml::node* node = &section;
     for (; next_ < path_.size(); ++next_) {
@@ -190,7 +191,7 @@ class Assignment {
   toml::table tree_;
   std::vector<toml::key> path_;
   size_t next_ = 0;                // the first part of the path that was not followed yet
-  std::optional<size_t> element_;  // of a list of tables
+  std::optional<size_t> element_;  // index in a list of tables
   toml::node* value_ = nullptr;
 };
 

@@ -1,4 +1,4 @@
-// -D: values laid over the files. Private to the loader.
+// Overrides (-D): values that replace those of the scene's files. Private to the loader.
 #pragma once
 
 #include <toml++/toml.h>
@@ -12,12 +12,12 @@
 
 namespace eyeray::engine::loader {
 
-// Puts each value at its key in the tree, as if it stood in the file; it is checked with all others later.
+// Sets each value at its key in the tree, as if it stood in the file. All values are checked later.
 void apply_overrides(toml::table& root, std::span<const Override> overrides, DiagnosticLog& log);
 
-// Applies a value that keyframes have made, as TOML. `at`: the position of `target`, the key. `value_at`: the
-// position of its keyframes, at which errors in the value are reported. Returns the parts of the key, with
-// indices in place of names: "sphere", "0", "radius". After an error there are none.
+// Sets a value in TOML that was interpolated from keyframes. `at`: the position of `target`, the key.
+// `value_at`: the position of its keyframes, at which errors in the value are reported. Returns the parts of
+// the key, with indices in place of names: "sphere", "0", "radius". After an error there are none.
 std::vector<std::string> apply_track(toml::table& root, std::string_view target, std::string_view value,
                                      const SourcePosition& at, const SourcePosition& value_at,
                                      DiagnosticLog& log);

@@ -12,9 +12,9 @@
 namespace eyeray::engine::loader {
 namespace {
 
-// In float32 a point is in one of so many cells along an axis (shaders/integrators/photon_cells.glsl).
+// Limit on the cells along an axis that float32 can distinguish (shaders/integrators/photon_cells.glsl).
 constexpr double most_cells = 1 << 22;
-// A sample that gathers more takes seconds.
+// Limit on the photons that a sample gathers: a sample that gathers more takes seconds.
 constexpr double most_gathered = 1 << 20;
 
 bool has_end(const Shape& shape) {
@@ -22,7 +22,7 @@ bool has_end(const Shape& shape) {
   return std::isfinite(glm::length(bounds.max - bounds.min));
 }
 
-// For each material, whether a surface of the scene has it. A material without a shape stores no photon.
+// For each material, true if a surface of the scene has it. A material without a surface stores no photon.
 std::vector<bool> used_materials(const Scene& scene) {
   std::vector<bool> used(scene.materials.size());
   const auto add = [&](const std::vector<std::unique_ptr<Shape>>& shapes) {
@@ -85,7 +85,7 @@ void check_lights(const Scene& scene, reading::TableReader& render, std::span<co
   }
 }
 
-// Radii and numbers that no picture can be made with.
+// Reports radii and numbers of photons with which no picture can be made.
 void check_radius(const Scene& scene, const PhotonSettings& settings, reading::TableReader& render) {
   const char* const key = render.has("photon_radius") ? "photon_radius" : "integrator";
   const double reach = settings.reach + glm::length(settings.center - scene.camera.eye);

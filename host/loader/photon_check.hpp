@@ -9,8 +9,8 @@
 
 namespace eyeray::engine::loader {
 
-// Makes a background that shines an environment, which photons can come from, and reports faults. `render`:
-// the scene's own table; `lights`: where each of its lights stands.
+// Turns a background that emits light into an environment, from which photons can come, and reports faults.
+// `render`: the scene's [render] table. `lights`: the position of each of its lights in the files.
 void prepare_for_photons(Scene& scene, reading::TableReader& render, std::span<const SourcePosition> lights,
                          DiagnosticLog& log);
 

@@ -32,8 +32,8 @@ namespace eyeray::engine::loader {
 
 namespace {
 
-// Each light is an iteration and a shadow ray at every hit. A driver that ends loops after 65 535 iterations
-// has room for so many where a scene has 24 shapes and no BVH, too (docs/lavapipe.md).
+// Limit on lights. Each light costs an iteration and a shadow ray at every hit. So many lights fit even into
+// a driver's limit of 65 535 iterations a loop, for a scene with 24 shapes and no BVH (docs/lavapipe.md).
 constexpr size_t most_lights = 2048;
 
 constexpr size_t most_animations_named = 16;
@@ -113,7 +113,7 @@ class Builder {
  private:
   friend class loader::CsgReader<Builder>;
 
-  // Null where it is not written.
+  // The table of that name; null if it is not written.
   const toml::table* single(std::string_view name) const {
     const toml::node* node = root_.get(name);
     return node ? node->as_table() : nullptr;
@@ -124,8 +124,8 @@ class Builder {
     return reading::read_table({section.title, single(name), {section.keys}}, log_);
   }
 
-  // Visits the tables of a list; one that should be a list or a table and is not is an error. Returns whether
-  // there was none.
+  // Visits the tables in the list `name`. Returns false, and adds an error, if its value is no list or an
+  // element is no table.
   template <typename Visit>
   bool for_each(const toml::table& holder, std::string_view name, const Visit& visit,
                 std::string_view holder_name = "group") {
@@ -176,20 +176,20 @@ class Builder {
   MeshPlacer placer_{scene_};
   std::optional<GroupPlan> plan_;
   GroupPlacer group_placer_{scene_, placer_};
-  std::map<const toml::table*, int> instanced_groups_;  // in Scene::groups
-  double worst_condition_ = 0;                          // of the maps read since the last group was begun
-  Group* building_ = nullptr;                           // where shapes and meshes go; null: into the scene
+  std::map<const toml::table*, int> instanced_groups_;  // indices in Scene::groups
+  double worst_condition_ = 0;                          // of all maps since the current group was begun
+  Group* building_ = nullptr;                           // receives shapes and meshes; null: the scene does
   size_t lights_ = 0;
-  std::vector<SourcePosition> light_positions_ = {};  // of scene_.lights
+  std::vector<SourcePosition> light_positions_ = {};  // one for each of scene_.lights
   std::vector<std::pair<const AreaShape*, const toml::table*>> area_lights_ = {};
   bool tried_shapes_ = false;
 };
 
-// The shapes, meshes and groups of a group, or of the scene.
+// Adds the shapes, meshes and groups of a group, or of the scene.
 void Builder::add_placed(const toml::table& holder, const Placing& group) {
   for (const std::string_view name : placed_names()) {
     for_each(holder, name, [&](const Section& section, const toml::table& table) {
-      // A pattern stands where instances show it.
+      // Skip a pattern: only instances show it.
       if (section.kind == Section::Kind::group && GroupPlan::is_pattern(table)) return;
       add_table(section, table, group);
     });
@@ -226,7 +226,8 @@ void Builder::add_table(const Section& section, const toml::table& table, const 
   });
 }
 
-// All of a group, apart from the scene; its name there goes before the names in it.
+// Builds a group by itself, outside the scene. Names in it do not include the group's own name, which each of
+// its instances adds.
 Group Builder::build_group(const toml::table& table, const Mat4& to_world) {
   Group group;
   Group* const outer = std::exchange(building_, &group);
@@ -243,8 +244,8 @@ void Builder::add_group(reading::TableReader& reader, const toml::table& table, 
     Group group = build_group(table, Mat4(1.0));
     entry->second = group_placer_.keep(std::move(group), worst_condition_);
   }
-  // The legality of a scene does not depend on instancing: where the group may not be instanced, read it as
-  // it stands there.
+  // Instancing must not decide whether a scene is valid. If the group may not fit at this transform, read it
+  // there once more for its errors.
   if (!group_placer_.surely_fits(entry->second, placing.to_world)) build_group(table, placing.to_world);
   group_placer_.place(entry->second, placing.to_world, reader.position(), placing.name);
 }
@@ -259,7 +260,7 @@ void Builder::add_instance(reading::TableReader& reader, const Placing& placing)
                                     nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", nearest)));
 }
 
-// Errors in a pattern that nothing shows are errors all the same.
+// Reports the errors in patterns that no instance shows, and warns of these patterns.
 void Builder::check_idle_patterns() {
   for (const toml::table* group : plan_->idle()) {
     Group unused;
@@ -272,7 +273,7 @@ void Builder::check_idle_patterns() {
   }
 }
 
-// Calls add(reader, to_world) for the table, or for each element of its batch. Returns how many these are.
+// Calls add(reader, placing) for the table, or for each element of its batch. Returns the number of elements.
 template <typename Add>
 size_t Builder::for_each_placed(const Section& section, const toml::table& table, const Placing& group,
                                 const Add& add) {
@@ -289,7 +290,7 @@ size_t Builder::for_each_placed(const Section& section, const toml::table& table
   for (size_t i = 0; i < batch.count; ++i) {
     placed.name = {group.name.index, false};
     if (const std::string_view name = written_name(table, batch, i); !name.empty()) {
-      // If the batch does not list names, all its elements share the table's name, with numbers.
+      // If the batch does not list names, its elements have the table's name and a number.
       const bool shared = batch.lists && !batch.lists->contains("name");
       placed.name = {scene_.names.add(name, shared ? uint32_t(i + 1) : 0, group.name.index), true};
     }
@@ -325,7 +326,7 @@ std::unique_ptr<Shape> Builder::read_shape(const Section& section, const toml::t
   return parse_shape(section, reader, placing, materials_.find(reader));
 }
 
-// A separate shape, or a part.
+// Reads a shape, or a part of a CSG object.
 std::unique_ptr<Shape> Builder::parse_shape(const Section& section, reading::TableReader& reader,
                                             const Placing& placing, int material) {
   std::unique_ptr<Shape> shape = section.shape->parse(reader, placing.to_world);
@@ -369,7 +370,7 @@ void Builder::add_mesh(reading::TableReader& reader, const Placing& placing) {
   }
 }
 
-// Warns of legal scenes that are hardly meant.
+// Warns of a valid scene that its author has probably not intended.
 void Builder::check_whole(reading::TableReader& render) {
   const bool empty = scene_.shapes.empty() && scene_.instances.empty() && scene_.group_instances.empty();
   if (empty && !tried_shapes_) log_.warning({}, "the scene has no shapes: only background will be seen");

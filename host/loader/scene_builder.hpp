@@ -1,4 +1,4 @@
-// From the tree of a scene's files to a Scene. Private to the loader.
+// Turns the TOML tree of a scene's files into a Scene. Private to the loader.
 #pragma once
 
 #include <toml++/toml.h>
@@ -11,14 +11,14 @@
 
 namespace eyeray::engine::loader {
 
-// The sources of files that a scene names; null if it may name no such files.
+// The sources of files that a scene names. A null source: the scene may name no such files.
 struct SceneSources {
   reading::ImageSource* images = nullptr;
   MeshImports* meshes = nullptr;
   reading::FormulaSource* formulas = nullptr;
 };
 
-// Everything but Scene::file, files and warnings; only whole when the log has no errors.
+// The scene without Scene::file, files and warnings. It is complete only if the log has no errors.
 Scene build_scene(const toml::table& root, const SceneSources& sources, DiagnosticLog& log);
 
 }  // namespace eyeray::engine::loader

@@ -9,7 +9,7 @@
 namespace eyeray::engine::loader {
 namespace {
 
-// The position at which line `line` of the text, from 1, begins.
+// The byte at which line `line` of the text begins; lines count from 1.
 size_t line_start(const std::string& text, uint32_t line) {
   size_t at = 0;
   for (; line > 1; --line) at = text.find('\n', at) + 1;
@@ -43,7 +43,7 @@ std::string with_value(std::string text, const std::string& table, const std::st
     return header_end == std::string::npos ? text + line + '\n' : text.insert(header_end, line);
   }
 
-  // The value ends where the line goes on with something else.
+  // Find the value: it ends at a space, a comma, a brace, a comment or the end of the line.
   const size_t name = text.find(key, line_start(text, old->source().begin.line));
   const size_t begin = text.find_first_not_of(" \t=", name + key.size());
   const size_t end = std::min(text.find_first_of(" \t\r\n,}#", begin), text.size());

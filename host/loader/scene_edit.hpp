@@ -1,4 +1,4 @@
-// Changes to a scene file that leave all else in it as its author wrote it.
+// Changes a value in a scene file, and leaves the rest as its author wrote it.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +7,8 @@
 namespace eyeray::engine::loader {
 
 // Writes `key = value` of [table] into the scene file: over the value that stands there, or as a new line.
-// Error (bad_input) where the file is no TOML or the value stands so that it cannot be found, Error (file_io)
-// where the file cannot be read or written. It is replaced whole or not at all.
+// Error (bad_input) if the file is no TOML or is written in a form in which the value cannot be found. Error
+// (file_io) if the file cannot be read or written. The file is replaced as a whole or not at all.
 void set_value(const std::filesystem::path& file, const std::string& table, const std::string& key,
                const std::string& value);
 

@@ -23,7 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// `images`, `meshes` and `formulas`: null for a scene that is in no file.
+// Makes the scene of a document. `images`, `meshes` and `formulas`: the files that it may use, or null for
+// none.
 Scene finish(Document document, const fs::path& file, std::span<const Override> overrides, ImageFiles* images,
              MeshImports* meshes, FormulaFiles* formulas, DiagnosticLog& log) {
   apply_overrides(document.root, overrides, log);
@@ -46,7 +47,7 @@ Scene finish(Document document, const fs::path& file, std::span<const Override> 
   return scene;
 }
 
-// The moment that the overrides set; their faults are reported later.
+// The moment in seconds that the overrides set. Faults in the overrides are reported later.
 double requested_seconds(std::span<const Override> overrides) {
   std::vector<Override> about;
   std::ranges::copy_if(overrides, std::back_inserter(about),
@@ -57,19 +58,19 @@ double requested_seconds(std::span<const Override> overrides) {
   return seconds(apply_animation(root, unheard));
 }
 
-// The mesh file as if a scene showed it.
+// The document of a scene that shows the mesh file.
 Document read_mesh(const fs::path& file, std::span<const Override> overrides, MeshImports& meshes,
                    DiagnosticLog& log) {
   log.add_source(file.string(), "");
   meshes.show(requested_seconds(overrides));
   const MeshImports::Loaded loaded = meshes.load_alone(file);
-  // The camera of a film stands still: it frames the file at rest.
+  // Frame the file at rest, so that the camera does not move during an animation.
   std::optional<importers::ImportedScene> rest;
   if (loaded.scene->played && !loaded.scene->camera) {
     try {
       rest = meshes.rest(file);
     } catch (const InputError&) {
-      // Then there is nothing to see at rest.
+      // There is nothing to see at rest, so frame the file at this moment.
       if (loaded.scene->instances.empty()) throw;
     }
   }
@@ -79,8 +80,8 @@ Document read_mesh(const fs::path& file, std::span<const Override> overrides, Me
   return {mesh_scene(file, *loaded.scene, rest ? *rest : *loaded.scene, around), {}};
 }
 
-// If the scene moves while its shutter is open, sets the function that makes it for another moment, by `load`
-// with one more override.
+// If the scene moves while its shutter is open, sets the function that makes the scene at another moment. It
+// calls `load` with one more override.
 template <typename Load>
 Scene with_moments(Scene scene, std::span<const Override> overrides, const Load& load) {
   if (scene.animation.tracks == 0 || scene.animation.shutter == 0) return scene;

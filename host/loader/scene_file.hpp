@@ -13,34 +13,34 @@
 namespace eyeray::engine::loader {
 
 // "render.max_depth=3", "image.width=64", "sphere.0.radius=2", "material.glass.ior=1.3",
-// "light.1.intensity=[1,1,1]": a value laid over the file, the same as if it stood there. The right side is
+// "light.1.intensity=[1,1,1]": a value that replaces the file's, as if it stood there. The right side is
 // TOML; a bare word is taken as a string.
 struct Override {
   std::string text;
-  std::string written = {};  // as its author did: "-s 640x480"; empty: "-D TEXT"
+  std::string written = {};  // the option as the user wrote it, "-s 640x480"; empty: "-D TEXT"
 };
 
-// The rights of a scene file.
+// The permissions of a scene file.
 struct Trust {
   std::vector<std::filesystem::path> folders =
-      {};  // beside its own that it may read included files, images and meshes from, with all below
-  bool formulas = true;  // whether it may define functions, or use ready ones alone
+      {};  // trees, beside its own folder's, from which it may read included files, images and meshes
+  bool formulas = true;  // true: it may define functions; false: it may only use ready ones
 };
 
-// Reads, includes, overrides and checks a scene, or makes one that shows a mesh file (.obj, .ply, .gltf,
-// .glb). Throws InputError with every error at once, or Error (file_io) when the file itself
-// cannot be read.
+// Reads a scene with its included files, applies the overrides, and checks it. A mesh file (.obj, .ply,
+// .gltf, .glb) becomes a scene that shows it. Throws InputError with all errors at once, or Error (file_io)
+// if the file itself cannot be read.
 Scene load_scene(const std::filesystem::path& file, std::span<const Override> overrides = {},
                  const Trust& trust = {});
-// The mesh files of a scene that is in no file: the bytes of each, by the name that the scene gives.
+// The mesh files of a scene in memory: the bytes of each file, by its name in the scene.
 using MemoryFiles = std::map<std::string, std::string, std::less<>>;
 
-// Parses a scene from memory. `name` stands in messages. The scene can neither include files nor name images,
+// Parses a scene from memory. Messages contain `name`. The scene can neither include files nor name images,
 // and can name only the meshes of `files`. `formulas`: as in Trust.
 Scene parse_scene(std::string_view text, const std::string& name, std::span<const Override> overrides = {},
                   const MemoryFiles& files = {}, bool formulas = true);
 
-// The JSON Schema of scene files, made from the same Keys that the loader checks by; docs/scene.schema.json.
+// The JSON Schema of scene files, made from the Keys by which the loader checks them; docs/scene.schema.json.
 std::string scene_schema();
 
 // Every table and key of scene files as Markdown, made from the same Keys; docs/scene-reference.md.

@@ -35,7 +35,7 @@ Json from_toml(const toml::node& node) {
   return list;
 }
 
-// Integers as such, so that the schema reads 1 and not 1.0.
+// The number as JSON: an integer if it is one, so that the schema contains 1 and not 1.0.
 Json bound(double value) {
   if (std::fabs(value) < 1e15 && std::trunc(value) == value) return static_cast<int64_t>(value);
   return value;
@@ -68,7 +68,7 @@ Json reference_to(std::string_view definition) {
   return {{"$ref", fmt::format("#/$defs/{}", definition)}};
 }
 
-// Definitions of values that many keys take.
+// The names of definitions for values that many keys take.
 constexpr std::string_view texture_definition = "texture", transform_definition = "transform";
 
 Json texture_schema() {
@@ -185,7 +185,8 @@ Json table_schema(std::span<const Key> keys) {
   return schema;
 }
 
-// One alternative a type, each with its own keys. All but the default must be named.
+// The schema of a table that has a `type`: one alternative a type, with that type's keys. `type` is required
+// in all alternatives but the default's.
 template <typename Type>
 Json kinds_schema(const Section& section, std::span<const Type* const> types) {
   const Key& type_key = *std::ranges::find(section.keys, "type", &Key::name);
@@ -202,8 +203,8 @@ Json kinds_schema(const Section& section, std::span<const Type* const> types) {
   return {{"oneOf", std::move(alternatives)}};
 }
 
-// The schema of a shape or mesh in the world, or in a group: unlike a CSG object's part it needs the keys
-// that its table requires beside the definition.
+// The schema of a shape or mesh in the world, or in a group. Unlike a part of a CSG object, a shape needs a
+// material, in its table or its batch.
 Json world_ray(const Section& section) {
   Json schema = reference_to(section.name);
   if (section.shape && !section.is_combined())
@@ -220,7 +221,8 @@ Json shapes_of_csg() {
   return shapes;
 }
 
-// Required keys may stand in the batch instead. `keys`: beside those of the shape.
+// The schema of a table that may have a batch, in which its required keys may stand instead. `keys`: its keys
+// beside those of the shape.
 Json placed_schema(const Section& section, std::span<const Key> keys) {
   Json schema = table_schema(keys);
   if (section.shape) add_keys(schema, section.shape->keys);

@@ -183,7 +183,7 @@ std::span<const Key> verify_keys() {
   return verify_table;
 }
 
-// The tables' fallbacks are those of a scene that no file has filled.
+// The fallbacks of the tables' keys must equal the defaults of a Scene.
 static_assert(ImageSettings{}.pattern == SamplePattern::regular);
 static_assert(RenderSettings{}.integrator == IntegratorType::whitted);
 

@@ -1,4 +1,4 @@
-// The tables that have no kinds: their keys, and their values as the scene holds them.
+// The tables that have no kinds: their keys, and functions that turn them into the scene's settings.
 #pragma once
 
 #include <span>

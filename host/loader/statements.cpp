@@ -21,7 +21,7 @@ void skip_space(std::string_view& text) {
   while (!text.empty() && is_space(text[0])) text.remove_prefix(1);
 }
 
-// Takes `a."b c".d` off the front of `text`; empty where there is no such thing.
+// Takes a key such as `a."b c".d` off the front of `text`. Returns its parts; none if there is no key.
 std::vector<std::string> take_key(std::string_view& text) {
   std::vector<std::string> parts;
   for (;;) {
@@ -54,7 +54,8 @@ std::optional<Start> parse_start(std::string_view line) {
   const bool header = line.starts_with('[');
   if (header) line.remove_prefix(line.starts_with("[[") ? 2 : 1);
 
-  // Lists of numbers may start lines inside of values: names of tables do not start with a digit or a sign.
+  // Reject a list of numbers, which may start a line inside a value. Names of tables do not start with a
+  // digit or a sign.
   skip_space(line);
   if (header && !line.empty() && !(is_bare(line[0]) && line[0] != '-' && !(line[0] >= '0' && line[0] <= '9')))
     return {};
@@ -73,7 +74,7 @@ bool parses(std::string_view text) {
   }
 }
 
-// The whole text as statements; text before the first belongs to none.
+// The whole text as statements. Text before the first statement belongs to none.
 std::vector<Statement> split(std::string_view text) {
   std::vector<Statement> all;
   std::vector<std::string> header;
@@ -109,17 +110,17 @@ Statement statement_at(std::string_view text, int line) {
   if (found == all.begin()) return whole_line(text, line);
   --found;
 
-  // If a statement starts in spite of an error, the one before may still be open.
+  // If a statement starts at the line of the error, the statement before it may still be open.
   if (found != all.begin() && found->line == line) {
     const Statement& before = *std::prev(found);
     if (!parses(text.substr(before.begin, before.end - before.begin))) return before;
   }
 
-  // Text after a complete statement is no part of it.
+  // Blame only this line if the statement before it is complete.
   const Statement rest = whole_line(text, line);
   if (found->line < line && parses(text.substr(found->begin, rest.begin - found->begin))) return rest;
 
-  // A table goes as a whole: its keys would fall into the table before.
+  // Take a table as a whole: without its header, its keys would belong to the table before it.
   Statement statement = *found;
   if (statement.is_header) {
     const auto next =
@@ -136,13 +137,14 @@ void blank(std::string& text, const Statement& statement) {
 }
 
 std::optional<Excess> find_excess(std::string_view text, TreeBudget& budget) {
-  // toml++'s measured cost of each, in the budget's units. Each part of a key may be a separate table.
+  // The measured cost of each item in toml++, in the budget's units. Each part of a key may be a separate
+  // table.
   constexpr size_t of_comma = 1, of_list = 2, of_table = 4, of_key_part = 8;
 
   int line = 1;
   size_t line_begin = 0;
-  int parts = 1;  // of a possible key
-  int depth = 0;  // of brackets
+  int parts = 1;  // number of parts of a possible key
+  int depth = 0;  // number of open brackets
   bool blank = true, header = false;
   for (size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];

@@ -12,7 +12,8 @@ namespace fs = std::filesystem;
 namespace eyeray::engine::loader {
 namespace {
 
-// The files that `scene` includes, as far as it can be read: its errors are reported when it is loaded.
+// The files that `scene` includes, as far as it can be read. Its errors are not reported here, but when it is
+// loaded.
 std::vector<fs::path> included_by(const fs::path& scene) {
   std::vector<fs::path> files;
   const auto add = [&](const toml::node& node) {

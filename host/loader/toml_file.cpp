@@ -15,7 +15,8 @@ namespace eyeray::engine::loader {
 
 namespace {
 
-// A damaged file is parsed again after each error; big ones only once.
+// A damaged file is parsed again after each error, at most `most_repairs` times. A file of more than
+// `largest_repaired` bytes is parsed only once.
 constexpr int most_repairs = 50;
 constexpr size_t largest_repaired = size_t{1} << 20;
 
@@ -23,7 +24,7 @@ constexpr size_t most_bytes = size_t{256} << 20;
 
 constexpr std::string_view redefinition = "cannot redefine existing ";
 
-// The key `path` points at, below the last table that was opened in `tree`, or below its root.
+// The key to which `path` leads in `tree`; of a list of tables, the last table counts. Null if there is none.
 const toml::key* find_key(const toml::table& tree, const std::vector<std::string>& path) {
   const toml::table* table = &tree;
   const toml::key* found = nullptr;
@@ -57,7 +58,7 @@ std::optional<SourcePosition> first_definition(const std::string& text, const St
   return reading::position_of(key->source());
 }
 
-// The quoted name in the message, or "".
+// The name in quotes in the message, or "".
 std::string quoted_name(std::string_view message) {
   const size_t open = message.find('\'');
   const size_t close = message.rfind('\'');
@@ -81,12 +82,12 @@ void report(const toml::parse_error& error, const std::string& text, const State
                 fmt::format("{}`{}` is given twice; line {} has it already",
                             statement.is_header ? "the table " : "", what, first->line));
     } else {
-      log.error(at, fmt::format("`{}` is given twice", quoted_name(message)));  // inside of a value
+      log.error(at, fmt::format("`{}` is given twice", quoted_name(message)));  // the key is inside a value
     }
     return;
   }
 
-  // Blame an open value where it begins, not where the parser noticed.
+  // Report an open value at its beginning, not at the position where the parser noticed it.
   if (statement.line < at.line) {
     log.error({name, statement.line, statement.column},
               fmt::format("syntax: this value does not end: {}, in line {}", message, at.line));
@@ -119,7 +120,7 @@ std::string explain_syntax(std::string_view description, std::string_view statem
   }
   if (what.find("invalid utf-8") != std::string::npos) return "the text from here on is not UTF-8";
 
-  // Add what to do where it is known.
+  // Add advice for known errors.
   const auto says = [&](std::string_view part) { return what.find(part) != std::string::npos; };
   const std::string_view line = statement.substr(0, statement.find('\n'));
   if (where == "table header" && line.find("[[") != std::string_view::npos &&
@@ -140,14 +141,14 @@ std::string explain_syntax(std::string_view description, std::string_view statem
 
 toml::table parse_toml(std::string_view original, const std::string& name, TreeBudget& budget,
                        DiagnosticLog& log) {
-  // Refuse text that would make the tree deeper than a stack can follow, or larger than memory should be.
+  // Refuse text whose tree would be too deep for the stack or too large for memory.
   if (const auto excess = find_excess(original, budget)) {
     log.error({name, excess->line, excess->column}, excess->message);
     log.set_damaged();
     return {};
   }
 
-  // Parse; at an error leave the statement out and go on, so that one run shows them all.
+  // Parse. After an error, leave the statement out and parse again, so that one run reports all errors.
   std::string text(original);
   for (int repairs = 0;; ++repairs) {
     try {
