@@ -1,4 +1,4 @@
-// The files that a mesh file names beside itself. Private to the importers.
+// The assets of a mesh file: the other files that it names. Private to the importers.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@ namespace eyeray::engine::importers {
 
 class AssetFiles {
  public:
-  // For a file in memory: every asset is refused.
+  // The assets of a file in memory: every one is refused.
   AssetFiles() = default;
   // Names are relative to the folder of `file`. An asset must lie in that folder's tree, or in the tree of
   // one of `allowed_folders`.

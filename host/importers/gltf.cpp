@@ -1,6 +1,6 @@
-// glTF 2.0, .gltf and .glb: the nodes of its scene as instances, lights and a camera. The JSON is read by
-// nlohmann/json and checked here value by value. The library tinygltf 2.7 reads beyond the end of a .glb
-// whose last chunk is too long, throws at an empty buffer, and takes a bufferView's range on trust.
+// Reads glTF 2.0, .gltf and .glb: the nodes of its scene become instances, lights and a camera. nlohmann/json
+// reads the JSON, and this importer checks each value. tinygltf 2.7 is not used: it reads beyond the end of a
+// .glb whose last chunk is too long, throws at an empty buffer, and does not check a bufferView's range.
 // Source: Khronos Group: glTF 2.0 Specification (2.0.1); KHR_lights_punctual.
 #include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
@@ -30,7 +30,7 @@ std::set<std::string> as_set(const std::vector<std::string>& names) {
   return {names.begin(), names.end()};
 }
 
-// Limit on a file's instances: a few meshes and nodes may multiply into many.
+// Limit on a file's instances: a few meshes and nodes may make very many.
 constexpr size_t most_instances = size_t{1} << 20;
 
 class GltfReader {

@@ -67,7 +67,7 @@ std::vector<double> value_at(const KeyCurve& curve, double time) {
   return value;
 }
 
-// The channels of one animation.
+// Reads the channels of one animation.
 class AnimationReader {
  public:
   AnimationReader(const GltfObject& document, const GltfObject& animation, GltfBuffers& buffers,

@@ -17,9 +17,9 @@ class GltfBreaches {
   explicit GltfBreaches(const GltfObject& document);
 
   // `kind` is a plural and its treatment, such as "rotations that are not of unit length, normalised".
-  // The same position counts once, as long as the kind has at most 65536.
+  // A position that is added twice counts once, as long as the kind has at most 65536 positions.
   void add(std::string_view kind, const std::string& place);
-  // "rotations that are not of unit length, normalised: 3, the first nodes[1].rotation".
+  // Adds the warnings: "rotations that are not of unit length, normalised: 3, the first nodes[1].rotation".
   void report(std::vector<std::string>& warnings) const;
 
   // Checks the component type of an attribute of vertices, morph targets or an animation. InputError, at the
@@ -27,7 +27,8 @@ class GltfBreaches {
   // KHR_mesh_quantization must be declared and is not.
   void check_attribute(std::string_view name, size_t accessor);
 
-  // Checks the names of a primitive's attributes: an attribute of an unknown name is lost.
+  // Checks the names of a primitive's attributes. An attribute with an unknown name is ignored and is a
+  // breach.
   void check_attribute_names(const GltfObject& attributes);
 
  private:

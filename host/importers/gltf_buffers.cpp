@@ -122,7 +122,7 @@ std::string_view GltfBuffers::view(size_t index) {
     decoded = decode_meshopt(source, *coding, range(*coding));
     decoded_bytes_ += decoded->size();
     allow(decoded->size() / 2);
-    // Many views may share the same bytes.
+    // Limit the decoded bytes of all views: many views may share the same coded bytes.
     if (decoded_bytes_ > std::max<uint64_t>(1 << 20, 64 * byte_size()))
       source.fail("makes the decoded data larger than a file of this size may have");
   }

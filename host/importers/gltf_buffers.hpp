@@ -15,7 +15,7 @@
 
 namespace eyeray::engine::importers {
 
-// The parts of a .glb; a .gltf is all JSON. Points into `bytes`. InputError where it is damaged.
+// The parts of a .glb, which point into `bytes`; a .gltf has only JSON. InputError if the file is damaged.
 struct GltfContainer {
   std::string_view json;
   std::optional<std::string_view> binary;
@@ -30,7 +30,7 @@ class GltfBuffers {
 
   // The bytes of a `uri`: inline data, or a file. Error if it is damaged or cannot be read.
   std::string read_uri(const GltfObject& owner, std::string_view what);
-  // The bytes of a bufferView, decoded where they are coded (gltf_meshopt.hpp).
+  // The bytes of a bufferView, which are decoded if they are coded (gltf_meshopt.hpp).
   std::string_view view(size_t index);
 
   // From now on, these accessors have the elements given here, packed, of the accessor's own type and count.
@@ -44,7 +44,7 @@ class GltfBuffers {
   // Size in bytes of the data read so far, in the form in which it was read.
   uint64_t byte_size() const;
 
-  // The elements of an accessor. Normalized integers are numbers from −1 or 0 to 1.
+  // The elements of an accessor. Normalized integers become numbers from −1 or 0 to 1.
   std::vector<Vec2> vec2(size_t accessor);
   std::vector<Vec3> vec3(size_t accessor);
   std::vector<Vec4> vec4(size_t accessor);

@@ -103,7 +103,7 @@ std::optional<std::vector<uint32_t>> GltfDraco::open(const GltfObject& primitive
   const draco::Mesh& mesh = this->mesh(*coding);
   check(primitive, mesh);
 
-  // Supply the attributes.
+  // Supply the buffers with the attributes' elements.
   const auto attributes = primitive.object("attributes");
   const auto ids = coding->object("attributes");
   if (!attributes || !ids) coding->fail("has no attributes");

@@ -1,4 +1,4 @@
-// Primitives of a glTF file that are coded by Draco. Private to the importers.
+// Reads the primitives of a glTF file that Draco has compressed. Private to the importers.
 // Source: Khronos Group: KHR_draco_mesh_compression.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Many instances of a node's mesh (EXT_mesh_gpu_instancing). Private to the importers.
+// Reads the instances of a node's mesh (EXT_mesh_gpu_instancing). Private to the importers.
 #pragma once
 
 #include <vector>

@@ -12,7 +12,7 @@ namespace {
 // Factor for the intensity of lights: surfaces in glTF scatter 1/π of the arriving light, ours all of it.
 constexpr double unit_of_light = 1 / std::numbers::pi;
 constexpr double quarter_turn = std::numbers::pi / 2;
-// Least width of the border of a spot light's cone, in radians; lights/spot.cpp wants a little less.
+// Least width of the border of a spot light's cone, in radians; lights/spot.cpp requires a little less.
 constexpr double least_border = 2e-5;
 
 // The spot light of a node: it shines along −z. Angles out of range are clamped, so it stays a spot light.

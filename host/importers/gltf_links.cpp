@@ -98,7 +98,7 @@ class Tree {
   size_t next_ = 0;
 };
 
-// The meaning of an accessor's elements.
+// The meaning of an accessor's elements, as bits.
 struct Role {
   static constexpr unsigned attribute = 1, corner = 2, other = 4;
   static constexpr unsigned any = attribute | corner | other;
@@ -169,7 +169,7 @@ size_t sets_of_joints(const Json& primitive) {
   return sets;
 }
 
-// True if `holds` is true of all joints of a skin that stand in the tree.
+// True if `holds` is true of all joints of a skin that are in the tree.
 template <typename Holds>
 bool all_joints(const Links& links, const Json& skin, const Holds& holds) {
   return std::ranges::all_of(list(skin, "joints"), [&](const Json& value) {

@@ -9,7 +9,7 @@ namespace eyeray::engine::importers {
 
 namespace {
 
-// The pictures of extensions, in the order in which one may be a material's first.
+// The pictures of extensions, in the order in which textures_of() lists them.
 constexpr std::pair<const char*, const char*> extension_maps[] = {
     {"KHR_materials_transmission", "transmissionTexture"},
     {"KHR_materials_specular", "specularTexture"},

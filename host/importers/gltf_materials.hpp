@@ -1,4 +1,4 @@
-// The materials of a glTF file as ours. Private to the importers.
+// Turns the materials of a glTF file into ours. Private to the importers.
 #pragma once
 
 #include <memory>
@@ -18,7 +18,7 @@ namespace eyeray::engine::importers {
 class GltfLeftOut {
  public:
   void add(const std::string& what, size_t count = 1);
-  // "left out: normal maps (3), animations (1)".
+  // Adds the warning "left out: normal maps (3), animations (1)".
   void report(std::vector<std::string>& warnings) const;
 
  private:
@@ -37,7 +37,7 @@ struct GltfUv {
 
 // The uv of a mesh that a material's pictures use.
 struct GltfUvUse {
-  std::vector<GltfUv> uv;        // at most two, for a vertex has no more
+  std::vector<GltfUv> uv;        // at most two, which is all that a vertex has
   bool second_tangents = false;  // true: the normalTexture takes the second uv, so TANGENT is along their u
 };
 

@@ -121,7 +121,7 @@ std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std:
   // One attribute with two transforms makes two uv.
   const auto other_uv = second_name == uv_name ? std::nullopt : second_uv;
   const auto colors = attributes->index("COLOR_0", accessors);
-  // A skin or morph target that bends a mesh does not define the new tangents.
+  // Drop tangents if a skin or morph target bends the mesh: it does not define the new tangents.
   auto tangents = attributes->index("TANGENT", accessors);
   const bool bent =
       !pose.joints.empty() || std::ranges::any_of(pose.weights, [](double w) { return w != 0; });

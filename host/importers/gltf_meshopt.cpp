@@ -24,7 +24,7 @@ constexpr uint64_t divide_up(uint64_t a, uint64_t b) {
 uint64_t least_bytes(const Coding& coding) {
   if (coding.mode == "TRIANGLES") return 1 + coding.count / 3 + 16;
   if (coding.mode == "INDICES") return 1 + coding.count + 4;
-  // In each block, each byte of the element has two bits for every 16 elements; all else may be left out.
+  // In each block, each byte of an element takes at least two bits for every 16 elements.
   const uint64_t block = std::min<uint64_t>(8192 / coding.stride & ~uint64_t{15}, 256);
   const auto bytes = [](uint64_t elements) { return divide_up(divide_up(elements, 16), 4); };
   const uint64_t blocks = coding.count / block * bytes(block) + bytes(coding.count % block);

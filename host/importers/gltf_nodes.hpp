@@ -13,7 +13,7 @@ namespace eyeray::engine::importers {
 Mat4 gltf_transform(const GltfObject& owner, const char* key, const Vec3& translation, const Vec4& rotation,
                     const Vec3& scale, GltfBreaches& breaches);
 
-// True if the matrix is not a rotation combined with a scale along each axis.
+// True if the matrix is more than a rotation combined with a scale along each axis.
 bool shears(const Mat3& matrix);
 
 // The root nodes of the scene that is shown; in a file without scenes, the nodes without a parent.
@@ -23,7 +23,7 @@ std::vector<size_t> root_nodes(const GltfObject& document, std::vector<std::stri
 constexpr size_t no_parent = ~size_t{0};
 std::vector<size_t> parents_of_nodes(const GltfObject& document);
 
-// True if KHR_node_visibility hides the node, and with it all nodes below.
+// True if KHR_node_visibility hides the node, and with it all nodes below it.
 bool is_hidden(const GltfObject& node);
 
 }  // namespace eyeray::engine::importers

@@ -64,7 +64,7 @@ constexpr Property flag(std::string_view name) {
 constexpr Property text(std::string_view name) {
   return {.name = name, .type = Type::text};
 }
-// A text or an integer that is one of the words.
+// A property whose value, a text or an integer, must be one of `words`.
 constexpr Property one_of(std::string_view name, std::string_view words) {
   return {.name = name, .type = Type::word, .of = words};
 }

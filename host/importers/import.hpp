@@ -1,4 +1,4 @@
-// Mesh files as parts of a scene: Wavefront OBJ, PLY, glTF 2.0.
+// Reads mesh files as parts of a scene: Wavefront OBJ, PLY, glTF 2.0.
 #pragma once
 
 #include <filesystem>
@@ -54,14 +54,14 @@ struct ImportedCamera {
 };
 
 struct ImportedScene {
-  std::vector<Mesh> meshes;         // as scene/mesh.hpp promises
+  std::vector<Mesh> meshes;         // keep the promises of scene/mesh.hpp
   std::vector<Instance> instances;  // `material` is an index of `materials`, or −1: the file names none
   std::vector<std::unique_ptr<Material>> materials;
   std::vector<std::variant<PointLight, DirectionalLight, SpotLight>> lights;
   std::optional<ImportedCamera> camera;
   std::vector<std::string> animations;  // names of glTF's animations; "" for one without a name
   std::optional<PlayedAnimation> played;
-  std::vector<std::string> warnings;         // the features left out, once each, with counts
+  std::vector<std::string> warnings;         // among them the features left out, once each, with counts
   std::vector<std::filesystem::path> files;  // every file that was read, the mesh file first
 };
 
@@ -73,8 +73,8 @@ bool is_mesh_file(const std::filesystem::path& file);
 // animated file may have nothing to see at its moment. The size of the files bounds the memory needed.
 ImportedScene import_file(const std::filesystem::path& file, const ImportOptions& options = {});
 
-// Imports from memory, for scenes in memory and for tests. `name` stands in messages, and its ending gives
-// the format of `bytes`. References to other files are refused.
+// Imports a mesh file from memory, for scenes in memory and for tests. Messages contain `name`, whose ending
+// determines the format of `bytes`. References to other files are refused.
 ImportedScene import_bytes(std::string bytes, const std::string& name, const ImportOptions& options = {});
 
 // The material of meshes whose file names none: a light grey, or white if vertices have colours.

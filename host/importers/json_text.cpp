@@ -17,7 +17,7 @@ namespace {
 // Limit on the values of a text: a tree of so many values takes about 1 GiB.
 constexpr size_t most_values = size_t{1} << 24;
 
-// An object or a list that is open.
+// An object or a list whose closing bracket has not come yet.
 struct Level {
   bool object;
   bool key_is_next;

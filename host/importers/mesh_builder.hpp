@@ -17,7 +17,7 @@ inline constexpr uint32_t no_index = 0xffffffff;
 
 using IndexTriangle = std::array<uint32_t, 3>;
 
-// The parts left out or repaired, over all meshes of a file.
+// The numbers of parts that were left out or repaired, in all meshes of a file.
 struct MeshCounts {
   size_t not_finite = 0;    // faces
   size_t without_area = 0;  // faces
@@ -25,7 +25,7 @@ struct MeshCounts {
   size_t bad_uv = 0;        // corners
   size_t fans = 0;          // faces
 
-  // "12 faces without area were left out", …
+  // Adds warnings such as "12 faces without area were left out".
   void report(std::vector<std::string>& warnings) const;
 };
 
@@ -84,8 +84,8 @@ class MeshBuilder {
   MeshCounts& counts_;
   std::vector<Source> sources_;  // one a vertex of the mesh
   std::vector<uint32_t> next_;   // for each vertex, the previous one at the same position
-  std::vector<uint32_t> last_;   // the last vertex of each position of the pool …
-  std::vector<uint32_t> mesh_;   // … in the mesh of this number
+  std::vector<uint32_t> last_;   // for each position of the pool, its last vertex …
+  std::vector<uint32_t> mesh_;   // … and the number of the mesh that has this vertex
   uint32_t meshes_ = 0;
 };
 

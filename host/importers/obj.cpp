@@ -262,7 +262,7 @@ RawTriangles triangulate(const Part& part, const VertexPool& vertices, MeshCount
 ImportedScene import_obj(MeshFile& file) {
   ObjReader reader(file);
   reader.read();
-  free_memory(file.bytes);  // make room
+  free_memory(file.bytes);  // the meshes need the memory
 
   ImportedScene scene;
   scene.warnings = std::move(reader.materials.warnings);

@@ -26,7 +26,7 @@ Vec3 color(const double (&rgb)[3]) {
   return {share(rgb[0]), share(rgb[1]), share(rgb[2])};
 }
 
-// `illum` numbers of surfaces that mirror, and of those that let light through.
+// True for the `illum` numbers of surfaces that mirror, and of surfaces that let light through.
 bool mirrors(int illum) {
   return illum == 3 || illum == 5 || illum == 8;
 }
@@ -212,7 +212,7 @@ std::shared_ptr<const ImageTexture> ObjMaterials::picture(const std::string& nam
         ImageTexture image = load_image_texture(assets_.locate(name), budget, said);
         if (clamp) image.wrap_u = image.wrap_v = Wrap::clamp;
         image.srgb = use == MapUse::color;
-        // Transparency is the picture's alpha, or its brightness where it has none.
+        // The opacity is the picture's alpha, or its brightness if all of the picture is opaque.
         const auto opaque = [](const auto& texel) { return texel[3] == 255; };
         if (use == MapUse::alpha && std::ranges::all_of(image.texels, opaque))
           for (auto& texel : image.texels)

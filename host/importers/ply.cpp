@@ -1,4 +1,4 @@
-// PLY: vertices with any properties, and polygons or strips of triangles.
+// Reads PLY: vertices with any properties, and polygons or strips of triangles.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -155,7 +155,7 @@ void PlyReader<Values>::read_vertices(const PlyElement& element) {
   }
 }
 
-// The property that lists the vertices of each element.
+// The property of an element that lists its vertices.
 template <typename Values>
 const PlyProperty& PlyReader<Values>::corners_of(const PlyElement& element) const {
   const auto found = std::ranges::find_if(element.properties, [](const PlyProperty& property) {
@@ -320,7 +320,7 @@ template <typename Values>
 ImportedScene import_values(const PlyHeader& header, MeshFile& file) {
   PlyReader<Values> reader(header, file);
   reader.read();
-  free_memory(file.bytes);  // make room
+  free_memory(file.bytes);  // the meshes need the memory
 
   ImportedScene scene;
   if (reader.polygons.sizes.empty())

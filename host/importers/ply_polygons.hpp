@@ -1,4 +1,4 @@
-// The polygons of a PLY file, and the values of single polygons. Private to the importers.
+// The polygons of a PLY file, and the values that belong to single polygons. Private to the importers.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The numbers of a PLY file, one after the other. Private to the importers.
+// Reads the numbers of a PLY file, one after the other. Private to the importers.
 #pragma once
 
 #include <algorithm>

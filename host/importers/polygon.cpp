@@ -6,7 +6,7 @@ namespace eyeray::engine::importers {
 
 namespace {
 
-// Twice the signed area of the triangle: above 0 where it runs counter-clockwise.
+// Twice the signed area of the triangle: above 0 if it runs counter-clockwise.
 double area(const Vec2& a, const Vec2& b, const Vec2& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }

@@ -1,4 +1,4 @@
-// Polygons as triangles. Private to the importers.
+// Cuts polygons into triangles. Private to the importers.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ class Triangulator {
   // finite.
   const std::vector<std::array<uint32_t, 3>>& cut(std::span<const Vec3> corners);
 
-  // Polygons that were too large to be cut by ears and are not convex.
+  // Number of polygons that were cut as fans though they are not convex, since they were too large.
   size_t fans() const { return fans_; }
 
   // Limit, because the time for cutting ears grows with the square of the number of corners.

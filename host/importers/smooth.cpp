@@ -18,7 +18,7 @@ constexpr uint32_t no_vertex = 0xffffffff;
 uint64_t hash(const Vec3& p) {
   uint64_t sum = 0;
   for (int i = 0; i < 3; ++i) {
-    sum = (sum ^ std::bit_cast<uint64_t>(p[i] + 0.0)) * 0x9e3779b97f4a7c15u;  // −0 as 0
+    sum = (sum ^ std::bit_cast<uint64_t>(p[i] + 0.0)) * 0x9e3779b97f4a7c15u;  // −0 becomes 0
     sum ^= sum >> 32;
   }
   return sum;
@@ -84,7 +84,7 @@ class Smoother {
   double least_cosine_;
   std::vector<uint32_t> points_;  // the point of each vertex
   uint32_t count_ = 0;            // number of points
-  std::vector<uint32_t> starts_;  // where the corners of each point start in …
+  std::vector<uint32_t> starts_;  // the index of each point's first corner in …
   std::vector<uint32_t> corners_;
   std::vector<float> angles_;     // the angle at each corner
   std::vector<uint32_t> group_;   // the surface of each corner, numbered at its point

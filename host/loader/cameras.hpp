@@ -1,4 +1,4 @@
-// The [camera] of a scene file.
+// Reads the [camera] of a scene file.
 #pragma once
 
 #include "host/loader/sections.hpp"

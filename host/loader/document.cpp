@@ -22,7 +22,7 @@ void merge_settings(toml::table& over, toml::table& below) {
   }
 }
 
-// Moves the well-formed sections of `file` onto `root`.
+// Merges the well-formed sections of `file` into `root`.
 void merge(toml::table& root, toml::table& file, DiagnosticLog& log) {
   for (auto&& [key, node] : file) {
     if (key.str() == include_key) continue;

@@ -1,4 +1,4 @@
-// [environment]: light from all around.
+// Reads [environment]: light from all directions.
 #pragma once
 
 #include <memory>

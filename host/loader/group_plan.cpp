@@ -19,7 +19,7 @@ constexpr double most_kept = 0x4000000;
 constexpr double most_shown = std::numeric_limits<int32_t>::max();
 constexpr int deepest = 64;
 
-// An instance takes as much memory as about this many shapes.
+// An instance takes about as much memory as this many shapes.
 constexpr double instance_cost = 2;
 // Objects that instancing a group must save. Rays traverse an instanced group separately, which costs time.
 constexpr double worth_keeping_once = 0x40000;

@@ -25,7 +25,7 @@ class GroupPlan {
   // True if the groups can be shown; false after errors.
   bool sound() const { return sound_; }
 
-  // True if the group is instanced where it stands in the world.
+  // True if copies of the group in the world are instances.
   bool is_instanced(const toml::table& group) const;
 
   // True if the group is a pattern, which only instances show.
@@ -38,14 +38,14 @@ class GroupPlan {
   std::vector<const toml::table*> idle() const;
 
  private:
-  // A group, or the scene. Counts are floating-point numbers: batches of groups in groups multiply.
+  // A group, or the scene. Counts are floating-point numbers, since nested batches may multiply to huge ones.
   struct Node {
     const toml::table* table = nullptr;
     std::string_view name;  // "" for a group within a group, too
     bool is_scene = false;
     struct Member {
       Node* group;
-      double count;  // the number of its copies in one of these nodes
+      double count;  // the number of its copies in one copy of the node
     };
     std::vector<Member> members;
     double own = 0;       // number of its own shapes and meshes, …

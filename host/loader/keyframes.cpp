@@ -192,7 +192,7 @@ const toml::node* immovable(const toml::node& node) {
   return is_number(node) || node.is_boolean() ? nullptr : &node;
 }
 
-// The list as keyframes; nothing after an error.
+// Reads a list of keyframes; nothing after an error.
 std::optional<std::vector<Keyframe>> read(const toml::array& list, DiagnosticLog& log) {
   std::vector<Keyframe> keyframes;
   for (const toml::node& node : list) {

@@ -1,4 +1,4 @@
-// Values between keyframes. Private to the loader.
+// Interpolates values between keyframes. Private to the loader.
 #pragma once
 
 #include <toml++/toml.h>

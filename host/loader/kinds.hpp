@@ -1,4 +1,4 @@
-// Tables whose `type` selects one of several kinds. Each kind has its own keys.
+// Reads tables whose `type` selects one of several kinds. Each kind has its own keys.
 #pragma once
 
 #include <fmt/format.h>

@@ -10,7 +10,7 @@
 namespace eyeray::engine::loader {
 namespace {
 
-constexpr size_t most_media = 255;  // their number is a byte in the shaders' stack of media
+constexpr size_t most_media = 255;  // a medium's number is a byte in the shaders' stack of media
 
 void bend_normals(reading::TableReader& reader, Material& material) {
   material.normal_map = materials::read_normal_map(reader, "normal", "normal_scale");

@@ -14,7 +14,7 @@
 
 namespace eyeray::engine::loader {
 
-// The value of `animation` in [[mesh]] for a file at rest.
+// The value of `animation` in [[mesh]] that shows a file at rest.
 inline constexpr const char* no_animation = "none";
 
 class MeshImports {

@@ -58,7 +58,7 @@ std::string MeshPlacer::check(size_t index, const Mat4& transform) const {
       return "the transformed vertices are out of range (coordinates up to 1e12)";
   }
 
-  // Check every triangle only if the map's worst case does not decide.
+  // Check every triangle only if a bound for the whole mesh does not suffice.
   if (thinnest * thinning(map.linear) >= least_thickness) return "";
   const Mesh& mesh = scene_.meshes[index];
   for (const auto& triangle : mesh.triangles) {

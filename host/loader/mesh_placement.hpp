@@ -31,7 +31,7 @@ class MeshPlacer {
     int first_mesh = -1;
     int first_material = -1;
   };
-  // The facts that decide whether a map leaves a mesh sound.
+  // The size of a mesh, by which check() decides whether a map is allowed.
   struct Extent {
     Bounds bounds;
     double thinnest;  // least thickness() of a triangle
@@ -44,7 +44,7 @@ class MeshPlacer {
   Scene& scene_;
   std::map<const importers::ImportedScene*, Place> places_;
   std::vector<Extent> extents_;  // one a mesh of the scene
-  int plain_[2] = {-1, -1};  // the materials of meshes that have none: without and with colours of vertices
+  int plain_[2] = {-1, -1};      // materials for meshes without one: without and with vertex colours
 };
 
 }  // namespace eyeray::engine::loader

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double fov_degrees = 30;
 const Vec3 towards_eye = glm::normalize(Vec3(0.6, 0.55, 1.0));
-// The share of the picture's shorter side that is left free.
+// The share of the picture's shorter side that the camera leaves free around the file.
 constexpr double margin = 0.06;
 
 toml::array list(const Vec3& v) {

@@ -190,7 +190,7 @@ class Assignment {
   DiagnosticLog& log_;
   toml::table tree_;
   std::vector<toml::key> path_;
-  size_t next_ = 0;                // the first part of the path that was not followed yet
+  size_t next_ = 0;                // the index of the first part of the path that is still to be followed
   std::optional<size_t> element_;  // index in a list of tables
   toml::node* value_ = nullptr;
 };

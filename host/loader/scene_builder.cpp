@@ -197,7 +197,7 @@ void Builder::add_placed(const toml::table& holder, const Placing& group) {
   }
 }
 
-// Adds the area lights of this shape, so that Scene::shapes stay in registry order.
+// Adds the area lights that have this shape, so that Scene::shapes stay in registry order.
 void Builder::add_area_lights(std::string_view shape) {
   for (const auto& [named, table] : area_lights_) {
     const Section& light = named->section;

@@ -46,7 +46,7 @@ struct Section {
   bool is_combined() const { return shape && shape->combine; }
 };
 
-// The values of `emission_side`.
+// The values of the key `emission_side`.
 inline constexpr std::string_view emission_sides[] = {"both", "front"};
 
 // All tables, in the order in which the manual shows them; shapes in registry order.

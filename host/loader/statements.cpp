@@ -165,7 +165,7 @@ std::optional<Excess> find_excess(std::string_view text, TreeBudget& budget) {
         continue;
       case '"':
       case '\'': {
-        // Step over a string, in one or three quotes.
+        // Step over a string in single or triple quotes.
         const std::string_view quotes = text.substr(i, text.substr(i).starts_with(std::string(3, c)) ? 3 : 1);
         size_t end = i + quotes.size();
         while (end < text.size() && !text.substr(end).starts_with(quotes) &&

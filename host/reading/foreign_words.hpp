@@ -1,4 +1,4 @@
-// Other renderers' words for the things of a scene file, for "did you mean".
+// Other renderers' words for the tables, keys and values of a scene file, for "did you mean".
 #pragma once
 
 #include <span>

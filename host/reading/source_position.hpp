@@ -1,4 +1,4 @@
-// The position of something in its file.
+// Positions of TOML nodes in their files.
 #pragma once
 
 #include <toml++/toml.h>
@@ -8,7 +8,7 @@
 namespace eyeray::engine::reading {
 
 SourcePosition position_of(const toml::source_region& source);
-// The position where a string's text begins. Escapes in it are not considered.
+// The position at which a string's text begins. Escapes in the text are not considered.
 SourcePosition start_of_text(const toml::node& node);
 
 }  // namespace eyeray::engine::reading

@@ -25,7 +25,7 @@ struct TableSource {
   ValueSources sources = {};
 };
 
-// Reads and checks every key; problems go to the log, which must outlive the reader.
+// Reads and checks every key. Errors go to the log, which must outlive the reader.
 TableReader read_table(const TableSource& source, DiagnosticLog& log);
 
 // The fallback of a key as a TOML node.

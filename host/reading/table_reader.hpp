@@ -1,4 +1,4 @@
-// Strict reading of one table of a scene file.
+// Reads one table of a scene file, strictly.
 #pragma once
 
 #include <array>

@@ -17,7 +17,7 @@ struct TextureType {
   std::string_view manual;
   std::span<const Key> keys = {};
   TexturePtr (*parse)(TableReader& table) = nullptr;  // null after an error, which is reported to the table
-  // Only for the kind that is written as a plain color, without a table.
+  // Makes the texture of a plain color; null for all kinds but the one that is written without a table.
   TexturePtr (*of_color)(const Vec3& color) = nullptr;
 
   // True if the type's name is one of its keys, and the other keys stand beside it: { image = "a.png",

@@ -10,8 +10,8 @@ namespace eyeray::engine::textures {
 
 TexturePtr make_constant(const Vec3& color);
 
-// A checkerboard in uv: the check that holds (u, v) is `even` where floor(u / size.x) + floor(v / size.y) is
-// even.
+// A checkerboard in uv: the colour at (u, v) is `even` if floor(u / size.x) + floor(v / size.y) is even, else
+// `odd`.
 TexturePtr make_checker(const Vec3& even, const Vec3& odd, const Vec2& size);
 
 // The colour that the formula gives for uv, each component clamped to [0, 1], times `tint`.
