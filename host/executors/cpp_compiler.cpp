@@ -39,7 +39,7 @@ std::string own_file(Words compiler, const std::string& name) {
   return path.find('/') == std::string::npos ? "" : path;
 }
 
-// A sanitizer's runtime as Clang calls it; GCC has none of these.
+// The path of a sanitizer's runtime, by Clang's name for it; empty for GCC, which has no file of that name.
 std::string clang_runtime(const Words& compiler, const std::string& name) {
   utsname machine{};
   ::uname(&machine);

@@ -10,11 +10,11 @@ namespace eyeray::engine::executors {
 
 // $CXX, else the first of c++, g++ and clang++ in $PATH, as the words of a command; empty: there is none.
 std::vector<std::string> cpp_compiler();
-// The same; Error (bad_input) where there is none.
+// The command of cpp_compiler(). Error (bad_input) if there is no compiler.
 std::vector<std::string> require_cpp_compiler();
 
-// For a shared object with all that a debugger wants to know, by $CXXFLAGS too, and with the float policy of
-// our own code. `sanitizers`: as -fsanitize takes them; empty: none.
+// The flags that compile a shared object with full debug information, $CXXFLAGS included, and with the float
+// policy of our own code. `sanitizers`: as -fsanitize takes them; empty: none.
 std::vector<std::string> module_flags(const std::vector<std::string>& compiler,
                                       const std::string& sanitizers);
 
@@ -22,7 +22,7 @@ std::vector<std::string> module_flags(const std::vector<std::string>& compiler,
 Environment compiler_environment();
 
 // The environment that a process needs from its start if its module has these sanitizers. Error (bad_input)
-// where there is no compiler, or none that has them.
+// if there is no compiler, or if it lacks a sanitizer.
 Environment sanitizer_environment(const std::string& sanitizers);
 
 }  // namespace eyeray::engine::executors

@@ -43,7 +43,7 @@ bool for_each_pixel(const Grid& grid, std::span<Result> out, const Pixel& pixel)
   return true;
 }
 
-// Calls answer(ray) for every ray, in parallel; the seconds that took.
+// Calls answer(ray) for every ray, in parallel. Returns the seconds that this took.
 template <typename Answer>
 double timed_queries(std::span<const Query> rays, std::span<QueryHit> hits, const Answer& answer) {
   CHECK_EQ(rays.size(), hits.size());
@@ -72,7 +72,7 @@ class TwinExecutor final : public Twin {
                      }};
     if (sends_photons(scene.render.integrator)) {
       photon_settings_ = photon_settings(scene);
-      // Until there are any, samples see none.
+      // Samples see no photons until the first are emitted.
       hand_over({}, 0);
     }
   }
@@ -141,8 +141,8 @@ class TwinExecutor final : public Twin {
 
   const twin::Functions& functions() const { return module_ ? module_->functions() : twin::eyeray_twin; }
 
-  // Makes the photons of sample `index` those that samples gather, unless they are. Returns false when
-  // interrupted.
+  // Emits the photons of sample `index`, for samples to gather, unless they are the present ones. Returns
+  // false when interrupted.
   bool send_out_photons(uint32_t index) {
     if (!photon_settings_ || photons_of_ == index) return true;
     photons_of_.reset();

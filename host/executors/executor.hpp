@@ -19,7 +19,7 @@
 namespace eyeray::engine::executors {
 
 enum class Backend { gpu, twin, reference };
-// "gpu", "twin", "reference", both ways; Error (bad_input) for another name.
+// Convert between a backend and its name: "gpu", "twin" or "reference". Error (bad_input) for another name.
 Backend parse_backend(std::string_view name);
 std::string_view backend_name(Backend backend);
 
@@ -36,10 +36,11 @@ struct ExecutorFacts {
   // The properties of the device that decide bits, as found by its self-test: if they are equal, the samples
   // of the same program are equal. A device whose arithmetic is not exact is named with its driver.
   std::string arithmetic = "of the program itself";
-  // The device that it is on, for executors to come (GpuOptions::open_device); null of a CPU's.
+  // The device that the executor runs on, for later executors (GpuOptions::open_device); null for one on the
+  // CPU.
   std::shared_ptr<OpenDevice> device;
 
-  // These grow while kernels are made, some of them when they are first needed.
+  // The next two grow as kernels are made. Some kernels are made only when they are first needed.
   uint64_t geometry_bytes = 0;                      // of geometry and the BVHs over it; 0 where unknown
   std::vector<std::filesystem::path> source_files;  // read from the folder of shaders, for a watcher
 };
@@ -50,14 +51,14 @@ class Executor {
   virtual ~Executor() = default;
 
   // Sample `index` of every pixel of `grid`, row by row; out.size() = grid.pixels(). `auxiliaries`: a
-  // denoiser's inputs of the same samples, as many or none; only where paths walk at random
-  // (scene/integrator.hpp). Returns false when interrupted, and both are then undefined.
+  // denoiser's inputs for the same samples, one for each; or empty. They are available only if paths walk at
+  // random (scene/integrator.hpp). Returns false when interrupted, and both are then undefined.
   virtual bool sample(const Grid& grid, uint32_t index, std::span<PixelSample> out,
                       std::span<AuxiliarySample> auxiliaries = {}) = 0;
   // The first hit of the ray through the centre of every pixel of `tile`. out.size() = tile.pixels().
   virtual void first_hits(const Rect& tile, std::span<FirstHit> out) = 0;
-  // Sample `index` of one pixel, and the values along its rays. Positions are the shaders', relative
-  // to the eye, except the reference's. Only where ExecutorOptions::ray_kinds.
+  // Sample `index` of one pixel, and the values along its rays. Positions are the shaders', relative to the
+  // eye; the reference's are not. Requires ExecutorOptions::ray_kinds.
   virtual Probed probe(int x, int y, uint32_t index) = 0;
   // Writes the hit of each ray, and returns the seconds that tracing alone took: by the device's clock where
   // it has one, without the copying of rays and hits. hits.size() = batch.rays.size().

@@ -32,8 +32,8 @@ struct Steepest {
   Vec3 at{0.0};
 };
 
-// Differences over short steps at random points; those that are steeper than any before are examined more
-// closely. Fewer points where each takes long.
+// The steepest slope found by differences over short steps at random points. Half of the points lie near the
+// steepest so far. There are fewer points if each takes long.
 Steepest steepest(const FormulaUse& use) {
   constexpr int points = 20000;
   constexpr uint64_t most_iterations = 1 << 22;
@@ -51,8 +51,8 @@ Steepest steepest(const FormulaUse& use) {
       gradient[axis] = (value(p + offset) - value(p - offset)) / (2 * step);
     }
     const Vec3 along = glm::normalize(gradient) * step;
-    // Only a difference between two points disproves anything: at a crease the gradient is steeper than
-    // either side.
+    // Only a difference between two points can disprove a Lipschitz constant: at a crease the gradient is
+    // steeper than either side.
     const double found = std::fabs(value(p + along) - value(p - along)) / (2 * step);
     return std::isfinite(found) ? found : 0;
   };
@@ -60,7 +60,7 @@ Steepest steepest(const FormulaUse& use) {
   const auto uniform = [&] { return double(random() >> 11) * 0x1p-52 - 1; };
   Steepest worst;
   for (int i = 0; i < points && iterations < most_iterations; ++i) {
-    // One half anywhere, the other near the worst so far.
+    // Half of the points lie anywhere, the others near the steepest point so far.
     const double reach = i % 2 == 0 ? 1 : std::ldexp(1.0, -(i / 2 % 10));
     Vec3 q = Vec3(uniform(), uniform(), uniform()) * reach;
     if (i % 2 == 1) q += (worst.at - center) / extent;

@@ -12,8 +12,8 @@ namespace eyeray::engine::executors {
 // bounded by affine forms. No device is needed.
 void check_formulas(const Scene& scene);
 
-// Warnings, at the shapes, where samples show that a formula is steeper than its Lipschitz constant; always
-// the same samples. Error (timed_out) where one does not end.
+// Warnings, at the shapes whose formula is steeper than its Lipschitz constant at sampled points. The points
+// are always the same. Error (timed_out) if a formula does not end.
 std::vector<Diagnostic> doubt_lipschitz_constants(const Scene& scene);
 
 }  // namespace eyeray::engine::executors

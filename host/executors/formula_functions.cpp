@@ -45,7 +45,7 @@ std::string surface_functions(size_t i, const PackedFormula& packed, LoadedNumbe
              i, formula.has_other());
 }
 
-// Each colour's formula, and the one that picks by number.
+// The function of each colour's formula, and a function that calls one of them by number.
 std::string color_functions(const std::vector<PackedFormula>& formulas, LoadedNumbers* numbers) {
   std::string text, choice;
   for (size_t i = 0; i < formulas.size(); ++i) {
@@ -61,7 +61,7 @@ std::string color_functions(const std::vector<PackedFormula>& formulas, LoadedNu
          choice + "  return color;\n}\n#define FORMULA_COLOR(number, uv) formula_color_of(number, uv)\n";
 }
 
-// A camera's formula: there is one at most.
+// The function of the camera's formula. A scene has one at most.
 std::string camera_functions(const std::vector<PackedFormula>& formulas, LoadedNumbers* numbers) {
   std::string text;
   for (size_t i = 0; i < formulas.size(); ++i) {

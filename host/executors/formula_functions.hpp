@@ -1,5 +1,5 @@
-// The GLSL of a scene's formulas: colours for textures/formula.glsl, and for shapes/implicit.glsl surfaces,
-// each with its own march.
+// The GLSL of a scene's formulas: colours for textures/formula.glsl, and surfaces for shapes/implicit.glsl,
+// each surface with its own march.
 #pragma once
 
 #include <string>
@@ -9,7 +9,8 @@
 
 namespace eyeray::engine::executors {
 
-// With `numbers`, they load their numbers (FORMULA_NUMBERS of kernels/features.h).
+// The functions of all formulas. With `numbers`, they load their numbers (FORMULA_NUMBERS of
+// kernels/features.h).
 std::string formula_functions(const records::PackedScene& scene, expression::LoadedNumbers* numbers);
 
 }  // namespace eyeray::engine::executors

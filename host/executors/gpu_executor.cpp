@@ -88,7 +88,7 @@ class GpuExecutor final : public Executor {
     });
   }
 
-  // By the loop, also for a wavefront's picture, which has the same bits.
+  // Uses the loop of kernels/render.comp.glsl, even if the picture uses a wavefront; both have the same bits.
   Probed probe(int x, int y, uint32_t index) override {
     CHECK(options_.ray_kinds);
     const std::string entry = "kernels/render.comp.glsl";
@@ -131,7 +131,7 @@ class GpuExecutor final : public Executor {
     return fmt::format("not exact, {}, on {}, {}", text, device_.info().name, device_.info().driver_version);
   }
 
-  // By the loop, also for a wavefront's picture.
+  // Uses the loop of kernels/render.comp.glsl, even if the picture uses a wavefront.
   bool sample_auxiliaries(const Grid& grid, uint32_t index, std::span<AuxiliarySample> out) {
     if (!auxiliary_kernel_)
       auxiliary_kernel_ = kernels_->make("kernels/render.comp.glsl", "#define AUXILIARY\n");
@@ -146,12 +146,12 @@ class GpuExecutor final : public Executor {
     });
   }
 
-  // Emits the photons of sample `index`, if there are any. Returns false if interrupted.
+  // Emits the photons of sample `index`, if the integrator gathers photons. Returns false if interrupted.
   bool send_out_photons(uint32_t index) {
     return !photons_ || photons_->send_out(index, options_.left_out.of(index));
   }
 
-  // Results, of which the first is out[first].
+  // Converts results into samples, from out[first] on.
   void take(std::span<const shader::SampleResult> results, size_t first, std::span<PixelSample> out) {
     constexpr size_t piece = 4096;
     parallel_for(0, int((results.size() + piece - 1) / piece), [&](int p) {
@@ -175,7 +175,7 @@ class GpuExecutor final : public Executor {
     if (options_.gpu.formula_numbers && !packed.formulas.empty()) specialisation.formula_numbers = &numbers;
     if (open_device_->facts().loop_cap)
       specialisation.loop_budget = loop_budget_of(packed, device_.info().driver_version);
-    // A copy of the nodes, to which those for packets are about to be appended.
+    // A copy of the nodes, made before the nodes for packets are appended to them.
     RawVector<shader::uvec4> nodes =
         plan.incoherent == Rays::cooperative ? packed.nodes : RawVector<shader::uvec4>();
     if (plan.coherent == Rays::packets)
@@ -244,7 +244,7 @@ class GpuExecutor final : public Executor {
     return true;
   }
 
-  // kernels/render.comp.glsl for a whole tile.
+  // Runs kernels/render.comp.glsl for a whole tile.
   std::optional<double> dispatch(gpu::Kernel& kernel, const shader::Dispatch& push, gpu::Buffer& output) {
     kernel.set_buffer(BINDING_OUTPUT, output);
     if (photons_) photons_->bind(kernel);
@@ -278,7 +278,7 @@ class GpuExecutor final : public Executor {
   Workgroups workgroups_;
   std::optional<SceneKernels> kernels_;
   std::optional<GpuQueries> queries_;
-  std::optional<PhotonKernel> photons_;                         // where the integrator gathers any
+  std::optional<PhotonKernel> photons_;                         // null if the integrator gathers none
   std::optional<Wavefront> wavefront_;                          // makes samples,
   std::shared_ptr<gpu::Kernel> sample_kernel_;                  // or else this
   std::shared_ptr<gpu::Kernel> auxiliary_kernel_, hit_kernel_;  // null until they are asked for

@@ -31,7 +31,7 @@ class GpuQueries {
   Workgroups workgroups_;
   Vec3 eye_;
   std::optional<gpu::Buffer> output_;
-  std::shared_ptr<gpu::Kernel> made_[2][3];  // by whether any hit will do, and by Rays
+  std::shared_ptr<gpu::Kernel> made_[2][3];  // first index: whether any hit suffices; second: Rays
 };
 
 }  // namespace eyeray::engine::executors

@@ -6,7 +6,7 @@
 namespace eyeray::engine::executors {
 namespace {
 
-// A capped driver grants an invocation 65 535 iterations. This many of them are relied upon
+// A capped driver grants an invocation 65 535 iterations. eyeray relies on this many of them
 // (docs/lavapipe.md).
 constexpr uint64_t granted_iterations = 60000;
 
@@ -17,8 +17,8 @@ uint64_t trace_iterations(const records::PackedScene& scene, bool unrolled) {
 }
 
 uint32_t loop_budget_of(const records::PackedScene& scene, std::string_view driver) {
-  // One ray with its shadow rays must fit after any earlier ones. In a BVH it makes far fewer iterations
-  // than there are primitives; where it does not, the shader sees that the driver stopped it.
+  // One ray with its shadow rays must fit after any earlier ones. In a BVH, a ray makes far fewer iterations
+  // than there are primitives; if it does not, the shader detects that the driver stopped it.
   const uint64_t one_ray =
       (trace_iterations(scene, false) + 1) * (scene.lights.size() + 1 + (scene.panes ? MOST_PANES : 0));
   if (one_ray < granted_iterations) return uint32_t(granted_iterations - one_ray);

@@ -46,7 +46,7 @@ std::string code_of(std::string_view text) {
   return code;
 }
 
-// The position behind the bracket that closes the one at `open`; the end where there is none.
+// The position behind the bracket that closes the one at `open`; the end of the code if none does.
 size_t behind(std::string_view code, size_t open) {
   const char closing = code[open] == '(' ? ')' : '}';
   int depth = 0;
@@ -61,7 +61,7 @@ size_t skip_space(std::string_view code, size_t at) {
   return std::min(code.find_first_not_of(" \t\r\n", at), code.size());
 }
 
-// Calls visit(begin, end) for each function, and for all else that stands outside of braces up to one.
+// Calls visit(begin, end) for each function and any other code that ends with braces at the top level.
 template <typename Visit>
 void for_each_function(std::string_view code, const Visit& visit) {
   for (size_t begin = 0; begin < code.size();) {
@@ -73,7 +73,7 @@ void for_each_function(std::string_view code, const Visit& visit) {
   }
 }
 
-// The end of the loop whose keyword stands at `at` and ends at `behind_keyword`.
+// The end of the loop whose keyword ends at `behind_keyword`.
 size_t loop_end(std::string_view code, size_t behind_keyword) {
   size_t at = skip_space(code, behind_keyword);
   if (at < code.size() && code[at] == '(') at = skip_space(code, behind(code, at));
@@ -81,8 +81,8 @@ size_t loop_end(std::string_view code, size_t behind_keyword) {
   return code[at] == '{' ? behind(code, at) : std::min(code.find(';', at), code.size());
 }
 
-// The condition of the loop whose header's bracket opens at `open`: its begin and end. Nothing where there is
-// no whole header.
+// The condition of the loop whose header's bracket opens at `open`: its begin and end. Nothing if the header
+// is incomplete.
 std::optional<std::pair<size_t, size_t>> condition(std::string_view code, size_t open, bool is_for) {
   const size_t begin = open + 1, end = behind(code, open) - 1;
   if (code[end] != ')') return std::nullopt;

@@ -1,5 +1,5 @@
 // Counts the iterations of loops in a user's shaders, so that a loop without an end is stopped and named.
-// Without a count, optimisers remove such a loop, and drivers that cap loops go on behind it.
+// Without a count, optimisers remove such a loop, and drivers that cap loops continue after it.
 #pragma once
 
 #include <cstdint>
@@ -17,22 +17,23 @@ class LoopGuard {
   // executors that do not cap loops.
   explicit LoopGuard(uint32_t most = 1 << 20) : most_(most) {}
 
-  // The definitions that guarded text needs, as GLSL: for the scene's text, which every kernel includes
-  // first. The twin has its own (twin/shader_functions.hpp).
+  // The GLSL definitions that guarded text needs. They belong in the scene's text, which every kernel
+  // includes first. The twin has its own definitions (twin/shader_functions.hpp).
   std::string definitions() const;
-  // `text` of a file that takes the place of eyeray's `original`, called `shown` in messages. Counts the
-  // loops of all functions that `original` does not have; no line moves.
+  // `text` with its loops counted, in all functions that `original` does not have; no line moves. `text` is a
+  // file that takes the place of eyeray's `original`. Messages name the file `shown`.
   std::string guard(const std::string& shown, std::string_view text, std::string_view original);
   // True if any text that was guarded differs from eyeray's.
   bool active() const { return !files_.empty(); }
 
   uint32_t most() const { return most_; }
-  // Error (timed_out), which names the loops of these bits: the twin calls it where a count is used up.
+  // Throws Error (timed_out), which names the loops of the bits `stopped`. The twin calls it when the count
+  // is used up.
   [[noreturn]] void stop(uint32_t stopped) const;
-  // Error (timed_out), which names the loops that may be meant, where the flags of a result state that a loop
-  // did not end. `ray_kinds`: whether the kernel counted them (records.h, SampleResult).
+  // Throws Error (timed_out), which names the possible loops, if the flags of a result state that a loop did
+  // not end. `ray_kinds`: whether the kernel counted reflected and refracted rays (records.h, SampleResult).
   void check(uint32_t flags, bool ray_kinds) const;
-  // A time-out with the counted loops added to it.
+  // The error of a time-out, with a list of the counted loops added.
   Error explained(const Error& time_out) const;
 
  private:
@@ -40,7 +41,7 @@ class LoopGuard {
   struct Loop {
     std::string file;
     int line;
-    std::string text;  // of that line
+    std::string text;  // the text of that line
 
     bool operator==(const Loop&) const = default;
   };
@@ -48,7 +49,7 @@ class LoopGuard {
   std::string list(uint32_t bits) const;
 
   uint32_t most_;
-  std::vector<std::string> files_;  // that differ from eyeray's own
+  std::vector<std::string> files_;  // the files that differ from eyeray's own
   std::vector<Loop> loops_;
 };
 

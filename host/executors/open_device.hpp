@@ -1,5 +1,5 @@
-// A device that is open, the facts found about it, and the kernels that were built on it: executors that
-// come one after the other share it, and start at once.
+// An open device, the facts found about it, and the kernels built on it. Successive executors share it, and
+// start at once.
 #pragma once
 
 #include <list>
@@ -19,15 +19,16 @@ gpu::DeviceOptions device_options(const GpuOptions& options, bool wide_vectors);
 
 class OpenDevice {
  public:
-  // Opens the device that the options select, and tests it. The time goes to `times`. `wide_vectors`: as the
-  // picture needs them.
+  // Opens the device that the options select, and tests it. Adds the time to `times`. `wide_vectors`: whether
+  // the picture needs them.
   OpenDevice(const GpuOptions& options, bool wide_vectors, StageTimes& times);
 
   gpu::Device& device() { return device_; }
   const gpu::DeviceFacts& facts() const { return facts_; }
   const DiskCache& cache() const { return cache_; }
 
-  // The kernel of `spirv`: one that was built before where nobody has it now, buffers of its last use bound.
+  // The kernel of `spirv`. A kernel that was built before is reused if nobody holds it; the buffers of its
+  // last use are still bound.
   std::shared_ptr<gpu::Kernel> kernel(std::span<const uint32_t> spirv, const std::string& name);
 
  private:
@@ -39,10 +40,10 @@ class OpenDevice {
   DiskCache cache_ = DiskCache::of_user();
   gpu::Device device_;
   gpu::DeviceFacts facts_;
-  std::list<Built> built_;  // the last used first
+  std::list<Built> built_;  // the most recently used first
 };
 
-// For GpuOptions::open_device. Error (no_device) when no device will do.
+// Opens a device for GpuOptions::open_device. Error (no_device) if no device suffices.
 std::shared_ptr<OpenDevice> open_device(const GpuOptions& options);
 
 }  // namespace eyeray::engine::executors

@@ -5,7 +5,7 @@
 namespace eyeray::engine::executors {
 
 bool repay_kernels(int64_t samples) {
-  // From there on, a second of compiling saves more than a second.
+  // From this many samples on, a second of compiling saves more than a second of rendering.
   return samples >= 1 << 24;
 }
 

@@ -16,29 +16,29 @@ class Tunables;
 
 struct GpuOptions {
   std::string device = "auto";              // auto | cpu | gpu | INDEX | part of a NAME
-  std::shared_ptr<OpenDevice> open_device;  // taken as it is, and left open; null: it opens one
+  std::shared_ptr<OpenDevice> open_device;  // used as it is, and left open; null: the executor opens one
   std::string validation;                   // "", "core" or "sync"
   double timeout_seconds = 60;              // the longest wait for one dispatch
-  double least_compile_seconds = 0;         // if that is more, the longest that a kernel may compile
-  bool sets_environment = true;             // DeviceOptions::sets_environment
-  bool wide_vectors = true;                 // where the picture wants them (trace_plan.hpp)
+  double least_compile_seconds = 0;  // the longest compilation of a kernel, if this exceeds timeout_seconds
+  bool sets_environment = true;      // DeviceOptions::sets_environment
+  bool wide_vectors = true;          // use them if the picture gains from them (trace_plan.hpp)
   ProfileOptions profile;
   bool fast_math = false;              // let the driver contract and re-associate
-  bool validate_spirv = false;         // a kernel's SPIR-V, before the driver gets it
+  bool validate_spirv = false;         // validate a kernel's SPIR-V before the driver gets it
   bool constants = true;               // compile the primitives of a small scene into the kernel
-  bool formula_numbers = false;        // kernels load the numbers of formulas, and suit others too
+  bool formula_numbers = false;        // kernels load the numbers of formulas, and so suit other numbers too
   bool optimise = true;                // give the driver an optimised kernel
-  std::shared_ptr<Tunables> tunables;  // constants of shaders that move; null: none do
+  std::shared_ptr<Tunables> tunables;  // shaders' constants that a person can move; null: none
 };
 
 struct TwinOptions {
   bool compile = false;    // compile ExecutorOptions::shader_folder's files as C++ (twin_module.hpp)
-  std::string sanitizers;  // of compiled modules, as -fsanitize takes them
+  std::string sanitizers;  // for compiled modules, as -fsanitize takes them
 };
 
 struct ExecutorOptions {
   std::filesystem::path shader_folder;  // laid over the embedded shaders, file by file; empty: none
-  pack::PackOptions pack;               // of which the reference takes `acceleration` alone
+  pack::PackOptions pack;               // the reference uses only `acceleration`
   bool ray_kinds = false;               // count reflected and refracted rays; the GPU does so on request
   bool search_cost = false;  // fill FirstHit::cost; the GPU does so on request, the reference never
   LeftOutPhotons left_out;   // photons that bring no light
@@ -46,11 +46,11 @@ struct ExecutorOptions {
   TwinOptions twin;
 };
 
-// True if so many samples repay kernels that have the scene inside, where kernels without it would do for
-// the next scene too.
+// True if so many samples repay kernels that contain the scene. Kernels without it could serve the next scene
+// too.
 bool repay_kernels(int64_t samples);
-// For scenes that come one after the other and differ by motion, each a picture of so many samples. Their
-// BVHs are refitted where that will do, and they share kernels where samples do not repay others.
+// Options for successive scenes that differ by motion, each a picture of so many samples. Their BVHs are
+// refitted where that suffices. The scenes share kernels unless the samples repay new ones.
 ExecutorOptions for_frames(ExecutorOptions options, int64_t samples);
 
 }  // namespace eyeray::engine::executors

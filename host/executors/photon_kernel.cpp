@@ -10,17 +10,16 @@
 namespace eyeray::engine::executors {
 namespace {
 
-// Two surfaces that scatter light widely stop each photon, more or less; where they do more often, there is
-// made more room.
+// Two surfaces that scatter light widely store each photon, more or less. If more do, the buffer is enlarged.
 constexpr double usually_stopped = 2;
 
-// The number of records of `record` bytes for which a device has room, in each of so many buffers. Stopped
+// The number of records of `record` bytes for which a device has room, in each of `buffers` buffers. Stored
 // photons have two buffers: the second one holds them in order.
 uint64_t room_on(const gpu::DeviceInfo& device, size_t record, int buffers) {
   return std::min(device.limits.storage_range, device.limits.heap / uint64_t(buffers)) / record;
 }
 
-// Error (no_device) where the results of the photons have no room.
+// The size of the buffer for the photons' results. Error (no_device) if the device has no room for it.
 size_t bytes_of_results(const gpu::DeviceInfo& device, uint32_t photons) {
   if (const uint64_t room = room_on(device, sizeof(shader::PhotonResult), 1); photons > room)
     throw Error(ExitCode::no_device,
@@ -49,7 +48,7 @@ PhotonKernel::PhotonKernel(gpu::Device& device, SceneKernels& kernels, StageTime
   kernel_->set_buffer(BINDING_NEXT_LIST, count_);
   const uint64_t room = room_on(device.info(), sizeof(shader::Photon), 2);
   make_room(uint32_t(std::min(usually_stopped * settings.count, double(room))));
-  // Until there are any, kernels see none.
+  // Kernels see no photons until the first are emitted.
   const shader::PhotonPass pass = photon_pass(settings_, 0, eye_, capacity_);
   pass_.upload_records(std::span(&pass, 1));
   photons_.emplace(device_, sizeof(shader::Photon), "photons");

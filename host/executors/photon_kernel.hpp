@@ -1,4 +1,4 @@
-// Sends out a sample's photons on a device, and hands them to the kernels that gather them.
+// Emits a sample's photons on a device, and hands them to the kernels that gather them.
 #pragma once
 
 #include <memory>
@@ -14,15 +14,15 @@ namespace eyeray::engine::executors {
 
 class PhotonKernel {
  public:
-  // All of it must outlive it. Error (no_device) with the numbers where the device has no room for so many,
-  // here and of send_out.
+  // Device, kernels and times must outlive it. Both this and send_out throw Error (no_device), with the
+  // numbers, if the device has no room for so many photons.
   PhotonKernel(gpu::Device& device, SceneKernels& kernels, StageTimes& times, const Workgroups& workgroups,
                const PhotonSettings& settings, const Vec3& eye);
 
-  // Makes those of sample `index` the ones that are gathered, unless they are. Returns false when
-  // interrupted.
+  // Emits the photons of sample `index`, for kernels to gather, unless they are the present ones. Returns
+  // false when interrupted.
   bool send_out(uint32_t index, std::span<const uint32_t> left_out);
-  // Gives the kernel the buffers.
+  // Binds the buffers of the photons to the kernel.
   void bind(gpu::Kernel& kernel) const;
   // Possible faults of the photons that were emitted last: SampleFlags.
   uint32_t flags() const { return flags_; }
@@ -43,8 +43,8 @@ class PhotonKernel {
   uint32_t stored_ = 0;
   gpu::Buffer pass_, results_, count_;
   std::optional<gpu::Buffer> found_, photons_, cells_;
-  std::optional<uint32_t> sample_;  // whose photons these are,
-  uint64_t choice_ = 0;             // and by which choice of tunables
+  std::optional<uint32_t> sample_;  // the sample of the present photons,
+  uint64_t choice_ = 0;             // and their choice of tunables
   uint32_t flags_ = 0;
 };
 

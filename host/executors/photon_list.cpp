@@ -20,7 +20,7 @@ PhotonList photon_list(std::span<const shader::Photon> stored, uint32_t key_mask
   list.cells.assign(size_t(key_mask) + 2, 0);
   list.photons.resize(stored.size());
 
-  // Count each key's, then put each in its place, and those of a key in order.
+  // Count the photons of each key, sort all by key, then those of each key by number and depth.
   for (const shader::Photon& photon : stored) ++list.cells[size_t(photon.key) + 1];
   for (size_t key = 1; key < list.cells.size(); ++key) list.cells[key] += list.cells[key - 1];
   std::vector<uint32_t> next(list.cells.begin(), list.cells.end() - 1);

@@ -1,4 +1,5 @@
-// Photons in the order in which paths gather them: the same whoever has traced them.
+// Photons in the order in which paths gather them. The order does not depend on the executor that traced
+// them.
 #pragma once
 
 #include <cstdint>
@@ -11,16 +12,17 @@
 namespace eyeray::engine::executors {
 
 struct PhotonList {
-  std::vector<shader::Photon> photons;  // by key; of the same key by number, then by depth
-  std::vector<uint32_t> cells;          // where each key's begin, and where the last one's end
+  std::vector<shader::Photon> photons;  // sorted by key, then by number, then by depth
+  std::vector<uint32_t> cells;  // the index at which each key's photons begin, and the end of the last key's
 };
 
-// Makes the list of the photons `stored`, which are in any order. Photons whose number is in `left_out`,
-// which is sorted, contribute nothing.
+// Makes the list of the photons `stored`, which are in any order. `left_out` is sorted: photons whose number
+// it contains contribute nothing.
 PhotonList photon_list(std::span<const shader::Photon> stored, uint32_t key_mask,
                        std::span<const uint32_t> left_out);
 
-// For the shaders, whose origin is the eye: of sample `index`, with room for so many photons.
+// The record of sample `index` for the shaders, whose origin is the eye. `capacity`: the photons that fit
+// into the buffer.
 shader::PhotonPass photon_pass(const PhotonSettings& settings, uint32_t index, const Vec3& eye,
                                uint32_t capacity);
 

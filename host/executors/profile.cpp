@@ -5,7 +5,8 @@
 namespace eyeray::engine::executors {
 namespace {
 
-// Empty: by the scene where `cpu`, else lanes.
+// The way of tracing incoherent rays by a user's choice. An empty choice means lanes, but on a CPU the scene
+// decides: then there is no value.
 std::optional<Rays> chosen_for_incoherent(const std::string& choice, bool cpu) {
   if (choice.empty()) return cpu ? std::nullopt : std::optional(Rays::lanes);
   return choice == "lanes" ? Rays::lanes : choice == "packets" ? Rays::packets : Rays::cooperative;

@@ -20,15 +20,16 @@ struct Profile {
   bool shift_stack =
       false;              // keep the stack in registers, shifted as a whole, instead of in an indexed array
   bool constants = true;  // compile a small scene in, instead of loading it
-  // Incoherent rays, where the scene allows it; by the scene cooperative in big BVHs, lanes in small ones.
+  // The way of tracing incoherent rays, where the scene allows it. No value: the scene decides, for
+  // `cooperative` in big BVHs and for `lanes` in small ones.
   std::optional<Rays> incoherent = Rays::lanes;
   bool flatten = false;  // compute both sides of a branch that only chooses a value
 };
 
 Profile choose_profile(const ProfileOptions& options, const gpu::DeviceInfo& device);
 
-// For people: "texel loads, packets, shifted stack, incoherent rays by the scene", and "no constants" and
-// "flattened" where that is so.
+// For people: "texel loads, packets, shifted stack, incoherent rays by the scene", followed by "no constants"
+// and "flattened" if these hold.
 std::string describe(const Profile& profile);
 
 }  // namespace eyeray::engine::executors

@@ -5,12 +5,13 @@
 
 namespace eyeray::engine::executors {
 
-// The kernels' profile (executors/profile.hpp); an empty choice is the profile's.
+// A user's choices for the kernels' profile (executors/profile.hpp). Where a choice is empty, the profile
+// decides.
 struct ProfileOptions {
   std::string profile = "auto";  // auto: by the device | cpu | gpu | small: for slow compilers
   std::string loads;             // texels | storage
   std::string stack;             // shift | array
-  std::string rays;              // packets: trace coherent rays together | lanes: each alone
+  std::string rays;              // packets: trace coherent rays together | lanes: trace each alone
   std::string incoherent;        // incoherent rays: cooperative (four lanes a ray) | lanes | packets
 };
 

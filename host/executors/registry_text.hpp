@@ -1,5 +1,5 @@
-// The rows of the shaders' registries, and the registries of one scene as GLSL: with the rows alone that it
-// uses.
+// The rows of the shaders' registries, and the registries of one scene as GLSL, with only the rows that the
+// scene uses.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct Row {
   uint32_t number;
   std::string_view traits = "";  // as its row has them
 };
-// By kind, in registry order.
+// The rows of each registry, in its order.
 namespace rows {
 
 #define ROW(name, number, ...) {#name, number, #__VA_ARGS__},
@@ -49,7 +49,7 @@ inline constexpr MaterialTexture material_textures[] = {MATERIAL_TEXTURES(ROW)};
 // The registry macro `list` with the rows that are used, and the files of `folder` that they need.
 std::string registry_text(std::string_view list, std::string_view folder, std::span<const Row> rows,
                           const std::set<uint32_t>& used);
-// The macro alone.
+// Only the macro, without the files.
 std::string list_text(std::string_view list, std::span<const Row> rows, const std::set<uint32_t>& used);
 
 }  // namespace eyeray::engine::executors

@@ -7,12 +7,13 @@
 
 namespace eyeray::engine::executors {
 
-// Error (timed_out) where the flags show that a formula's loops did not end. The three below do as well.
+// Throws Error (timed_out) if the flags show that a formula's loops did not end. to_auxiliary, to_query_hit
+// and to_first_hit call it.
 void check_ended(uint32_t flags);
 
 // `ray_kinds`: whether the kernel counted them (records.h, SampleResult).
 inline PixelSample to_sample(const shader::SampleResult& result, bool ray_kinds) {
-  // In a kernel without a user's shaders FLAG_ENDLESS_LOOP states no more than FLAG_LOOP_BUDGET.
+  // In a kernel without a user's shaders, FLAG_ENDLESS_LOOP adds nothing to FLAG_LOOP_BUDGET.
   PixelSample sample{Vec3(result.color), result.rays, result.hits, result.flags & ~FLAG_ENDLESS_LOOP};
   if (ray_kinds) {
     sample.flags &= (1u << REFRACTED_SHIFT) - 1;
@@ -29,11 +30,11 @@ inline PixelSample to_sample(const shader::SampleResult& result, bool ray_kinds)
 
 AuxiliarySample to_auxiliary(const shader::AuxiliaryResult& result);
 
-// A ray of the shaders' world, and its hit.
+// A ray in the shaders' world, whose origin is `eye`, and the hit of such a ray.
 shader::QueryRay to_query_ray(const Query& ray, const Vec3& eye);
 QueryHit to_query_hit(const shader::QueryHit& result);
 
-// `eye`: the origin of the shaders' world; `search_cost`: whether the kernel counted it.
+// `eye`: the origin of the shaders' world. `search_cost`: whether the kernel counted the search's cost.
 FirstHit to_first_hit(const shader::HitResult& result, const Vec3& eye, bool search_cost);
 
 }  // namespace eyeray::engine::executors

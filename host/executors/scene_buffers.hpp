@@ -14,15 +14,15 @@ struct SceneBuffer {
   uint32_t binding;  // records.h
   const char* name;
   std::span<const std::byte> bytes;
-  size_t record;  // bytes of one
-  bool texels;    // whether the profile may have it as a texel buffer (kernels/bindings.glsl)
+  size_t record;  // bytes of one record
+  bool texels;    // whether a profile may load it as a texel buffer (kernels/bindings.glsl)
   bool geometry;
 
   // A shader may read the first record of an empty list in a branch that is masked out.
   size_t size() const { return bytes.empty() ? record : bytes.size(); }
 };
 
-// `scene` must stay.
+// The parts of a packed scene. `scene` must outlive them.
 std::array<SceneBuffer, 16> scene_buffers(const records::PackedScene& scene);
 // The buffer for kernels that load formulas' numbers. `words` must outlive it.
 SceneBuffer formula_numbers_buffer(std::span<const uint32_t> words);

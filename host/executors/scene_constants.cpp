@@ -77,7 +77,7 @@ std::string literal(const shader::Frame& f) {
 }
 
 // A loader that chooses among constants. A driver that runs both sides of every branch selects between
-// registers faster than it gathers from memory; where all records agree, nothing is left to select.
+// registers faster than it gathers from memory. If all records agree, no selection remains.
 template <typename Records>
 std::string constant_loader(std::string_view type, std::string_view name, const Records& records) {
   std::string text = fmt::format("{0} load_{1}(uint i) {{\n  {0} r = {2};\n", type, name,

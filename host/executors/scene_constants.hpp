@@ -1,4 +1,4 @@
-// A small scene as constants in the text of its kernels, which then load less of it or nothing.
+// A small scene as constants in the text of its kernels, which then load less of the scene, or nothing.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,8 @@ bool few_shading_records(const records::PackedScene& scene);
 bool few_primitives(const records::PackedScene& scene);
 
 // Everything but geometry and texels as constants, and the list of materials that materials/material.glsl
-// unrolls. Not of images: each of them is far more code than the choice between them.
+// unrolls. A scene with images gets no such list: each material is then far more code than the choice between
+// materials.
 std::string shading_as_constants(const records::PackedScene& scene, const std::set<uint32_t>& materials_used);
 
 // The values that are the same for all pixels, as a constant.

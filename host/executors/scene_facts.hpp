@@ -21,19 +21,19 @@ bool any_front_only(const records::PackedScene& scene);
 bool any_bent_coat(const records::PackedScene& scene);
 // True if any diffuse material is not Lambert's.
 bool any_rough_diffuse(const records::PackedScene& scene);
-// True if light goes through any principled material, and through any at all.
+// True if light passes through any principled material, and for `transmits`, through any material.
 bool any_principled_transmits(const records::PackedScene& scene);
 bool transmits(const records::PackedScene& scene);
 // True if `specular` or `specular_color` of any principled material is not the same everywhere.
 bool any_specular_varies(const records::PackedScene& scene);
 bool any_dims(const records::PackedScene& scene);
 bool any_scatters(const records::PackedScene& scene);
-// True if a light is seen under an angle.
+// True if any light has an angular size.
 bool any_light_disk(const records::PackedScene& scene);
-// The largest number of bounces of a path: 0 if no material reflects or transmits rays, or the integrator
-// follows none.
+// The largest number of bounces of a path. It is 0 if the integrator follows none, or if it follows only
+// reflections and refractions and no material has any.
 uint32_t most_bounces(const records::PackedScene& scene);
-// True if a path may go on in two ways at once.
+// True if a path may split in two at a hit.
 bool splits(const records::PackedScene& scene);
 // The number of shadow rays at each hit.
 uint32_t shadow_rays(const records::PackedScene& scene);

@@ -25,7 +25,7 @@ std::shared_ptr<gpu::Kernel> SceneKernels::make(const std::string& entry, std::s
       if (!guard_.active()) return compile(text);
       try {
         return compile(text);
-      } catch (const InputError&) {  // its lines are shown as their author wrote them
+      } catch (const InputError&) {  // so that messages show the lines as their author wrote them
         return compile(source(entry));
       }
     } catch (const InputError& error) {

@@ -1,4 +1,4 @@
-// Kernels that are made for one scene: the entries, compiled with its scene.glsl, with its buffers bound.
+// Kernels made for one scene: the entries, compiled with the scene's scene.glsl, and with its buffers bound.
 #pragma once
 
 #include <memory>
@@ -20,7 +20,7 @@
 
 namespace eyeray::engine::executors {
 
-// The entries that trace the rays they are given, by Rays.
+// The entries that trace given rays, indexed by Rays.
 inline constexpr const char* trace_entries[] = {
     "kernels/query.comp.glsl", "kernels/cooperative/packet.comp.glsl", "kernels/cooperative/bvh4.comp.glsl"};
 
@@ -30,12 +30,12 @@ class SceneKernels {
   struct Workshop {
     OpenDevice& device;
     StageTimes& times;
-    ExecutorFacts& facts;  // gets their source files, and the bytes of geometry
+    ExecutorFacts& facts;  // gets the kernels' source files, and the bytes of geometry
     gpu::KernelOptions how;
     Tunables* tunables;  // null: none
-    // Iterations that counted loops of a user's shaders may make together in one invocation.
+    // The iterations that all counted loops of a user's shaders may make together in one invocation.
     uint32_t most_iterations;
-    bool ray_kinds;  // whether kernels count them (records.h, SampleResult)
+    bool ray_kinds;  // whether kernels count reflected and refracted rays (records.h, SampleResult)
   };
 
   SceneKernels(const Workshop& workshop, UploadedScene& scene, ShaderFiles files)
@@ -50,8 +50,8 @@ class SceneKernels {
   std::shared_ptr<gpu::Kernel> make(const std::string& entry, std::string defines = "");
   // The text of an entry and all that it includes.
   gpu::ShaderSource source(const std::string& entry) { return source(entry, false); }
-  // Runs a dispatch of these kernels, by the tunables as they are now. Its time-out names the loops of a
-  // user's shaders.
+  // Runs a dispatch of these kernels, with the tunables' present values. If it times out, the error names the
+  // loops of a user's shaders.
   template <typename Dispatch>
   auto run(const Dispatch& dispatch) {
     if (tunables_ && uploaded_ != choice()) upload_tunables();
@@ -69,7 +69,7 @@ class SceneKernels {
     if (!guard_.active()) return;
     for (const auto& result : results) guard_.check(result.flags, workshop_.ray_kinds);
   }
-  // Tunables::choice: samples of another one are outdated.
+  // Tunables::choice. Samples made under another choice are outdated.
   uint64_t choice() const { return workshop_.tunables ? workshop_.tunables->choice() : 0; }
 
  private:
@@ -82,7 +82,7 @@ class SceneKernels {
   UploadedScene& scene_;
   ShaderFiles files_;
   LoopGuard guard_;
-  RawVector<shader::uvec4> binary_nodes_;  // until they are collapsed
+  RawVector<shader::uvec4> binary_nodes_;  // freed once they are collapsed
   shader::Bvh bvh_{};
   uint32_t bvh4_stack_ = 1;  // CollapsedBvh::stack_size
   std::optional<gpu::Buffer> tunables_;

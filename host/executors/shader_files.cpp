@@ -16,7 +16,7 @@
 namespace eyeray::engine::executors {
 namespace {
 
-constexpr std::string_view shared_files[] = {"records.h", "result_records.h"};  // by shaders and host
+constexpr std::string_view shared_files[] = {"records.h", "result_records.h"};  // used by shaders and host
 
 std::string_view embedded(std::string_view name) {
   for (const EmbeddedFile& shader : embedded_shaders())

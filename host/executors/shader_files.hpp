@@ -19,15 +19,16 @@ class ShaderFiles {
   ShaderFiles(std::filesystem::path folder, std::string scene_glsl);
 
   const std::filesystem::path& folder() const { return folder_; }
-  // The text of "shapes/sphere.glsl", or nothing.
+  // The text of a file such as "shapes/sphere.glsl"; nothing if there is no such file.
   std::optional<std::string> read(std::string_view name);
-  // For a file of the folder: eyeray's own text, empty where eyeray has no such file. Else nothing.
+  // eyeray's own text of a file that the folder has; empty if eyeray has no such file. Nothing if the folder
+  // lacks it.
   std::optional<std::string_view> replaced(std::string_view name) const;
   // The name for people: the path in the folder if the text came from there, else the name.
   std::string shown(const std::string& name) const;
   // True if any text came from the folder. If none did, an error of compilation is a fault of eyeray itself.
   bool gave_users() const { return gave_users_; }
-  // The paths in the folder that were looked for, there or not: for a watcher.
+  // The paths in the folder that were searched for, found or not: for a watcher.
   const std::set<std::filesystem::path>& looked_for() const { return looked_for_; }
 
  private:
@@ -37,8 +38,8 @@ class ShaderFiles {
   bool gave_users_ = false;
 };
 
-// The paths in `folder` of the files that take the place of embedded shaders and differ from them; none if it
-// is empty.
+// The paths in `folder` of the files that take the place of embedded shaders and differ from them. No path if
+// `folder` is empty.
 std::vector<std::string> changed_shaders(const std::filesystem::path& folder);
 
 }  // namespace eyeray::engine::executors

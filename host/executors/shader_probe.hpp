@@ -1,4 +1,4 @@
-// PROBE in shaders: how a kernel is made that records, and the meaning of its records.
+// PROBE in shaders: the making of a kernel that records probed values, and the meaning of its records.
 #pragma once
 
 #include <map>

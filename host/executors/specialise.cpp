@@ -17,12 +17,12 @@
 namespace eyeray::engine::executors {
 namespace {
 
-// The kinds of a scene, which alone its kernels have; and of `materials` those that anything is made of.
+// The kinds that a scene uses: its kernels have no others. `materials`: the indices of the materials in use.
 struct Used {
   std::set<uint32_t> shapes, leaves, with_uv, alpha_tested, deferred, materials, material_kinds;
 };
 
-// The kinds whose intersection is deferred: none where BVHs hold no other, or nothing.
+// The kinds whose intersection is deferred. There are none if BVHs hold only such kinds, or nothing.
 std::set<uint32_t> deferred_kinds(const records::PackedScene& scene) {
   std::set<uint32_t> kinds;
   for (const Row& row : rows::deferred_shapes)
@@ -47,7 +47,7 @@ Used used_by(const records::PackedScene& scene) {
   return used;
 }
 
-// Each has its meaning in shaders/kernels/features.h.
+// The macros of a scene's features; shaders/kernels/features.h explains each.
 std::string defines(const records::PackedScene& scene, const Used& used, const Specialisation& options,
                     bool unrolled) {
   std::string text;
@@ -89,7 +89,7 @@ std::string defines(const records::PackedScene& scene, const Used& used, const S
   define("HAS_ABSORPTION", int(any_dims(scene)));
   define("HAS_SCATTERING", int(any_scatters(scene)));
   define("HAS_MEDIUM_EXTENT", int(scene.frame.has_medium_extent));
-  // Only where a ray splits in two does a child wait, and one a level at most.
+  // A child ray waits only if rays split in two, and at most one waits at each level.
   define("PATH_STACK", splits(scene) ? scene.frame.max_depth : 0u);
   define("RANDOM_WALK", int(walks_at_random(scene)));
   define("TRACE_ITERATIONS", fmt::format("{}u", trace_iterations(scene, unrolled)));
@@ -117,7 +117,7 @@ std::string defines(const records::PackedScene& scene, const Used& used, const S
   define("HAS_MIXED_CSG", int(scene.mixed_csg));
   define("HAS_INSTANCES", int(!scene.instances.empty()));
   define("INSTANCE_COUNT", fmt::format("{}u", scene.instances.size()));
-  // In a BVH of one kind of shape nothing need ask for the kind.
+  // In a BVH of one kind of shape, no test of the kind is needed.
   define("BVH_HOLDS(number, primitive)", scene.bvh_kinds.size() == 1
                                              ? fmt::format("(number == {}u)", *scene.bvh_kinds.begin())
                                              : "(kind_of(primitive) == number)");
@@ -141,7 +141,8 @@ std::string defines(const records::PackedScene& scene, const Used& used, const S
   return text;
 }
 
-// Most textures of a material are constants, even if others are not: code that samples these is then short.
+// The kinds of each texture of the materials. Most textures of a material are constants, even if others are
+// not; the code that samples them is then short.
 std::string textures_of_materials(const records::PackedScene& scene, const std::set<uint32_t>& materials) {
   std::string text = "#define TEXTURES_OF(name, X) TEXTURES_OF_##name(X)\n";
   for (const auto& [name, texture] : rows::material_textures) {
@@ -194,7 +195,8 @@ std::string specialise(const records::PackedScene& scene, const Specialisation& 
                      (options.formula_numbers ? "#define FORMULA_NUMBERS\n" : "") +
                      "#include \"kernels/features.h\"\n#include \"kernels/bindings.glsl\"\n";
   if (options.constants && few_shading_records(scene)) text += shading_as_constants(scene, used.materials);
-  // If the eye moves, primitives do too: such a kernel is made anew for each camera anyway.
+  // If the eye moves, the primitives move too, relative to it. A kernel that contains them is made anew for
+  // each camera anyway.
   if (unrolled) text += primitives_as_constants(scene) + frame_as_constant(scene.frame);
   return text + "#include \"kernels/loaders.glsl\"\n" + formula_functions(scene, options.formula_numbers) +
          registries(scene, used);

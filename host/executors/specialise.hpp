@@ -1,4 +1,4 @@
-// Made for one scene: the text of scene.glsl, with which the entries compile only the scene's features.
+// Makes the text of scene.glsl for one scene. With it, the entries compile only the scene's features.
 #pragma once
 
 #include <string>
@@ -17,11 +17,11 @@ struct Specialisation {
   // 0: no cap.
   uint32_t loop_budget = 0;
   Profile profile = {};
-  uint32_t subgroup_size = 8;  // of kernels/cooperative/packet.comp.glsl
+  uint32_t subgroup_size = 8;  // for kernels/cooperative/packet.comp.glsl
   pack::PacketBvh packet_bvh = {};
-  uint32_t group_stride = 1;  // kernels/render.comp.glsl: runs of workgroups
+  uint32_t group_stride = 1;  // the runs into which kernels/render.comp.glsl deals out workgroups
   bool ray_kinds = false;     // count reflected and refracted rays
-  bool search_cost = false;   // of first hits
+  bool search_cost = false;   // count the cost of searching for first hits
   // The numbers of formulas, for BINDING_FORMULA_NUMBERS; null: they go into the text.
   expression::LoadedNumbers* formula_numbers = nullptr;
 };

@@ -8,14 +8,14 @@
 namespace eyeray::engine::executors {
 namespace {
 
-// If triangles are smaller than pixels, rays of a packet hardly share a leaf: beyond so many primitives each
-// ray is traced alone, unless packets are requested (docs/performance.md).
+// If triangles are smaller than pixels, rays of a packet hardly share a leaf. So beyond this many primitives
+// each ray is traced alone, unless packets are requested (docs/performance.md).
 constexpr size_t most_in_packets = 1 << 20;
-// Pictures take packets where they save more than their kernels take to make: of so many samples, and up to
-// so many primitives.
+// Pictures use packets where these save more time than making their kernels takes: from so many samples on,
+// and up to so many primitives.
 constexpr int64_t least_samples_in_wavefront = 1 << 22;
 constexpr size_t most_in_wavefront = 1 << 18;
-// In more lanes than these packets are slower than rays alone.
+// With more lanes than this, packets are slower than rays traced alone.
 constexpr uint32_t most_lanes_in_wavefront = 8;
 // Vectors of 512 bits are used for pictures of so many samples, where they save more time than compiling for
 // them takes. In scenes of more primitives than this, packets in narrower vectors are faster.
@@ -33,7 +33,7 @@ bool collapsible(const records::PackedScene& scene) {
 
 Rays incoherent_rays(const Profile& profile, const records::PackedScene& scene, bool packets,
                      uint32_t subgroup_size) {
-  // Up to here BVHs are so shallow that a ray is best alone (docs/performance.md).
+  // Up to this many primitives, BVHs are so shallow that rays are traced fastest alone (docs/performance.md).
   const bool few = scene.primitives.size() <= (only_triangles(scene) ? 1 << 9 : 1 << 10);
   const Rays wanted = profile.incoherent.value_or(few ? Rays::lanes : Rays::cooperative);
   const bool four_lanes = collapsible(scene) && subgroup_size >= pack::bvh4_children;
@@ -54,8 +54,8 @@ TracePlan plan_tracing(const Profile& profile, const ProfileOptions& asked, cons
   plan.incoherent = incoherent_rays(profile, scene, packets, subgroup_size);
   const bool pays = image.all_samples() >= least_samples_in_wavefront &&
                     scene.primitives.size() <= most_in_wavefront && subgroup_size <= most_lanes_in_wavefront;
-  // A path that passes a pane straight stays at its depth, which no kernel of a bounce knows; and paths that
-  // gather photons mostly end at once.
+  // A path that passes straight through a pane keeps its depth, which no kernel of a bounce handles. Paths
+  // that gather photons mostly end at once.
   plan.wavefront = packets && (wants_packets || pays) && !scene.panes &&
                    !sends_photons(IntegratorType(scene.frame.integrator));
   // Most rays that leave a mesh hit no more of it: separate kernels do not pay (docs/performance.md).
@@ -65,7 +65,7 @@ TracePlan plan_tracing(const Profile& profile, const ProfileOptions& asked, cons
 
 bool wants_wide_vectors(const ProfileOptions& asked, const ImageSettings& image,
                         const records::PackedScene& scene) {
-  // Pixels gather from few photons to thousands: the wider the vectors, the more of their lanes wait.
+  // Pixels gather between few and thousands of photons: the wider the vectors, the more of their lanes wait.
   if (sends_photons(IntegratorType(scene.frame.integrator))) return false;
   gpu::DeviceInfo llvmpipe;
   llvmpipe.type = gpu::DeviceType::cpu;

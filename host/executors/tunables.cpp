@@ -9,7 +9,8 @@
 namespace eyeray::engine::executors {
 namespace {
 
-// 1: the text before it, 2: type, 3: name, 4: value, 5: comment, 6: kind of control, 7: its numbers.
+// Groups: 1: the space before the declaration, 2: type, 3: name, 4: value, 5: comment, 6: kind of control, 7:
+// the control's numbers.
 const std::regex declaration(
     R"(^(\s*)const\s+(float|int|bool|vec3)\s+(\w+)\s*=\s*(.*?);(\s*//\s*@(slider|color|checkbox)\b\s*(.*))$)");
 
@@ -21,7 +22,7 @@ std::vector<double> numbers_in(const std::string& text) {
   return numbers;
 }
 
-// The value of "0.5f", "true" or "vec3(1, 0.5f, 0)", where it is as simple as that.
+// The value of a text as simple as "0.5f", "true" or "vec3(1, 0.5f, 0)"; nothing for other text.
 std::optional<Tunable::Value> value_of(Tunable::Type type, const std::string& text) {
   static const std::regex scalar(R"(\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?[fF]?\s*)");
   if (type == Tunable::Type::boolean) {

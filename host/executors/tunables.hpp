@@ -22,7 +22,7 @@ namespace eyeray::engine::executors {
 
 struct Tunable {
   enum class Type { floating, integer, boolean, vector };
-  using Value = std::array<double, 3>;  // of which a vector has three
+  using Value = std::array<double, 3>;  // a vector uses all three
 
   std::string id;  // "shapes/sphere.glsl:WIDTH"
   std::string file, name;
@@ -36,22 +36,23 @@ class Tunables {
  public:
   static constexpr size_t most = 64;
 
-  // The text with its tunables read from the buffer, or, once `as_constants`, written as they are chosen;
-  // line by line as before. What looks like one and is none stays as it is.
+  // The text with its tunables read from the buffer; if `as_constants`, with their chosen values written in.
+  // No line moves. A declaration that only resembles a tunable stays unchanged.
   std::string apply(const std::string& file, std::string_view text);
-  // Forgets which there are, but not the values chosen: before the texts are read anew.
+  // Forgets the tunables found, but not the values chosen. Call it before the texts are read again.
   void begin();
   bool as_constants = false;
 
-  // All that were seen since begin().
+  // All tunables found since begin().
   const std::vector<Tunable>& found() const { return found_; }
-  // Values by id; where nothing is chosen, the written value counts. Returns whether that changes anything.
+  // Chooses values, by id. A tunable without a chosen value keeps the one written in the text. Returns true
+  // if this changes any choice.
   bool choose(std::map<std::string, Tunable::Value> values);
-  // The number of the choice: executors compare it before they sample.
+  // The number of the present choice. Executors compare it before they sample.
   uint64_t choice() const { return choice_; }
   bool any_chosen() const { return !chosen_.empty(); }
   Tunable::Value value(const Tunable& tunable) const;
-  // BINDING_TUNABLES's buffer.
+  // The contents of BINDING_TUNABLES's buffer.
   std::array<std::array<float, 4>, most> records() const;
 
  private:
@@ -60,7 +61,7 @@ class Tunables {
   std::vector<Tunable> found_;
   std::map<std::string, Tunable::Value> chosen_;
   uint64_t choice_ = 0;
-  std::vector<std::string> places_;  // ids, as they lie in the buffer: once given, for ever
+  std::vector<std::string> places_;  // ids by position in the buffer; a position never changes
 };
 
 }  // namespace eyeray::engine::executors

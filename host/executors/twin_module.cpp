@@ -49,7 +49,8 @@ bool has_sources(const fs::path& folder) {
   return whole;
 }
 
-// The program's own part of the sources, below `folder`: once for each version, and whole.
+// Writes the program's own part of the sources below `folder`, once for each version. Other processes see all
+// of it or nothing.
 fs::path write_sources(const fs::path& folder) {
   ContentHash hash;
   for_each_source([&](const fs::path& name, std::string_view text) { hash.add(name.string()).add(text); });
@@ -64,7 +65,7 @@ fs::path write_sources(const fs::path& folder) {
   if (!has_sources(part)) throw Error(ExitCode::file_io, "cannot write {}", place.string());
   std::error_code failed;
   fs::rename(part, place, failed);
-  if (failed && !has_sources(place)) {  // not that another process was faster: damaged
+  if (failed && !has_sources(place)) {  // no other process was faster: the folder is damaged
     fs::remove_all(place);
     fs::rename(part, place);
   }
@@ -88,7 +89,7 @@ fs::path absolute_or_empty(const fs::path& folder) {
   return folder.empty() ? folder : fs::absolute(folder).lexically_normal();
 }
 
-// The compiler's errors, of files as their owner calls them.
+// The compiler's errors, with the files' names as their owner knows them.
 std::vector<Diagnostic> diagnostics_in(const std::string& log, const fs::path& folder,
                                        const fs::path& sources) {
   static const std::regex error(R"(^(.+?):(\d+):(?:(\d+):)? (?:fatal )?error: (.*)$)");
@@ -114,7 +115,7 @@ std::vector<Diagnostic> diagnostics_in(const std::string& log, const fs::path& f
   return found;
 }
 
-// A copy of `file` with other text, line by line: compilers and debuggers show the file itself.
+// Writes a copy of `file` with other text but the same lines. Compilers and debuggers show the file itself.
 void write_copy(const fs::path& copy, const fs::path& file, std::string_view text) {
   make_folder(copy.parent_path());
   std::string quoted;
@@ -124,7 +125,7 @@ void write_copy(const fs::path& copy, const fs::path& file, std::string_view tex
   if (!stream.flush()) throw Error(ExitCode::file_io, "cannot write {}", copy.string());
 }
 
-// The newest stay, of modules and of their sources.
+// Removes old modules and old sources, and keeps the newest of each.
 void drop_old(const fs::path& folder) {
   std::error_code failed;
   std::vector<std::pair<fs::file_time_type, fs::path>> modules, sources;
@@ -140,7 +141,7 @@ void drop_old(const fs::path& folder) {
 }  // namespace
 
 TwinModule::TwinModule(const fs::path& folder, const std::string& sanitizers) {
-  const ShaderFiles checked(folder, "");  // whether its records are ours
+  const ShaderFiles checked(folder, "");  // throws if its records differ from ours
   std::vector<std::string> command = require_cpp_compiler();
   compiler_ = fs::path(command[0]).filename();
   for (const std::string& flag : module_flags(command, sanitizers)) command.push_back(flag);
@@ -191,7 +192,7 @@ TwinModule::TwinModule(const fs::path& folder, const std::string& sanitizers) {
         write_copy(copies.path() / name, absolute_or_empty(folder / name), text);
       result = compile({"-I" + copies.path().string()});
     }
-    // Mistakes are shown as their author wrote them.
+    // Compiles the author's own text, so that errors show it.
     if (counted.empty() || result.code != 0) result = compile({});
     if (result.code != 0) {
       fs::remove(part, failed);

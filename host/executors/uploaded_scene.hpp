@@ -13,14 +13,16 @@ namespace eyeray::engine::executors {
 
 class UploadedScene {
  public:
-  // `texels`: whether buffers that may be are texel buffers. `device` must outlive it.
+  // `texels`: whether to make texel buffers where SceneBuffer::texels allows it. `device` must outlive the
+  // scene.
   UploadedScene(gpu::Device& device, bool texels) : device_(device), texels_(texels) {}
 
-  // Error (no_device) where the device has too little memory for it and those before.
+  // Uploads a buffer. Error (no_device) if the device has too little memory for this buffer and the earlier
+  // ones.
   void add(const SceneBuffer& source);
-  // Gives the kernel the buffers so far.
+  // Binds the buffers added so far to the kernel.
   void bind(gpu::Kernel& kernel) const;
-  // Bytes that geometry and the BVHs over it take.
+  // The bytes of geometry and of the BVHs over it.
   uint64_t geometry_bytes() const { return geometry_bytes_; }
 
  private:

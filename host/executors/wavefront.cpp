@@ -46,7 +46,7 @@ std::optional<double> Wavefront::run(shader::Dispatch push, gpu::Buffer& results
   run(eye_, push, options_.workgroups.of_packets(pixels), options_.workgroups.of_items(pixels), eye_commands);
   double seconds = eye_commands.run().seconds;
 
-  // Then the paths that go on, bounce by bounce; or all the way, where rays split.
+  // Then the paths that go on, bounce by bounce. If rays split, one step finishes them.
   const uint32_t bounces = options_.splits ? std::min(options_.bounces, 1u) : options_.bounces;
   uint32_t& depth = push.depth;
   for (depth = 1; depth <= bounces; ++depth) {

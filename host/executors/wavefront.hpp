@@ -1,6 +1,7 @@
-// Pictures by wavefronts: all pixels of a tile a bounce at a time, each step a kernel. Camera rays and their
-// shadow rays, which are coherent, are traced in packets; the rays of a later bounce as the profile sets.
-// Every bounce is shaded by kernels/wavefront.comp.glsl, which lists the pixels whose paths go on.
+// Renders pictures by wavefronts: all pixels of a tile, one bounce at a time, with a kernel for each step.
+// Camera rays and their shadow rays, which are coherent, are traced in packets. The profile sets the way of
+// tracing the rays of later bounces. Every bounce is shaded by kernels/wavefront.comp.glsl, which lists the
+// pixels whose paths go on.
 #pragma once
 
 #include <functional>
@@ -17,7 +18,7 @@ namespace eyeray::engine::executors {
 
 struct WavefrontOptions {
   uint32_t shadow_rays = 0;  // of each hit
-  uint32_t bounces = 0;      // at most, after the camera ray
+  uint32_t bounces = 0;      // the most bounces after the camera ray
   // True if rays split in two. Then kernels/render.comp.glsl restarts the pixels whose paths go on.
   bool splits = false;
   // The way of tracing the rays of later bounces and their shadow rays: `lanes` while they are shaded, or
@@ -28,14 +29,14 @@ struct WavefrontOptions {
 
 class Wavefront {
  public:
-  // The kernel of an entry under defines, with the scene's buffers bound.
+  // Makes the kernel of an entry with these defines, and binds the scene's buffers.
   using MakeKernel =
       std::function<std::shared_ptr<gpu::Kernel>(const std::string& entry, const std::string& defines)>;
 
   Wavefront(gpu::Device& device, const MakeKernel& make_kernel, const WavefrontOptions& options);
 
-  // One sample of every pixel of push's tile, as SampleResults; the seconds it took. Nothing when
-  // interrupted.
+  // Writes one sample of every pixel of push's tile to `results`, as SampleResults. Returns the seconds that
+  // it took; nothing when interrupted.
   std::optional<double> run(shader::Dispatch push, gpu::Buffer& results);
 
  private:
@@ -52,7 +53,7 @@ class Wavefront {
   gpu::Device& device_;
   WavefrontOptions options_;
   Bounce eye_, later_;
-  uint32_t pixels_ = 0;  // that the buffers have room for
+  uint32_t pixels_ = 0;  // the pixels for which the buffers have room
   std::optional<gpu::Buffer> hits_, occlusions_, paths_, lists_[2];
 };
 

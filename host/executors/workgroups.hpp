@@ -1,4 +1,4 @@
-// The number of workgroups of 64 in a dispatch.
+// The number of workgroups in a dispatch. Each has 64 invocations.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,13 @@ struct Workgroups {
   uint32_t stride = 1;    // GROUP_STRIDE: a CPU driver splits a dispatch evenly over so many threads
   uint32_t subgroup = 8;  // lanes
 
-  // An invocation each.
+  // For one invocation per item.
   uint32_t of_items(uint32_t count) const { return in_runs(count, 64); }
-  // In packets, of a subgroup each (kernels/cooperative/packet.comp.glsl).
+  // For packets of rays, each traced by one subgroup (kernels/cooperative/packet.comp.glsl).
   uint32_t of_packets(uint32_t rays) const { return in_runs(rays, 64 / subgroup * PACKET); }
 
-  // The pixels of a tile, its sides rounded up: 8 × 8 pixels a workgroup (kernels/tile.glsl).
+  // The number of pixels of a tile whose sides are rounded up to multiples of 8: a workgroup has 8 × 8 pixels
+  // (kernels/tile.glsl).
   static uint32_t pixels(uint32_t width, uint32_t height) {
     return (width + 7) / 8 * ((height + 7) / 8) * 64;
   }
