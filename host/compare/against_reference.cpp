@@ -17,7 +17,7 @@ struct Judgement : PixelOutcome {
 
 constexpr int64_t always_allowed = 4;     // so that a small crop around an edge can pass
 constexpr size_t examined_at_once = 256;  // so that failures are reported soon
-// If a colour oscillates, the usual positions may all miss its extreme. If they leave only few pixels
+// If a colour oscillates, the usual positions may all miss its extreme. If only `few` pixels remain
 // unexplained, these are examined again at more positions.
 constexpr int usual_angles = 16;
 constexpr int many_angles = 256;
@@ -61,8 +61,8 @@ class Judge {
     });
   }
 
-  // Looks into the pixels that differ, some hundreds at a time, spread over the picture: those of each gate
-  // until that gate has failed, whatever the others find.
+  // Examines the pixels that differ, some hundreds at a time, spread over the picture. The pixels of a gate
+  // are examined until that gate has failed, whatever the other gates find.
   void explain(const Reference& around) {
     const size_t parts = of_outcome(Outcome::unexamined, true).size() / examined_at_once + 1;
     for (size_t part = 0; part < parts; ++part) {
@@ -109,7 +109,8 @@ class Judge {
     return {{outcome, {}}, excess};
   }
 
-  // The pixels with that outcome of any gate, or of those that have not failed for certain.
+  // The pixels with that outcome in any gate; unless `of_all`, only in the gates that have not failed for
+  // certain.
   std::vector<size_t> of_outcome(Outcome outcome, bool of_all) const {
     std::vector<const std::vector<Judgement>*> asked;
     for (const std::vector<Judgement>* judgements : {&first_hits_, &counts_, &colors_}) {
@@ -153,8 +154,7 @@ class Judge {
     tally.pixels = int64_t(judgements.size());
     tally.may_be_explained = explained_cap(tolerances_, tally.pixels);
 
-    // Count, and find the worst; an unexamined pixel stands for the report only where no unexplained one
-    // does.
+    // Count, and find the worst pixel for the report: an unexamined one only if none is unexplained.
     const auto weight = [](const Judgement& j) {
       const int rank = j.outcome == Outcome::unexplained  ? 4
                        : j.outcome == Outcome::unexamined ? 3

@@ -1,5 +1,5 @@
-// Gates B and C: colours, and first hits and counts, agree with the reference, pixel by pixel, or the
-// reference explains why not.
+// Gates B (colours) and C (first hits and counts): each pixel agrees with the reference, or the reference
+// explains why not.
 #pragma once
 
 #include <array>
@@ -25,8 +25,8 @@ struct Tally {
   int64_t matching = 0;  // within tolerance
   std::array<int64_t, cause_count> explained{};
   int64_t unexplained = 0;
-  // When more pixels differ than may be explained at all, the gate has failed, and only some hundreds of
-  // them, spread over the picture, are looked into; these are the rest.
+  // The differing pixels that were not examined. If more pixels differ than may be explained at all, the gate
+  // has failed, and only some hundreds of them, spread over the picture, are examined.
   int64_t unexamined = 0;
   int64_t may_be_explained = 0;  // the cap on capped_pixels()
   WorstPixel worst;  // the largest error among the unexplained; else the explained; else the matching
@@ -44,8 +44,8 @@ struct ReferenceComparison {
   Tally colors;              // gate B
   Tally first_hits;          // gate C
   Tally counts;              // gate C
-  Tally paths;               // gate D, of samples; in place of the two before where paths are random
-  PairedSum paired_sum;      // the worst of gate D
+  Tally paths;           // gate D, counted in samples; if paths are random, it replaces `colors` and `counts`
+  PairedSum paired_sum;  // gate D's worst sum
 
   bool by_samples() const { return paths.pixels > 0; }
   std::span<const TallyType> types() const;
@@ -72,14 +72,14 @@ inline constexpr TallyType path_tally_types[] = {
 // The tally of gate G, which compares with a golden picture (report.hpp).
 inline constexpr TallyType golden_type{"G", "colours", &ReferenceComparison::colors};
 
-// `outcomes`, where it is asked for: of every pixel, row by row, the worst of its tallies. `paths`: where
-// paths are random, samples are compared instead of their means.
+// `outcomes`, if not null, gets the worst outcome of every pixel over all tallies, row by row. With `paths`,
+// for random paths, samples are compared instead of their means.
 ReferenceComparison compare_with_reference(const Frame& value, const Frame& reference,
                                            const Reference& around, const Tolerances& tolerances = {},
                                            std::vector<PixelOutcome>* outcomes = nullptr,
                                            const PathReference* paths = nullptr);
 
-// Tally::may_be_explained of so many pixels, or samples.
+// Tally::may_be_explained for so many pixels or samples.
 int64_t explained_cap(const Tolerances& tolerances, int64_t pixels);
 
 }  // namespace eyeray::engine::compare

@@ -1,4 +1,4 @@
-// Why pixels differ, as a picture.
+// Pictures that show why pixels differ.
 #pragma once
 
 #include <map>
@@ -9,9 +9,9 @@
 
 namespace eyeray::engine::compare {
 
-// `background`, linear, dark and grey, and over it each pixel that does not match in the colour of its cause:
-// unexplained ones red, others as Okabe and Ito choose for all kinds of eyes (docs/report.md). One
-// outcome a pixel.
+// Shows the linear `background` dark and grey, and over it each pixel that does not match, in the colour of
+// its cause. Unexplained pixels are red; the others have colours that Okabe and Ito chose for all kinds of
+// eyes (docs/report.md). `outcomes`: one for each pixel.
 image::Image cause_picture(const image::Image& background, const std::vector<PixelOutcome>& outcomes);
 
 // The legend of such a picture, as JSON: {"silhouette": {"color": "#0072b2", "pixels": 8}, …}.

@@ -1,4 +1,4 @@
-// Derives the origin of a fault from the executors that diverge and the value at which they do.
+// Derives the origin of a fault from the executors that diverge and the value at which they diverge.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ bool agrees_with_reference(const Report& report, const std::string& executor) {
   });
 }
 
-// The side that the fault is on. Empty if nothing indicates it.
+// The executors or data that are at fault, in words. Empty if nothing indicates them.
 std::string side(const Report& report) {
   if (report.exact.empty()) return "";
   const ExactResult& pair = report.exact.front();
@@ -41,7 +41,7 @@ std::string side(const Report& report) {
       pair.other);
 }
 
-// The first wrong value along the life of a ray.
+// The first wrong value along the life of a ray, in words.
 std::string place(const ReferenceResult& result) {
   const ReferenceComparison& c = result.comparison;
   const std::span<const TallyType> types = c.types();

@@ -71,7 +71,7 @@ int64_t ulp_distance(float a, float b) {
   if (std::isnan(a) || std::isnan(b)) {
     return std::isnan(a) && std::isnan(b) ? 0 : std::numeric_limits<int64_t>::max();
   }
-  // Sign and magnitude to an order: −0 and +0 are neighbours' neighbours at distance 0.
+  // Maps sign and magnitude to integers in the floats' order, in which −0 and +0 coincide.
   const auto order = [](float x) {
     const uint32_t bits = std::bit_cast<uint32_t>(x);
     const int64_t magnitude = bits & 0x7fffffffu;
@@ -115,7 +115,7 @@ ExactComparison compare_exactly(const Frame& value, const Frame& other) {
       result.different_first_hits += first_hits_differ;
       result.different_ids += !same_ids(hit, other_hit) || trails_differ;
 
-      // Measure how far.
+      // Measure the largest distance of any two values.
       int64_t ulp = 0;
       for (int c = 0; c < 2; ++c) ulp = std::max(ulp, ulp_distance(float(counts[c]), float(other_counts[c])));
       for (int c = 0; c < 3; ++c) ulp = std::max(ulp, ulp_distance(float(color[c]), float(other_color[c])));

@@ -9,10 +9,10 @@ namespace eyeray::engine::compare {
 struct ExactComparison {
   std::string incomparable;      // why nothing was compared; empty when everything was
   int64_t pixels = 0;            // compared
-  int64_t different_pixels = 0;  // with any bit that differs, in colour, first hit, hit count or a sample
-  int64_t different_colors = 0;  // of them, with another colour
+  int64_t different_pixels = 0;  // with any differing bit in colour, first hit, hit count or a sample
+  int64_t different_colors = 0;  // pixels with another colour
   int64_t different_first_hits = 0;
-  int64_t different_ids = 0;  // with another primitive, material or trail: no ULP bound forgives these
+  int64_t different_ids = 0;  // pixels with another primitive, material or trail: no ULP bound forgives these
   int64_t max_ulp = 0;        // the largest distance of two values, in units in the last place of float32
   uint64_t rays = 0, other_rays = 0;
   WorstPixel worst;  // the pixel with the largest distance; x = −1 when there is none

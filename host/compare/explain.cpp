@@ -8,10 +8,10 @@ namespace eyeray::engine::compare {
 
 namespace {
 
-// By so much a normal differs at a crease.
+// At a crease, normals differ by more than this.
 constexpr double least_crease = 0.01;
 
-// Surfaces hit.
+// The mean number of surfaces that a sample hits.
 double hits_per_sample(const Neighbour& neighbour) {
   double hits = 0;
   for (const Neighbour::Sample& sample : neighbour.samples) hits += sample.counts.x;
@@ -29,7 +29,7 @@ struct Bounds {
     low = glm::min(low, value);
     high = glm::max(high, value);
   }
-  // True if `value` lies within them, widened by `beyond` times their width, and by `margin` or by
+  // True if `value` lies within the bounds, widened by `beyond` times their width, and by `margin` or by
   // `tolerance` · max(1, |bound|); false where it is NaN.
   bool hold(const Value& value, double margin, double beyond) const {
     return hold(value, beyond, [&](double) { return margin; });
@@ -81,7 +81,7 @@ bool bounds_hold(std::span<const Neighbour> neighbours, const Counts& counts, bo
 }
 
 bool bounds_hold(std::span<const Neighbour> neighbours, const FirstHit& value, const Tolerances& tolerances) {
-  // Gather the known facts of the primitive that was hit.
+  // Collect the bounds of the neighbours that hit the same primitive and material.
   Bounds<1> t, cosine;
   Bounds<2> uv;
   Bounds<3> position, normal, normal_geometric;
@@ -106,8 +106,8 @@ bool bounds_hold(std::span<const Neighbour> neighbours, const FirstHit& value, c
   if (!found) return false;
 
   if (value.primitive < 0) return std::isinf(value.t) && value.t > 0;
-  // Towards a rim all these values run like a square root: they may lie as far beyond the neighbours' range
-  // as that is wide.
+  // Towards a rim, all these values change like a square root. So they may lie beyond the neighbours' range
+  // by its width.
   const double beyond = silhouette ? 1 : 0;
   return t.hold(glm::dvec1(value.t), tolerance, beyond) && position.hold(value.position, tolerance, beyond) &&
          normal.hold(value.normal, tolerances.normal, beyond) &&

@@ -40,8 +40,8 @@ Vec3 rgb_from_ycxcz(const Vec3& ycxcz) {
   return rgb_from_xyz * (white * Vec3(y + ycxcz.y / 500, y, y - ycxcz.z / 200));
 }
 
-// The cube root of a positive number, accurate to its last bits: three of Halley's steps from a guess by the
-// exponent's third. It takes half the time of std::cbrt, which took a sixth of FLIP's time.
+// The cube root of a positive number, accurate to its last bits: three of Halley's steps from a guess whose
+// exponent is a third of x's. It takes half the time of std::cbrt, which took a sixth of FLIP's time.
 double cube_root(double x) {
   double root = std::bit_cast<double>(std::bit_cast<uint64_t>(x) / 3 + 0x2a9f7893782da1ce);
   for (int step = 0; step < 3; ++step) {
@@ -51,7 +51,7 @@ double cube_root(double x) {
   return root;
 }
 
-// To float32's precision, in half the time of std::pow.
+// x^exponent to float32's precision, in half the time of float64's std::pow.
 double power(double x, double exponent) {
   return double(std::pow(float(x), float(exponent)));
 }
@@ -104,10 +104,11 @@ struct Sensitivity {
   double weight() const { return a * std::sqrt(M_PI / b); }
 };
 
-// `plane` as the eye resolves it: filtered by a sum of Gaussians. Each is separable, so the sum is taken
-// after filtering, by each one's share of the whole sum of weights.
+// `plane` as the eye resolves it: filtered by a sum of Gaussians. Each Gaussian is separable. So `plane` is
+// filtered by each one, and the results are summed by each one's share of the whole sum of weights.
 Plane filter(const Plane& plane, std::initializer_list<Sensitivity> sensitivities) {
-  // All channels use the radius of the widest Gaussian; of a narrow one the rest is below 1e-12.
+  // All channels use the radius of the widest Gaussian, but a narrow Gaussian is cut off where its weights
+  // fall below 1e-12.
   const int widest = int(std::ceil(3 * Sensitivity{1, 0.04}.sigma()));
   Plane result(plane.width, plane.height);
   double total = 0;
@@ -142,7 +143,7 @@ std::vector<Vec3> perceived_colors(const Planes& planes) {
   return colors;
 }
 
-// The colour distance in [0, 1]: small ones spread out, large ones pressed together.
+// The colour distance mapped to [0, 1]: small distances are spread out, large ones are compressed.
 double color_error(const Vec3& a, const Vec3& b) {
   static const double greatest =
       std::pow(hyab(hunt(lab_from_rgb({0, 1, 0})), hunt(lab_from_rgb({0, 0, 1}))), color_exponent);
@@ -187,7 +188,7 @@ std::vector<double> flip_map(const image::Image& a, const image::Image& b) {
   Planes planes_a = to_planes(a), planes_b = to_planes(b);
   const std::vector<Vec3> colors_a = perceived_colors(planes_a), colors_b = perceived_colors(planes_b);
 
-  // Features are looked for in the luminance, scaled to [0, 1].
+  // Features are searched for in the luminance, scaled to [0, 1].
   for (Plane* plane : {&planes_a.y, &planes_b.y}) {
     for (double& value : plane->values) value = (value + 16) / 116;
   }

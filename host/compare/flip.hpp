@@ -8,7 +8,7 @@
 
 namespace eyeray::engine::compare {
 
-// Over all pixels, 0 (the same) … 1.
+// Statistics of FLIP's error over all pixels, from 0 (the same) to 1.
 struct Flip {
   double mean = 0;
   double p95 = 0;  // 95 % of the pixels have no more

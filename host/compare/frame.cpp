@@ -6,7 +6,7 @@ namespace eyeray::engine::compare {
 
 namespace {
 
-// True if every part of a frame has the size that its area states.
+// True if every part of the frame has the size of its area.
 bool whole(const Frame& frame) {
   const Rect& area = frame.area;
   const auto holds = [&](const image::Image& image, int channels) {

@@ -1,4 +1,4 @@
-// One executor's answer for one picture, as it is compared.
+// One executor's results for one picture, in the form in which they are compared.
 #pragma once
 
 #include <cstdint>
@@ -14,22 +14,22 @@ namespace eyeray::engine::compare {
 // One sample of a pixel whose path is random.
 struct TracedSample {
   glm::vec3 color{0.0f};
-  uint32_t trail = 0;  // PixelSample's
+  uint32_t trail = 0;  // PixelSample::trail
   uint32_t hits = 0;
   uint32_t rays = 0;
 };
 
 struct Frame {
-  Rect area;                         // the pixels of the whole picture that it holds
+  Rect area;                         // the part of the whole picture that the frame holds
   image::Image color;                // linear RGB, the mean of the samples
   std::vector<FirstHit> first_hits;  // row by row
   image::Image hits;                 // 1 channel: surfaces hit, the mean of the samples
-  image::Image rays_traced;          // 1 channel: eye, reflected, refracted and shadow rays, the mean
-  uint64_t rays = 0;                 // all of them
+  image::Image rays_traced;          // 1 channel: camera, reflected, refracted and shadow rays, the mean
+  uint64_t rays = 0;                 // the number of all rays
   uint64_t flagged_pixels = 0;       // pixels with any SampleFlag
   uint32_t flags = 0;                // all SampleFlags seen
 
-  std::vector<TracedSample> samples = {};  // if paths are random: as many of each pixel, one after the other
+  std::vector<TracedSample> samples = {};  // for random paths: equally many of each pixel, pixel by pixel
 
   const FirstHit& first_hit(int x, int y) const {
     return first_hits[size_t(y) * size_t(area.width) + size_t(x)];

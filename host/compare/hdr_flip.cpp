@@ -16,7 +16,7 @@ constexpr double k0 = 0.36 * 2.51, k1 = 0.6 * 0.03, k3 = 0.36 * 2.43, k4 = 0.6 *
 constexpr double shown = 0.85;  // the paper's t
 
 double tone_mapped(double x) {
-  // So bright that the quotient is that of the squares.
+  // For such bright input, the terms in x² alone decide the quotient.
   if (x > 1e30) return 1;
   return std::clamp((k0 * x + k1) * x / ((k3 * x + k4) * x + k5), 0.0, 1.0);
 }
@@ -27,7 +27,7 @@ double brightest_shown() {
   return -b / (2 * a) + std::sqrt(b * b / (4 * a * a) - c / a);
 }
 
-// The mean of the two in the middle, of an odd number the one. Reorders them.
+// The middle value, or for an even number the mean of the two in the middle. Reorders `values`.
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());

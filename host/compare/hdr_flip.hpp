@@ -10,11 +10,12 @@
 
 namespace eyeray::engine::compare {
 
-// In stops: from where the brightest of the reference comes out at 0.85 of white, to where its median does.
+// Exposures in stops. At `start`, the reference's greatest luminance is shown at 0.85 of white; at `stop`,
+// its median luminance is.
 struct Exposures {
   double start = 0;
   double stop = 0;
-  int count = 2;  // as far apart as a stop, or less
+  int count = 2;  // evenly spaced: as many as stops between them, rounded up, but at least 2
 
   double at(int index) const { return start + index * (stop - start) / (count - 1); }
 };
@@ -23,19 +24,19 @@ struct Exposures {
 // luminances above 0 replaces it: the paper leaves this case open.
 Exposures exposures_of(const image::Image& reference);
 
-// Linear colours as a display shows them at an exposure: tone mapped (ACES, as Narkowicz fits it), linear, in
-// [0, 1]. Negative colours count as black.
+// The linear colours that a display shows at an exposure: tone mapped (by Narkowicz's fit of ACES), linear,
+// in [0, 1]. Negative colours count as black.
 image::Image exposed(const image::Image& image, double exposure);
 
 struct HdrFlip {
   Exposures exposures;
   Flip flip;
-  std::vector<float> map;       // of each pixel, row by row: the greatest error …
+  std::vector<float> map;       // each pixel's greatest error, row by row …
   std::vector<float> exposure;  // … and the first exposure at which it is found, in stops
 };
 
-// HDR-FLIP of two linear 1- or 3-channel pictures of one size, of which `b` is the reference. Empty if a
-// value is not finite.
+// HDR-FLIP of two linear 1- or 3-channel pictures of one size; `b` is the reference. Empty if a value is not
+// finite.
 std::optional<HdrFlip> hdr_flip(const image::Image& a, const image::Image& b);
 
 }  // namespace eyeray::engine::compare

@@ -76,7 +76,7 @@ Metrics measure(const image::Image& a, const image::Image& b, bool hdr) {
   CHECK_LE(1u, a.sample_count());
   Metrics metrics;
 
-  // Each pixel by itself; a value that is no number is infinite.
+  // The differences of each pixel; a value that is no number counts as infinite.
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const size_t pixels = size_t(a.width()) * size_t(a.height());
   std::vector<double> worst(pixels), square(pixels), relative(pixels), shown(pixels);

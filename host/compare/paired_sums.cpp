@@ -31,8 +31,8 @@ Sums sums_of(const Frame& value, const Frame& reference, const Rect& tile) {
   return sums;
 }
 
-// The largest number of the tile's pixels that show a point within that distance of the point of one of them.
-// That one is each pixel in turn, or one of an even selection of many: neighbours have nearly equal numbers.
+// The largest number of the tile's pixels whose points lie within `distance` of one pixel's point. Each pixel
+// is tried as that one. If there are many, an even selection is tried: neighbours have nearly equal numbers.
 double most_near(const Frame& frame, const Rect& tile, double distance) {
   constexpr int sampled_along = 16;
   std::vector<Vec3> places;
@@ -72,7 +72,7 @@ PairedSum worst_paired_sum(const Frame& value, const Frame& reference, double sh
                           c,
                           std::abs(sums.difference[c]) / scale,
                           allowed / scale};
-      // So that a NaN is the worst.
+      // Written so that a NaN counts as the worst.
       if (!(sum.excess() <= worst.excess())) worst = sum;
     }
   };

@@ -14,11 +14,11 @@ namespace {
 constexpr size_t examined_at_once = 256;  // so that failures are reported soon
 constexpr int usual_angles = 16;
 constexpr int many_angles = 256;
-// Unexplained samples are examined again at so many angles where they are so few, or such a share of those
-// that do not match. Where mirrors see each other, any number of them needs that.
+// Unexplained samples are examined again at `many_angles`, if there are at most `few`, or at most one in
+// `few_of` of the samples that do not match. If mirrors see each other, any number of samples needs that.
 constexpr size_t few = 32, few_of = 64;
-// One in so many samples is examined once more: a thin mirror multiplies a rounding error by a thousand, and
-// a path may hit several.
+// If at most one in `one_in` of all samples is still unexplained, these are examined once more, at
+// `most_angles`. A thin mirror multiplies a rounding error by a thousand, and a path may hit several.
 constexpr int most_angles = 4096;
 constexpr size_t one_in = size_t{1} << 18;
 
@@ -30,8 +30,8 @@ struct Apart : PixelOutcome {
   double excess;
 };
 
-// The index at which two paths diverge. Neither is a prefix of the other: both end with an event for their
-// end.
+// The index at which two paths diverge. Neither is a prefix of the other, since the last event of each marks
+// its end.
 size_t parting_of(const Events& a, const Events& b) {
   return size_t(std::ranges::mismatch(a, b).in1 - a.begin());
 }
@@ -67,7 +67,8 @@ class PathJudge {
     }
   }
 
-  // Some hundreds at a time, spread over the picture, until the gate has failed.
+  // Examines the samples that do not match, some hundreds at a time, spread over the picture, until the gate
+  // has failed.
   void explain() {
     const size_t parts = apart_.size() / examined_at_once + 1;
     for (size_t part = 0; part < parts && !failed(); ++part) {
@@ -162,7 +163,7 @@ class PathJudge {
     });
   }
 
-  // If the same path brings different light, the reference's light must vary as much nearby.
+  // If the same path carries different light, the reference's light must vary as much nearby.
   void judge_steep(Apart& sample, int angles, bool between) const {
     const Neighbourhood around(paths_.around(int(sample.sample % each_)), pixel_of(sample.sample), angles,
                                between);

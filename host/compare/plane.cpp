@@ -20,7 +20,7 @@ Kernel gaussian(double sigma, int radius) {
 
 namespace {
 
-// Two numbers, as GCC and Clang have them in a register.
+// Two numbers in one register, by an extension of GCC and Clang.
 using Pair = double __attribute__((vector_size(16)));
 
 Pair load(const double* from) {
@@ -29,7 +29,7 @@ Pair load(const double* from) {
   return pair;
 }
 
-// Writes `width` sums, each over the weighted `taps` in their order.
+// Writes `width` sums of the `taps`, weighted by `kernel` and added in their order.
 void weigh(const Kernel& kernel, std::span<const double* const> taps, int width, double* sums) {
   int x = 0;
   for (; x + 8 <= width; x += 8) {

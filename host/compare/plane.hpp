@@ -19,10 +19,10 @@ struct Plane {
 // An odd number of weights, its middle at the pixel.
 using Kernel = std::vector<double>;
 
-// exp(−x² / (2 σ²)) at −radius … radius, its sum 1.
+// exp(−x² / (2 σ²)) at −radius … radius, scaled to a sum of 1.
 Kernel gaussian(double sigma, int radius);
 
-// `plane` filtered by `horizontal`, then by `vertical`; beyond the border the border's values go on.
+// `plane` filtered by `horizontal`, then by `vertical`; beyond the border, the values of the border are used.
 Plane convolve(const Plane& plane, const Kernel& horizontal, const Kernel& vertical);
 
 // The least of `values` that `share` of them do not exceed; reorders them.

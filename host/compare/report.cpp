@@ -80,7 +80,7 @@ std::vector<std::string> Report::failures() const {
   std::vector<std::string> failures;
   if (participants.size() < 2) failures.push_back("nothing was compared");
 
-  // Faults of one picture alone come first: they make the comparisons fail too.
+  // Faults within one picture come first: they make the comparisons fail too.
   for (const Participant& p : participants) {
     if (!p.soundness.ok()) failures.push_back(fmt::format("{}: {}", p.name, compare::describe(p.soundness)));
   }

@@ -11,7 +11,7 @@ namespace eyeray::engine::compare {
 
 namespace {
 
-// The share of one test case, and of all together.
+// The time of one test case, or of all together.
 double seconds(std::span<const Report> reports) {
   double sum = 0;
   for (const Report& report : reports) sum += report.seconds;
@@ -36,7 +36,7 @@ std::string first_failure(const Report& report) {
   return text.substr(0, text.find('\n'));
 }
 
-// Any text as one line of Markdown, where HTML counts, or as one cell of a table.
+// Any text, escaped as one line of Markdown, which may contain HTML, or as one cell of a table.
 std::string cell(std::string_view text) {
   std::string escaped;
   for (const char c : log_line(text)) {

@@ -21,7 +21,7 @@ std::string numbers(const Vec3& v) {
   return fmt::format("{:.9g} {:.9g} {:.9g}", v.x, v.y, v.z);
 }
 
-// ` (sphere "left eye", scene.toml:12)`, where that is known.
+// ` (sphere "left eye", scene.toml:12)`, or "" if no name is known for the index.
 std::string in_words(const std::map<int32_t, std::string>& words, int32_t index) {
   const auto found = words.find(index);
   return found == words.end() ? "" : fmt::format(" ({})", found->second);
@@ -47,7 +47,7 @@ std::string explained(const Tally& tally) {
   return causes.empty() ? text : text + " (" + causes + ")";
 }
 
-// Both sides of a pixel, the seam named.
+// Adds both sides' values of the worst pixel, and names the seam.
 void add_worst(std::string& text, const Report& report, const WorstPixel& worst, const std::string& value,
                const std::string& reference, const char* unit) {
   const std::string error = std::isinf(worst.excess) ? "beyond all" : fmt::format("{:.3g}", worst.excess);
@@ -126,7 +126,7 @@ void add(std::string& text, const Report& report, const RasterResult& result) {
                                       in_words(report.primitives, result.drawn), result.drawn_t));
 }
 
-// The drawing is the same for all executors.
+// Adds a line on the rasteriser's picture, which is the same for all executors.
 void add_drawing(std::string& text, const RasterResult& result) {
   line(text, "  rasteriser: {}, {} triangles{}", result.device, result.triangles,
        result.not_drawn.empty() ? "" : "; not drawn: " + numbered(result.not_drawn));

@@ -29,8 +29,8 @@ struct WorstPixel {
   FirstHit value_hit, reference_hit;
   double excess = 0;  // the largest error, in tolerances (or in ULP)
   Seam seam = Seam::none;
-  int sample = -1;           // of the pixel, whose colours and counts these are; −1: the mean of all
-  std::string parting = {};  // the point where its paths diverge, in words
+  int sample = -1;  // the pixel's sample with these colours and counts; −1: they are the means of all samples
+  std::string parting = {};  // the event at which the sample's paths diverge, in words
 };
 
 // For reports: "first hit's t".

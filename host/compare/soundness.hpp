@@ -1,5 +1,5 @@
-// Values that are wrong by themselves, without any comparison. The raw floats are checked, before anything
-// else.
+// Finds values that are wrong by themselves, without any comparison. The raw floats are checked before
+// anything else.
 #pragma once
 
 #include "host/compare/frame.hpp"
@@ -8,7 +8,7 @@ namespace eyeray::engine::compare {
 
 struct Soundness {
   int64_t nan = 0;       // values that are not a number
-  int64_t infinite = 0;  // infinite colours, and infinite values of a first hit that did hit something
+  int64_t infinite = 0;  // infinite colours, and infinite values of first hits that hit a surface
   int64_t negative = 0;  // colours below 0
   uint64_t flagged_pixels = 0;
   uint32_t flags = 0;
@@ -18,7 +18,7 @@ struct Soundness {
 };
 
 Soundness inspect(const image::Image& image);
-// Colours, first hits, counts and flags; `first` is a pixel of the whole picture.
+// Checks colours, first hits, counts and flags; `first` is a pixel of the whole picture.
 Soundness inspect(const Frame& frame);
 
 // "3 NaN, 1 negative (first at 12,7)", or "" when ok.

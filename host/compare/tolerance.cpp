@@ -10,7 +10,7 @@ namespace eyeray::engine::compare {
 
 namespace {
 
-// error / tolerance, with a NaN as infinity.
+// error / tolerance; infinite if the error is NaN.
 double ratio(double error, double tolerance) {
   if (error == 0) return 0;
   return error <= std::numeric_limits<double>::max() ? error / tolerance
@@ -40,7 +40,7 @@ double geometric_excess(const FirstHit& value, const FirstHit& reference, double
                   ratio(std::abs(value.cosine - reference.cosine), tolerance));
 }
 
-// The excess of vectors whose components may be large: the tolerance is relative above 1.
+// The excess of vectors whose components may be large: above 1, the tolerance is relative.
 template <int n>
 double relative_excess(const glm::vec<n, double>& value, const glm::vec<n, double>& reference,
                        double tolerance) {

@@ -21,11 +21,11 @@ struct Tolerances {
 // those units are coarser.
 double t_tolerance(const FirstHit& reference, const Tolerances& tolerances);
 
-// |value − reference| in tolerances, of the worst channel: at most 1 where they match; infinite where a NaN
-// is in it.
+// |value − reference| of the worst channel, in tolerances: at most 1 if the colours match, infinite if either
+// contains a NaN.
 double color_excess(const Vec3& value, const Vec3& reference, double tolerance);
 
-// The excess of a first hit: infinite if ids differ. Its position may be as far off as t.
+// The excess of a first hit: infinite if ids differ. The tolerance of t holds for the hit's position, too.
 double hit_excess(const FirstHit& value, const FirstHit& reference, const Tolerances& tolerances);
 
 // The tolerance of counts, which are equal except for the rounding of their means to float32.
