@@ -11,12 +11,12 @@ namespace {
 
 constexpr size_t least_guard = 256;
 
-// Not a float that renders make, not an index, and different at every word.
+// The guard's word at an offset: no float that rendering produces, no index, and different at every word.
 uint32_t guard_word(size_t offset) {
   return 0xfeedc0deu ^ uint32_t(offset * 2654435761u);
 }
 
-// To a multiple of `unit`, and to no less than one.
+// The bytes rounded up to a multiple of `unit`, and to at least one unit.
 size_t rounded_up(size_t bytes, size_t unit) {
   return std::max(unit, (bytes + unit - 1) / unit * unit);
 }
@@ -121,7 +121,7 @@ void Buffer::copy_to_device(size_t offset, size_t bytes) {
   context_->submit_and_wait("copy a buffer to the device");
 }
 
-// The first `bytes` of the payload, and both guards.
+// Copies the first `bytes` of the payload, and both guards, to mapped memory.
 void Buffer::copy_from_device(size_t bytes) {
   if (raw_->mapped()) return;
   context_->begin();

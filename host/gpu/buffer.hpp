@@ -17,8 +17,9 @@ class RawBuffer;
 
 class Buffer {
  public:
-  // `bytes` zeros (at least one word or texel, rounded up to whole ones); `name` is for errors. Error
-  // (no_device) with the numbers when the device cannot show a shader that much, or has not that much memory.
+  // Makes a buffer of `bytes` zeros, rounded up to whole words or texels, and to at least one. `name` is for
+  // errors. Error (no_device) with the numbers when the device's shaders cannot see that much, or when its
+  // memory is too small.
   Buffer(Device& device, size_t bytes, std::string name, BindingKind kind = BindingKind::storage);
   ~Buffer();
   Buffer(Buffer&&) noexcept;
@@ -39,12 +40,12 @@ class Buffer {
   std::span<const std::byte> read(size_t bytes);
   std::span<const std::byte> read() { return read(bytes_); }
 
-  // Any vector, array or span of records.
+  // Uploads any vector, array or span of records.
   template <typename Records>
   void upload_records(const Records& records) {
     upload(std::as_bytes(std::span(records)));
   }
-  // The first `count` records.
+  // Reads the first `count` records.
   template <typename T>
   std::vector<T> read_records(size_t count) {
     const std::span<const std::byte> bytes = read(count * sizeof(T));
@@ -67,10 +68,9 @@ class Buffer {
   std::string name_;
   BindingKind kind_;
   size_t bytes_ = 0;
-  size_t guard_ = 0;                // bytes of each guard
-  std::unique_ptr<RawBuffer> raw_;  // guard, payload, guard
-  std::unique_ptr<RawBuffer>
-      staging_;  // a mapped copy of raw_, where memory is not shared and something was copied
+  size_t guard_ = 0;                    // bytes of each guard
+  std::unique_ptr<RawBuffer> raw_;      // guard, payload, guard
+  std::unique_ptr<RawBuffer> staging_;  // a mapped copy of raw_; null if memory is shared, or before any copy
 };
 
 }  // namespace eyeray::engine::gpu

@@ -18,12 +18,12 @@ struct Groups {
 
 struct RunTime {
   double seconds = 0;
-  bool device_clock =
-      false;  // from the device's timestamps; otherwise the host's clock, submission and wait included
-  double compile_seconds = 0;  // before it, for the driver's compiling at a kernel's first dispatch
+  bool device_clock = false;   // whether the device's timestamps measured it; otherwise the host's clock,
+                               // submission and wait included
+  double compile_seconds = 0;  // before the run, for the driver to compile a kernel at its first dispatch
 };
 
-// One list at a time a device.
+// A list of commands; a device has one list at a time.
 class CommandList {
  public:
   explicit CommandList(Device& device);
@@ -31,12 +31,13 @@ class CommandList {
   CommandList(const CommandList&) = delete;
   CommandList& operator=(const CommandList&) = delete;
 
-  // Error (bad_input) where the kernel declares push constants of another size, or a buffer that is not
-  // bound. Groups are within the device's limits.
+  // Error (bad_input) if the kernel declares push constants of another size, or a buffer that is not bound.
+  // `groups` must be within the device's limits.
   void dispatch(const Kernel& kernel, std::span<const std::byte> push_constants, Groups groups);
   // Makes the writes of earlier dispatches visible to later ones.
   void barrier();
-  // Submits, and waits. Error (timed_out), (interrupted) or (no_device); see Context::submit_and_wait.
+  // Submits the list, and waits until the device is done. Error (timed_out), (interrupted) or (no_device);
+  // see Context::submit_and_wait.
   RunTime run();
 
  private:
@@ -47,9 +48,9 @@ class CommandList {
   std::string name_;  // of the kernels, for errors
 };
 
-// A list of one dispatch. Drivers put off compiling a kernel until it is first dispatched (lavapipe: its
-// machine code): the first time it is dispatched without a work group before, and so no run takes longer than
-// another.
+// Runs a list of one dispatch. Drivers put off compiling a kernel until its first dispatch (lavapipe: its
+// machine code). So before its first run a kernel is dispatched without work groups, and no run takes longer
+// than another.
 RunTime dispatch(Device& device, const Kernel& kernel, std::span<const std::byte> push_constants,
                  Groups groups);
 

@@ -28,8 +28,8 @@ int column_of(std::string_view token, std::string_view line) {
   return 0;
 }
 
-// The column (from 1) of the sign at which "syntax error, unexpected RIGHT_BRACE, …" arose; 0 when the line
-// has it more than once, or it has no sign.
+// The column (from 1) of the sign that "syntax error, unexpected RIGHT_BRACE, …" names; 0 unless the message
+// names a sign that the line has exactly once.
 int column_of_unexpected(std::string_view message, std::string_view line) {
   static const std::map<std::string_view, char> signs = {
       {"LEFT_PAREN", '('},   {"RIGHT_PAREN", ')'}, {"LEFT_BRACKET", '['}, {"RIGHT_BRACKET", ']'},
@@ -63,8 +63,8 @@ bool split_position(std::string_view text, SourcePosition& position, std::string
   return false;
 }
 
-// If an error concerns a row of a registry, `sphere_intersect` for instance, the line has only the registry's
-// macro. Then the position is set to that of the name in the row's file, shapes/sphere.glsl. Returns an
+// If an error concerns a row of a registry, for instance `sphere_intersect`, its line has only the registry's
+// macro. Then this sets the position to that of the name in the row's file, shapes/sphere.glsl. Returns an
 // addition to the message; "" if the token belongs to no row.
 std::string locate_row(SourcePosition& position, std::string_view token, const ShaderSource& source) {
   const std::pair<const std::string, std::string>* row = nullptr;
@@ -133,7 +133,7 @@ std::vector<Diagnostic> parse_compiler_messages(std::string_view log, const Shad
     std::string_view text = line;
     text.remove_prefix(warning ? 9 : 7);
     if (text.find("compilation errors.  No code generated.") != std::string_view::npos)
-      continue;  // the count
+      continue;  // the line that counts the errors
 
     Diagnostic& diagnostic = diagnostics.emplace_back();
     diagnostic.severity = warning ? Severity::warning : Severity::error;

@@ -8,10 +8,10 @@
 
 namespace eyeray::engine::gpu {
 
-// glslang's log ("ERROR: file:12: 'token' : message" a line) as diagnostics, with the source lines of
-// `source`. The column is that of the first token quoted that the line contains as a whole word, or of
-// the sign that a syntax error is at, where the line has it once. An error in a row of a registry is reported
-// at the row's file.
+// glslang's log (lines such as "ERROR: file:12: 'token' : message") as diagnostics, with the source lines of
+// `source`. The column is that of the first quoted token that the line contains as a whole word. For a syntax
+// error it is that of the unexpected sign, if the line has it once. An error in a row of a registry is
+// reported at the row's file.
 std::vector<Diagnostic> parse_compiler_messages(std::string_view log, const ShaderSource& source);
 
 }  // namespace eyeray::engine::gpu

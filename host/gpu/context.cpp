@@ -74,7 +74,8 @@ void Context::create_device() {
 }
 
 void Context::create_timestamps(uint32_t bits) {
-  // Mesa 22.3.6's llvmpipe writes both of a dispatch at once, once anything was drawn (docs/lavapipe.md).
+  // Once anything was drawn, Mesa 22.3.6's llvmpipe writes both timestamps of a dispatch at the same time
+  // (docs/lavapipe.md).
   if (bits == 0 || draws) return;
   auto query_info = make<VkQueryPoolCreateInfo>(VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO);
   query_info.queryType = VK_QUERY_TYPE_TIMESTAMP;
@@ -125,8 +126,8 @@ void Context::submit_and_wait(std::string_view what, double timeout_seconds) {
   const VkResult submitted = vkQueueSubmit(queue, 1, &submit, fence);
   if (submitted != VK_SUCCESS) abandon(failure(submitted, what));
 
-  // Wait in slices, to see Ctrl-C; then the device has a moment to finish its work. A process that goes
-  // on wants its device back, and waits.
+  // Wait in slices, to notice Ctrl-C, after which the device has a moment to finish its work. A process that
+  // goes on after a stop waits here, since it needs its device back.
   constexpr uint64_t slice = 20'000'000;
   constexpr double grace = 0.15;
   std::optional<Stopwatch> stopping;

@@ -1,4 +1,4 @@
-// Everything of Vulkan that buffers, kernels and command lists share; for the .cpp files of this layer.
+// The Vulkan objects that buffers, kernels and command lists share; for the .cpp files of this layer.
 #pragma once
 
 #include <string_view>
@@ -19,13 +19,13 @@ struct Context {
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
 
-  // Starts the one command buffer anew.
+  // Begins to record the only command buffer anew.
   void begin();
-  // Gives up the commands recorded since, if they were not submitted.
+  // Drops the commands recorded since begin(), if they were not submitted.
   void cancel() noexcept;
-  // Ends it, submits it and waits until the device is done. Error (timed_out) after the time-out,
-  // (interrupted) when the user requested a stop and the device did not finish soon, (no_device) when the
-  // driver fails. From the submission on, the context is then abandoned.
+  // Ends the command buffer, submits it and waits until the device is done. Error (timed_out) after the
+  // time-out, (interrupted) when a signal requested a stop and the device did not finish soon, (no_device)
+  // when the driver fails. After an error at or after the submission, the context is abandoned.
   void submit_and_wait(std::string_view what, double timeout_seconds);
   void submit_and_wait(std::string_view what) { submit_and_wait(what, options.timeout_seconds); }
   // The error that `what` took longer than the time-out.
@@ -37,22 +37,22 @@ struct Context {
   DeviceInfo info;
   VkPhysicalDeviceMemoryProperties memory{};
   bool shares_memory = false;
-  bool draws = false;  // whether its queue does
+  bool draws = false;  // whether the queue can draw
   VkDevice device = VK_NULL_HANDLE;
   VkQueue queue = VK_NULL_HANDLE;
   VkCommandPool pool = VK_NULL_HANDLE;
   VkCommandBuffer commands = VK_NULL_HANDLE;
   VkFence fence = VK_NULL_HANDLE;
-  VkQueryPool timestamps = VK_NULL_HANDLE;  // two; null where they are unsupported
+  VkQueryPool timestamps = VK_NULL_HANDLE;  // two timestamps; null if unsupported
   uint32_t timestamp_bits = 0;
-  double timestamp_seconds = 0;  // of one tick
+  double timestamp_seconds = 0;  // the duration of one tick
   bool recording = false;
-  bool abandoned = false;  // the device may be busy, and is not waited for: nothing of it may be destroyed
+  bool abandoned = false;  // nobody waits for the device, which may be busy: destroy none of its objects
 
  private:
   struct InstanceOnly {};
   Context(const DeviceOptions& options,
-          InstanceOnly);  // the public constructor completes it, and cleans up if it cannot
+          InstanceOnly);  // the public constructor completes such a context, and cleans up if it cannot
   void choose();
   void create_device();
   void create_timestamps(uint32_t bits);

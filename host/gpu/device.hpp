@@ -1,5 +1,5 @@
-// A Vulkan device that can run compute shaders. This layer knows bytes, never rays; no header of it shows
-// Vulkan's.
+// A Vulkan device that can run compute shaders. This layer knows bytes, never rays. Its public headers do not
+// include Vulkan's.
 #pragma once
 
 #include <array>
@@ -17,15 +17,15 @@ struct DeviceLimits {
   uint64_t texel_range = 0;              // bytes of one texel buffer that a shader can see, 16 a texel
   uint64_t heap = 0;                     // bytes of the largest heap that buffers come from
   uint64_t allocation = 0;               // bytes of one allocation
-  uint64_t offset_alignment = 0;         // bytes, of a buffer's start in its memory
+  uint64_t offset_alignment = 0;         // bytes; the alignment of a buffer's start in its memory
   std::array<uint32_t, 3> groups{};      // work groups of one dispatch, along each axis
   std::array<uint32_t, 3> group_size{};  // invocations of one work group, along each axis
-  uint32_t group_invocations = 0;        // and in all
+  uint32_t group_invocations = 0;        // invocations of one work group in all
   uint32_t shared_memory = 0;            // bytes of one work group
   uint32_t push_constants = 0;           // bytes
   uint32_t subgroup_size = 0;
-  uint32_t drawn_size = 0;     // pixels of the longer side of a picture that it can draw
-  uint32_t subpixel_bits = 0;  // to 2^−bits of a pixel it rounds the vertices that it draws
+  uint32_t drawn_size = 0;     // pixels of the longest side of a picture that the device can draw
+  uint32_t subpixel_bits = 0;  // the device rounds the vertices that it draws to 2^−bits of a pixel
 };
 
 // Execution modes for float32 that a shader may ask for.
@@ -50,29 +50,29 @@ struct DeviceInfo {
   FloatModes float_modes;
 };
 
-// Every device of every driver, in the order of their indices. Error (no_device) that names the packages to
-// install when there is no Vulkan loader, no driver or no device.
+// Every device of every driver, in the order of their indices. Error (no_device), which names the packages to
+// install, when there is no Vulkan loader, no driver or no device.
 std::vector<DeviceInfo> list_devices();
 
 struct DeviceOptions {
   std::string select = "auto";   // auto | cpu | gpu | INDEX | part of a NAME; see choose_device
   std::string validation = "";   // "", "core" or "sync": run under the Khronos validation layer
   double timeout_seconds = 60;   // the longest wait for one submission
-  double compile_seconds = 60;   // the longest that its driver may compile one kernel
+  double compile_seconds = 60;   // the longest time that the driver may take to compile one kernel
   bool wide_vectors = false;     // see set_vector_width; a process's first device decides
   bool sets_environment = true;  // whether a process's first device may set the environment for its driver
-  bool draws = false;            // a queue for Rasterizer, too, where there is one
+  bool draws = false;            // open a queue that also suits Rasterizer, if there is one
   bool force_staging = false;    // tests: copy through staging buffers even where memory is shared
 };
 
 struct Context;
 
 // An instance, a device and one queue, destroyed when the last Buffer and Kernel made from it is gone. After
-// a time-out the driver would block on destroying it, so it is left behind and the process ends without
-// tearing the driver down.
+// a time-out, destroying the device would block. So it is left behind, and the process ends without tearing
+// the driver down.
 class Device {
  public:
-  // Error (no_device) when no device will do, bad_input for a bad option.
+  // Error (no_device) when no device suffices, (bad_input) for a bad option.
   explicit Device(const DeviceOptions& options);
 
   const DeviceInfo& info() const;

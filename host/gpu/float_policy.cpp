@@ -33,7 +33,7 @@ bool is_float_arithmetic(uint32_t opcode) {
   }
 }
 
-// The first instruction after the annotations: where a module's types begin.
+// True for the declaration of a type. The first one follows the module's annotations.
 bool is_type(uint32_t opcode) {
   return opcode >= spv::OpTypeVoid && opcode <= spv::OpTypeForwardPointer;
 }
@@ -60,7 +60,7 @@ void append_extension(std::vector<uint32_t>& words, std::string_view name) {
 }  // namespace
 
 std::vector<uint32_t> decorate_no_contraction(std::span<const uint32_t> spirv) {
-  // Find the results to decorate, and those that are.
+  // Find the results to decorate, and those that are decorated already.
   std::set<uint32_t> results, decorated;
   for_each_instruction(spirv, [&](uint32_t opcode, std::span<const uint32_t> instruction) {
     if (is_float_arithmetic(opcode)) results.insert(instruction[2]);
@@ -68,7 +68,7 @@ std::vector<uint32_t> decorate_no_contraction(std::span<const uint32_t> spirv) {
       decorated.insert(instruction[1]);
   });
 
-  // Copy the module, with the new decorations behind its own.
+  // Copy the module, with the new decorations behind its existing ones.
   std::vector<uint32_t> words(spirv.begin(), spirv.begin() + spirv_header_words);
   bool inserted = false;
   for_each_instruction(spirv, [&](uint32_t opcode, std::span<const uint32_t> instruction) {

@@ -1,4 +1,4 @@
-// The behaviour of floats in a kernel, unless the user chooses --fast-math: decided once, after
+// Sets the behaviour of floats in a kernel, unless the user chooses --fast-math. This is done once, after
 // glslang, on the SPIR-V itself.
 #pragma once
 

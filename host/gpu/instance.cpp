@@ -20,7 +20,8 @@ namespace {
 
 constexpr const char* validation_layer = "VK_LAYER_KHRONOS_validation";
 
-// Advice if no driver has a device. If one of these variables names drivers, the loader sees no others.
+// Advice if no driver has a device. If one of the environment variables below names drivers, the loader sees
+// no others.
 std::string way_out() {
   std::string variables;
   for (const char* variable : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"}) {
@@ -36,13 +37,12 @@ std::string way_out() {
       variables, option_text("backend", "twin"));
 }
 
-// Bytes of address space that a driver needs; with less it may crash or hang in threads of its own. On
-// lavapipe with two threads, all of 8 cold starts of whitted ended well with 800 MiB, and one of 8 with 600
-// MiB.
+// Bytes of address space that a driver needs; with less, its own threads may crash or hang. On lavapipe with
+// two threads, all of 8 cold starts of whitted succeeded with 800 MiB, but only one of 8 with 600 MiB.
 constexpr size_t needed_addresses = size_t{1} << 30;
 
-// True if a driver of this machine makes pictures sooner with wide vectors. Its version is known only once it
-// is loaded; it is loaded again, with the width that it is to have, when this instance is gone.
+// True if a driver of this machine makes pictures sooner with wide vectors. A driver's version is known only
+// once it is loaded. When this instance is gone, the driver is loaded again, with the chosen width.
 bool finds_gain_from_wide_vectors(double timeout_seconds) {
   DeviceOptions options;
   options.timeout_seconds = timeout_seconds;
@@ -52,7 +52,7 @@ bool finds_gain_from_wide_vectors(double timeout_seconds) {
   });
 }
 
-// Once a process, before it has an instance.
+// Chooses the vectors' width, once in a process, before it has an instance.
 void choose_vector_width(const DeviceOptions& options) {
   static bool chosen = false;
   if (std::exchange(chosen, true) || !options.sets_environment) return;
@@ -60,7 +60,8 @@ void choose_vector_width(const DeviceOptions& options) {
                    finds_gain_from_wide_vectors(options.timeout_seconds));
 }
 
-// Opens the loader once a process. EYERAY_VULKAN_LOADER names another one than the system's, for tests.
+// Opens the loader, once in a process. For tests, EYERAY_VULKAN_LOADER names another loader than the
+// system's.
 void open_loader() {
   static bool opened = false;
   if (opened) return;
@@ -86,8 +87,8 @@ VkBool32 VKAPI_PTR collect_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDeb
   return VK_FALSE;
 }
 
-// Warnings and errors of the layer. Messages of type GENERAL are the loader's, about drivers that are not
-// used.
+// A messenger for warnings and errors of the validation layer. It leaves out messages of type GENERAL: these
+// are the loader's, about drivers that are not used.
 VkDebugUtilsMessengerCreateInfoEXT messenger_info(ValidationLog& log) {
   auto info =
       make<VkDebugUtilsMessengerCreateInfoEXT>(VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT);
@@ -129,15 +130,15 @@ Instance::Instance(const DeviceOptions& options) : Instance(options.timeout_seco
   if (volkGetInstanceVersion() < VK_API_VERSION_1_1)
     throw Error(ExitCode::no_device, "the Vulkan loader has version 1.0, but eyeray needs 1.1 or later");
 
-  // Ask for 1.2 where the loader knows it: it names the driver. A device of 1.1 is still welcome.
+  // Request Vulkan 1.2 if the loader knows it, since 1.2 names the driver. A device of 1.1 still suffices.
   auto application = make<VkApplicationInfo>(VK_STRUCTURE_TYPE_APPLICATION_INFO);
   application.pApplicationName = "eyeray";
   application.apiVersion = std::min<uint32_t>(volkGetInstanceVersion(), VK_API_VERSION_1_2);
   auto info = make<VkInstanceCreateInfo>(VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO);
   info.pApplicationInfo = &application;
 
-  // Chain the messenger, so that creating the instance is watched too; "sync" watches hazards only, "core"
-  // all else.
+  // Chain the messenger, so that it also watches the creation of the instance. "sync" watches only hazards,
+  // "core" all else.
   const VkDebugUtilsMessengerCreateInfoEXT messenger = messenger_info(*log_);
   const VkValidationFeatureEnableEXT enable = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
   const VkValidationFeatureDisableEXT disable = VK_VALIDATION_FEATURE_DISABLE_CORE_CHECKS_EXT;
@@ -192,7 +193,7 @@ std::vector<VkPhysicalDevice> Instance::physical_devices() const {
   const ForeignCall drivers(timeout_seconds_, late_start(timeout_seconds_));
   uint32_t count = 0;
   const VkResult result = vkEnumeratePhysicalDevices(instance_, &count, nullptr);
-  // Mesa's drivers answer INITIALIZATION_FAILED when none of them finds its hardware.
+  // Mesa's drivers return INITIALIZATION_FAILED if none of them finds its hardware.
   if (result == VK_ERROR_INITIALIZATION_FAILED || (result == VK_SUCCESS && count == 0))
     throw Error(ExitCode::no_device, "no Vulkan driver on this machine offers a device: {}", way_out());
   check(result, "list its devices");

@@ -19,20 +19,20 @@ struct ValidationLog {
 
 class Instance {
  public:
-  // Error (no_device) that names the packages to install when there is no loader, no driver or no validation
-  // layer. Drivers that take longer than the time-out end the process (core/termination.hpp), as in
-  // physical_devices().
+  // Error (no_device), which names the packages to install, when there is no loader, no driver or no
+  // validation layer. If drivers take longer than the time-out, here or in physical_devices(), the process
+  // ends (core/termination.hpp).
   explicit Instance(const DeviceOptions& options);
   ~Instance();
   Instance(const Instance&) = delete;
   Instance& operator=(const Instance&) = delete;
 
-  // Never empty: Error (no_device) instead.
+  // Every physical device. Error (no_device) if there is none.
   std::vector<VkPhysicalDevice> physical_devices() const;
   std::vector<std::string> validation_messages() const;
 
  private:
-  // The public constructor completes it, and cleans up if it cannot.
+  // Makes an instance that the public constructor completes, or cleans up if it cannot.
   explicit Instance(double timeout_seconds) : timeout_seconds_(timeout_seconds) {}
 
   double timeout_seconds_;

@@ -30,8 +30,8 @@ VkDescriptorType descriptor_type(BindingKind kind) {
                                      : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 }
 
-// A pipeline cache that comes from disk and goes back there when the driver added to it. What fails of it
-// costs time and nothing else.
+// A pipeline cache that comes from disk and goes back there when the driver added to it. A failure of the
+// cache costs only time.
 class PipelineCache {
  public:
   PipelineCache(const Context& context, std::span<const uint32_t> spirv, const DiskCache& disk)
@@ -49,7 +49,7 @@ class PipelineCache {
   PipelineCache(const PipelineCache&) = delete;
   PipelineCache& operator=(const PipelineCache&) = delete;
 
-  VkPipelineCache handle() const { return cache_; }  // null is none
+  VkPipelineCache handle() const { return cache_; }  // null: no cache
 
   void save() const {
     size_t size = 0;
@@ -104,7 +104,7 @@ Kernel::Kernel(Device& device, std::span<const uint32_t> spirv, std::string name
 Kernel::~Kernel() = default;
 
 void Kernel::create_layout() {
-  // One set of buffers, as the shader declares them.
+  // Make one descriptor set with the buffers that the shader declares.
   std::vector<VkDescriptorSetLayoutBinding> bindings;
   std::vector<VkDescriptorPoolSize> pool_sizes;
   for (const auto& [binding, kind] : reflection_.bindings) {

@@ -17,8 +17,8 @@ struct RunTime;
 
 class Kernel {
  public:
-  // The pipeline of `spirv`, whose entry point is "main"; `name` is for errors. What the driver compiles is
-  // kept in `cache`. Error (no_device) with the numbers when the shader wants more than the device has.
+  // The pipeline of `spirv`, whose entry point is "main"; `name` is for errors. The driver's compiled code is
+  // kept in `cache`. Error (no_device) with the numbers if the shader needs more than the device has.
   Kernel(Device& device, std::span<const uint32_t> spirv, std::string name, const DiskCache& cache);
   ~Kernel();
   Kernel(const Kernel&) = delete;
@@ -39,8 +39,8 @@ class Kernel {
   friend RunTime dispatch(Device&, const Kernel&, std::span<const std::byte>, Groups);
   struct Objects;  // Vulkan's
 
-  // Error (bad_input) where the shader, which may be a user's, wants other push constants than so many bytes,
-  // or a buffer that nobody bound. It need not want any.
+  // Error (bad_input) if the shader, which may be a user's, declares push constants of another size, or a
+  // buffer that is not bound. A shader may also declare none.
   void check_interface(size_t push_constant_bytes) const;
 
   void create_layout();

@@ -21,7 +21,7 @@ void validate(const std::vector<uint32_t>& spirv, const std::string& entry) {
     throw Error(ExitCode::bad_input, "kernel '{}' compiles to SPIR-V that is not valid: {}", entry, messages);
 }
 
-// Everything that does not depend on the device.
+// Compiles a kernel, except for the float modes, which depend on the device.
 CompiledShader compile(const ShaderSource& source, std::string_view preamble, const KernelOptions& options,
                        const DiskCache& cache) {
   ContentHash hash;

@@ -1,4 +1,4 @@
-// From GLSL to a kernel's SPIR-V: compiled, with the float policy, optimised, and remembered.
+// Turns GLSL into a kernel's SPIR-V: compiled, with the float policy, optimised, and cached.
 #pragma once
 
 #include <optional>
@@ -12,13 +12,13 @@ namespace eyeray::engine::gpu {
 
 struct KernelOptions {
   std::optional<FloatModes> strict = {};  // the float policy, with these modes; none: --fast-math
-  bool optimise = true;                   // spirv_optimiser.hpp
-  bool flatten = false;                   // the same; only where `optimise`
+  bool optimise = true;                   // run the passes of spirv_optimiser.hpp
+  bool flatten = false;                   // flatten selections, too; only if `optimise`
   bool validate = false;                  // checks the result by SPIRV-Tools' validator, as spirv-val does
 };
 
-// Error (bad_input) where the result is not valid. Else: the result of compile_shader and `options`, or the
-// earlier result of the same text and preamble. A shader with warnings is compiled every time, so that
+// The result of compile_shader and `options`, or the earlier result of the same text and preamble from the
+// cache. Error (bad_input) if the result is not valid. A shader with warnings is compiled every time, so that
 // they are seen every time.
 CompiledShader compile_kernel(const ShaderSource& source, std::string_view preamble,
                               const KernelOptions& options, const DiskCache& cache);

@@ -23,7 +23,7 @@ struct Kernel::Objects {
   Objects(const Objects&) = delete;
   Objects& operator=(const Objects&) = delete;
 
-  // The texels of a buffer at `binding`, in place of those bound there before.
+  // Makes a view of a buffer's texels for `binding`, in place of the view that was bound there before.
   VkBufferView make_view(uint32_t binding, VkBuffer buffer, VkDeviceSize offset, VkDeviceSize bytes) {
     auto info = gpu::make<VkBufferViewCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO);
     info.buffer = buffer;
@@ -42,7 +42,7 @@ struct Kernel::Objects {
   VkDescriptorSet set = VK_NULL_HANDLE;  // null when the shader has no buffers
   VkPipelineLayout layout = VK_NULL_HANDLE;
   VkPipeline pipeline = VK_NULL_HANDLE;
-  bool dispatched = false;  // ever
+  bool dispatched = false;  // at least once
   std::set<uint32_t> bound;
   std::map<uint32_t, VkBufferView> views;
 };

@@ -28,16 +28,16 @@ uint32_t choose_memory(const Context& context, uint32_t allowed, MemoryKind kind
     if (auto type = find_memory(context, allowed, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)) return *type;
   } else {
     if (auto type = find_memory(context, allowed, cached)) return *type;
-    if (auto type = find_memory(context, allowed, mapped)) return *type;  // Vulkan promises this one
+    if (auto type = find_memory(context, allowed, mapped)) return *type;  // Vulkan guarantees such a type
   }
   throw Error(ExitCode::no_device, "{} has no memory of the kind that {} needs", context.info.name, what);
 }
 
-// Descriptors of a kernel take some kilobytes.
+// Bytes for the driver's own use: the descriptors of a kernel take some kilobytes.
 constexpr VkDeviceSize drivers_share = 1 << 20;
 
-// True if the memory, which can be mapped, has pages up to its end. Kernels before Linux 5.14 do not know the
-// question, and it counts as answered.
+// True if the memory, which can be mapped, has pages up to its end. Linux before 5.14 cannot report this; the
+// result is then true.
 bool is_backed(VkDevice device, VkDeviceMemory memory, VkDeviceSize bytes) {
   void* address = nullptr;
   if (vkMapMemory(device, memory, 0, VK_WHOLE_SIZE, 0, &address) != VK_SUCCESS) return true;
@@ -61,7 +61,7 @@ void require_room_in_files(const Context& context, VkDeviceSize bytes) {
   info.memoryTypeIndex = *type;
   VkDeviceMemory memory = VK_NULL_HANDLE;
   if (vkAllocateMemory(context.device, &info, nullptr, &memory) != VK_SUCCESS) return;
-  // Freed memory stays a part of the driver's file.
+  // Even after it is freed, this memory stays a part of the driver's file.
   const bool backed = is_backed(context.device, memory, info.allocationSize);
   vkFreeMemory(context.device, memory, nullptr);
   if (!backed)

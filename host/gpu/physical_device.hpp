@@ -10,13 +10,13 @@ namespace eyeray::engine::gpu {
 // A device's identity and abilities, and whether it suffices for eyeray: Vulkan 1.1 and a compute queue.
 DeviceInfo describe(VkPhysicalDevice device, int index);
 
-// A queue family that computes, one without graphics preferred; its timestamps' width is 0 when it has none.
+// A queue family that computes, preferably one without graphics. Its timestamps' width is 0 if it has none.
 struct QueueFamily {
   uint32_t index = 0;
   uint32_t timestamp_bits = 0;
 };
 std::optional<QueueFamily> compute_queue_family(VkPhysicalDevice device);
-// One that draws and computes; where a device draws at all, Vulkan promises one.
+// A queue family that draws and computes. Vulkan guarantees one if the device draws at all.
 std::optional<QueueFamily> graphics_queue_family(VkPhysicalDevice device);
 
 }  // namespace eyeray::engine::gpu

@@ -9,7 +9,7 @@
 namespace eyeray::engine::gpu {
 namespace {
 
-constexpr size_t pixel_bytes = 4;  // of either image
+constexpr size_t pixel_bytes = 4;  // of each image
 
 struct AttachmentType {
   const char* name;
@@ -145,7 +145,7 @@ void RasterTarget::create_attachment(size_t index) {
   check(vkCreateImageView(context_->device, &view, nullptr, &attachment.view), "view an image");
 }
 
-// Goes on with the present contents, so that one picture may be drawn by several submissions.
+// Makes a render pass that keeps the present contents, so that several submissions may draw one picture.
 void RasterTarget::create_pass() {
   VkAttachmentDescription descriptions[2] = {};
   VkAttachmentReference references[2] = {};
@@ -180,7 +180,7 @@ void RasterTarget::create_pass() {
   check(vkCreateRenderPass(context_->device, &info, nullptr, &pass_), "create a render pass");
 }
 
-// To ids and depths of 0.
+// Sets all ids and depths to 0.
 void RasterTarget::clear() {
   context_->begin();
   const VkCommandBuffer commands = context_->commands;

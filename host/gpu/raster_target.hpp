@@ -1,4 +1,4 @@
-// The target of drawing, an image of ids and one of depths, and its render pass; for the .cpp files of this
+// The target of drawing (an image of ids and one of depths), and its render pass; for the .cpp files of this
 // layer.
 #pragma once
 
@@ -12,8 +12,8 @@ namespace eyeray::engine::gpu {
 
 class RasterTarget {
  public:
-  // Ids of 0 and depths of 0. Error (no_device) with the numbers where the device draws no picture of that
-  // size, or has not that much memory.
+  // Makes a target with ids and depths of 0. Error (no_device) with the numbers if the device draws no
+  // picture of that size, or has too little memory.
   RasterTarget(std::shared_ptr<Context> context, uint32_t width, uint32_t height);
   ~RasterTarget();
   RasterTarget(const RasterTarget&) = delete;
@@ -22,8 +22,8 @@ class RasterTarget {
   VkExtent2D extent() const { return {width_, height_}; }
   VkRenderPass pass() const { return pass_; }
   VkFramebuffer framebuffer() const { return framebuffer_; }
-  // Records into the context's command buffer that ids and depths are copied to memory that the processor
-  // sees, once it was submitted and waited for.
+  // Records, in the context's command buffer, copies of ids and depths to memory that the processor sees.
+  // ids() and depths() are valid once the buffer was submitted and waited for.
   void record_copies() const;
   const uint32_t* ids() const { return reinterpret_cast<const uint32_t*>(copies_[0]->mapped()); }
   const float* depths() const { return reinterpret_cast<const float*>(copies_[1]->mapped()); }

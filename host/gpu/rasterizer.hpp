@@ -1,4 +1,4 @@
-// Triangles on a picture by the device's own rasteriser and z-buffer: the one graphics pipeline here.
+// Draws triangles by the device's own rasteriser and z-buffer. This is the only graphics pipeline here.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,18 @@
 
 namespace eyeray::engine::gpu {
 
-// In Vulkan's clip space, w = 1: the picture reaches from −1 to 1, its top left first. What lies outside of
-// it, or has a depth outside of 0 … 1, is clipped.
+// A vertex in Vulkan's clip space, with w = 1. The picture reaches from −1 to 1, from the top left. Anything
+// outside of it, or with a depth outside of 0 … 1, is clipped.
 struct RasterVertex {
   float x = 0, y = 0;
   float depth = 0;  // the greater, the nearer; 0 is as far as undrawn pixels
-  uint32_t id = 0;  // of the triangle's first vertex it counts
+  uint32_t id = 0;  // a triangle has the id of its first vertex
 };
 
-// Row by row.
+// A drawn picture, row by row.
 struct RasterPicture {
-  std::vector<uint32_t> ids;  // of the nearest triangle at the pixel's centre, of equally near ones the first
-  std::vector<float> depths;  // its depth there; both 0 where there is none
+  std::vector<uint32_t> ids;  // of the nearest triangle at the pixel's centre; of equally near, the first
+  std::vector<float> depths;  // that triangle's depth there; id and depth are 0 if there is no triangle
 };
 
 // The shaders kernels/raster.vert.glsl and .frag.glsl as SPIR-V, whose entry points are "main".
@@ -32,8 +32,8 @@ struct RasterShaders {
 
 class Rasterizer {
  public:
-  // `device` must be opened to draw (DeviceOptions::draws). Error (no_device) when it has no graphics queue,
-  // and with the numbers when it draws no picture of that size, or has not that much memory.
+  // `device` must be opened to draw (DeviceOptions::draws). Error (no_device) when the device has no graphics
+  // queue, and with the numbers when it draws no picture of that size, or has too little memory.
   Rasterizer(Device& device, const RasterShaders& shaders, int width, int height);
   ~Rasterizer();
   Rasterizer(const Rasterizer&) = delete;
@@ -42,7 +42,8 @@ class Rasterizer {
   // The best number of triangles to draw at once.
   static constexpr size_t batch = size_t{1} << 16;
 
-  // Draws triangles, three vertices each, beside and behind those drawn before. Both sides are seen.
+  // Draws triangles, of three vertices each, together with those drawn before: the nearest stays. Both sides
+  // of a triangle are seen.
   void draw(std::span<const RasterVertex> vertices);
   RasterPicture read();
 

@@ -83,7 +83,7 @@ struct Module {
     }
   }
 
-  // Bytes of a type, its matrices `matrix_stride` apart; 0 for a run-time array.
+  // Bytes of a type, with `matrix_stride` bytes for each column of a matrix; 0 for a run-time array.
   uint32_t size(uint32_t type, uint32_t matrix_stride = 0) const {
     const Id& id = ids.at(type);
     const std::vector<uint32_t>& i = id.definition;

@@ -1,4 +1,4 @@
-// Reads a kernel's bindings and sizes from its SPIR-V, so that nothing is typed twice.
+// Reads a kernel's bindings and sizes from its SPIR-V, so that the host need not repeat them.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ struct ReflectedMember {
 // A struct with a memory layout, as some buffer or the push constants use it.
 struct ReflectedStruct {
   std::string name;
-  uint32_t size = 0;  // bytes; without a run-time array at its end
+  uint32_t size = 0;  // bytes, without a run-time array at the struct's end
   std::vector<ReflectedMember> members;
 };
 
@@ -34,7 +34,8 @@ struct Reflection {
   std::vector<ReflectedStruct> structs;
 };
 
-// Error (bad_input) when the words are not SPIR-V, or the shader wants anything but such buffers in set 0.
+// Error (bad_input) when the words are not SPIR-V, or the shader declares anything but buffers of a
+// BindingKind in set 0.
 Reflection reflect(std::span<const uint32_t> spirv);
 
 }  // namespace eyeray::engine::gpu

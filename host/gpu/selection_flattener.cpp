@@ -21,8 +21,8 @@ bool is_function_of_values(uint32_t function) {
   return function <= GLSLstd450FMix && function != GLSLstd450Modf;
 }
 
-// True if it may be computed where nobody asks for it. An integer division by zero may not, nor a load from
-// an unknown address.
+// True if the instruction may run even if its result is not needed. An integer division, which may be by
+// zero, and a load from an unknown address may not.
 bool is_harmless(const Instruction& instruction) {
   const spv::Op opcode = opcode_of(instruction);
   switch (opcode) {
@@ -63,7 +63,7 @@ class Types {
     return found == components_.end() ? 0 : found->second;
   }
 
-  // A condition for so many components; its instructions go to `before`.
+  // The condition `scalar` for so many components. Its instructions go to `before`.
   uint32_t condition(uint32_t scalar, uint32_t components, std::vector<Instruction>& before) {
     if (components == 1) return scalar;
     const uint32_t all = module_.new_id();
@@ -156,14 +156,14 @@ class Flattener {
 
   Block& at(uint32_t label) { return blocks_[places_.at(label)]; }
 
-  // The block that a label's instructions are in by now.
+  // The label of the block that now contains the instructions of the block `label`.
   uint32_t now(uint32_t label) const {
     for (auto found = joined_.find(label); found != joined_.end(); found = joined_.find(label))
       label = found->second;
     return label;
   }
 
-  // True if the arm has only instructions that are always harmless, and then the end of the selection.
+  // True if the arm has only harmless instructions, and then branches to the end of the selection.
   bool is_harmless_arm(uint32_t label, uint32_t end) {
     if (label == end) return true;
     const std::vector<Instruction>& body = at(label).body;
@@ -173,13 +173,14 @@ class Flattener {
     return std::all_of(body.begin(), body.end() - 1, is_harmless);
   }
 
-  // The value of a phi of two blocks if control came from this block.
+  // The value that a phi of two blocks has if control came from the block `label`.
   uint32_t value_from(const Instruction& phi, uint32_t label) const {
     CHECK_EQ(phi.size(), 7u);
     return now(phi[4]) == label ? phi[3] : phi[5];
   }
 
-  // The selection that a block ends with, if it has one and both its arms are harmless.
+  // Flattens the selection that a block ends with, if it ends with one and both arms are harmless. Returns
+  // true if it did.
   bool flatten_at(Block& head) {
     if (head.body.size() < 2) return false;
     const Instruction branch = head.body.back(), merge = head.body[head.body.size() - 2];
@@ -189,7 +190,7 @@ class Flattener {
     if (yes == no || edges_[end] != 2 || !is_harmless_arm(yes, end) || !is_harmless_arm(no, end))
       return false;
 
-    // Choose as the phis choose.
+    // Make selects that choose the same values as the phis.
     std::vector<Instruction>& rest = at(end).body;
     const auto phis_end =
         std::ranges::find_if(rest, [](const auto& i) { return opcode_of(i) != spv::OpPhi; });
@@ -204,7 +205,8 @@ class Flattener {
                                             value_from(*phi, no == end ? head.label : no)}));
     }
 
-    // Into the head: both arms, the selects, and if no other construct ends there the rest.
+    // Move into the head both arms, the selects and, if no other construct ends at `end`, the rest of that
+    // block.
     head.body.resize(head.body.size() - 2);
     for (const uint32_t arm : {yes, no}) {
       if (arm == end) continue;
@@ -227,9 +229,9 @@ class Flattener {
 
   std::vector<Block>& blocks_;
   Types& types_;
-  std::unordered_map<uint32_t, size_t> places_;    // of labels
-  std::unordered_map<uint32_t, int> edges_;        // into a block
-  std::unordered_map<uint32_t, int> merges_;       // how many constructs end or go on at it
+  std::unordered_map<uint32_t, size_t> places_;  // the index of each label's block
+  std::unordered_map<uint32_t, int> edges_;      // the number of edges into each block
+  std::unordered_map<uint32_t, int> merges_;  // the number of constructs that end or continue at each block
   std::unordered_map<uint32_t, uint32_t> joined_;  // the block that each became a part of
 };
 

@@ -1,4 +1,4 @@
-// Branches that only choose a value, as instructions that do.
+// Replaces branches that only choose a value by instructions that choose it.
 #pragma once
 
 #include <cstdint>

@@ -39,7 +39,8 @@ struct Inputs {
   Inputs() : words(3 * invocations + 2) {
     for (uint32_t i = 0; i < invocations; ++i) {
       const float a = random_float(3 * i), b = random_float(3 * i + 1);
-      // Half of the sums cancel, so that the product's lost digits are all that a fused operation leaves.
+      // Half of the sums cancel, so that a fused operation leaves only the digits that the rounded product
+      // lost.
       const float c = i % 2 == 0 ? -(a * b) : random_float(3 * i + 2);
       words[i] = std::bit_cast<uint32_t>(a);
       words[invocations + i] = std::bit_cast<uint32_t>(b);

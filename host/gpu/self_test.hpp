@@ -12,12 +12,12 @@ namespace eyeray::engine::gpu {
 
 // Measured facts about a device's arithmetic.
 struct DeviceFacts {
-  uint32_t loop_iterations = 0;  // made of 100 000 asked for
+  uint32_t loop_iterations = 0;  // iterations made, of 100 000 requested
   bool loop_cap = false;  // the driver ends loops early, with no error (Mesa 22.3: after 65 535 iterations)
   bool denormals_kept = false;    // not flushed to zero
   bool infinities_kept = false;   // 1 / 0 = ∞
   bool exact_arithmetic = false;  // + − × ÷ √ round as IEEE 754 has it, and a·b + c rounds twice
-  double seconds = 0;             // that all this took
+  double seconds = 0;             // the duration of the self-test
 };
 
 // Runs "kernels/selftest.comp.glsl" of `shaders`. Error (no_device) when integers, indices or the bits of a

@@ -57,7 +57,7 @@ class Includer : public glslang::TShader::Includer {
   std::vector<std::unique_ptr<std::string>> reasons_;
 };
 
-// Throws the log's errors, or that glslang gave no reason.
+// Throws the log's errors, or an error that states that glslang gave no reason.
 [[noreturn]] void fail(std::string_view log, const ShaderSource& source) {
   std::vector<Diagnostic> diagnostics = parse_compiler_messages(log, source);
   const bool explained = std::any_of(diagnostics.begin(), diagnostics.end(),
@@ -95,7 +95,7 @@ CompiledShader compile_shader(const ShaderSource& source, std::string_view pream
   Includer includer(source);
   if (!shader.parse(GetDefaultResources(), 450, false, messages, includer)) fail(shader.getInfoLog(), source);
 
-  // Link, and write the words. What optimises comes later; names stay for reflection.
+  // Link, and write the words. Optimisation comes later; names stay for reflection.
   glslang::TProgram program;
   program.addShader(&shader);
   if (!program.link(messages)) fail(program.getInfoLog(), source);

@@ -18,13 +18,13 @@ struct CompiledShader {
 // The choice to drop or keep the file and line of each instruction in the SPIR-V.
 enum class Lines { dropped, kept };
 
-// Compiles a shader, of the stage that its entry's name gives (NAME.vert.glsl, NAME.frag.glsl, else a compute
-// shader), with `preamble` (#define lines) before its first line. InputError with everything that is wrong,
-// at its file, line and column (0 when the message names nothing that can be found in the line).
+// Compiles a shader, with `preamble` (#define lines) before its first line. The entry's name gives the stage:
+// NAME.vert.glsl, NAME.frag.glsl, else a compute shader. InputError with every fault, at its file, line and
+// column (0 when the message names nothing that can be found in the line).
 CompiledShader compile_shader(const ShaderSource& source, std::string_view preamble,
                               Lines lines = Lines::dropped);
 
-// A name of everything that the result depends on besides source and preamble.
+// Identifies everything, besides source and preamble, on which the result depends.
 std::string compiler_version();
 
 }  // namespace eyeray::engine::gpu

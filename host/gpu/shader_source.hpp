@@ -11,7 +11,7 @@
 namespace eyeray::engine::gpu {
 
 // The text of a file below the include root ("shapes/sphere.glsl"), or nothing when there is no such file.
-// The caller decides on the root: embedded shaders, folders laid over them, files made up for a scene.
+// The caller decides on the root: embedded shaders, folders laid over them, files made for a scene.
 using SourceProvider = std::function<std::optional<std::string>(std::string_view path)>;
 
 struct ShaderSource {
@@ -24,8 +24,8 @@ struct ShaderSource {
 // Why a path may not be included, or "" when it may: paths are relative to the root, and never leave it.
 std::string why_not_includable(std::string_view path);
 
-// The entry and every file that an #include line of it names, directly or not, those under #if too. A name
-// that the provider does not know is left out: the compiler reports it if it gets there. Error (bad_input)
+// The entry and every file that an #include line of it names, directly or not, even under #if. A name that
+// the provider does not know is left out: the compiler reports it if it reaches that line. Error (bad_input)
 // when there is no entry.
 ShaderSource read_shader(const SourceProvider& provider, std::string_view entry);
 

@@ -1,4 +1,4 @@
-// Going through SPIR-V, for the .cpp files of this layer.
+// Iterates over the instructions of SPIR-V; for the .cpp files of this layer.
 #pragma once
 
 #include <cstdint>

@@ -36,7 +36,7 @@ struct SpirvModule {
   std::vector<SpirvInstruction> declarations;  // all before the first function
   std::vector<SpirvFunction> functions;
 
-  // An id that nothing has yet.
+  // Returns an unused id.
   uint32_t new_id() { return header[3]++; }
 };
 

@@ -14,9 +14,9 @@
 namespace eyeray::engine::gpu {
 namespace {
 
-// Chosen by their savings for lavapipe and their own cost (docs/performance.md). Not among them: ssa-rewrite,
-// with which the driver is faster still and some kernels are slower, and common subexpressions, which gain
-// nothing.
+// Passes chosen by their savings for lavapipe and their own cost (docs/performance.md). Two are left out.
+// With ssa-rewrite the driver is even faster, but some kernels are slower; eliminating common subexpressions
+// gains nothing.
 constexpr const char* within_functions[] = {
     "--eliminate-local-single-block",
     "--eliminate-local-single-store",
@@ -51,7 +51,7 @@ constexpr const char* after_flattening[] = {
 
 using Passes = std::vector<std::string>;
 
-// Functions are made small before they are copied to where they are called, and again there.
+// Functions are made small before they are inlined, and again afterwards.
 Passes passes(bool flatten) {
   Passes all;
   const auto add = [&](const auto& list) { all.insert(all.end(), std::begin(list), std::end(list)); };
@@ -62,8 +62,8 @@ Passes passes(bool flatten) {
   return all;
 }
 
-// The passes take some 10 µs an instruction, and more of the largest. With functions inlined the gallery,
-// which has all shapes, has 290 000.
+// The passes take some 10 µs for each instruction, and more in the largest modules. With functions inlined,
+// the gallery, which has all shapes, has 290 000 instructions.
 constexpr uint64_t most_inlined = 1 << 19;
 
 // The number of instructions of the largest function after inlining every call. (GLSL has no recursion.)

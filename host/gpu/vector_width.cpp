@@ -25,10 +25,10 @@ bool has_wide_vectors() {
 #endif
 }
 
-// The folders in which Mesa may cache compiled kernels: it uses one, by its version.
+// The folders in which Mesa may cache compiled kernels. Mesa's version decides which one it uses.
 std::vector<std::filesystem::path> driver_caches() {
   if (const char* const chosen = std::getenv(cache_variable)) return {chosen};
-  if (std::getenv(width_variable)) return {};  // below eyeray's own
+  if (std::getenv(width_variable)) return {};  // the cache is below eyeray's own
   const char* const caches = std::getenv("XDG_CACHE_HOME");
   const char* const home = std::getenv("HOME");
   if (!caches && !home) return {};
@@ -58,7 +58,7 @@ void set_vector_width(bool wide) {
   const char* const chosen = std::getenv(cache_variable);
   const std::filesystem::path folder = chosen ? chosen : DiskCache::of_user().folder();
   const std::string own = "vectors-" + std::string(width);
-  // A parent process may have done the same.
+  // A parent process may have set the folder already.
   if (folder.filename() == own) return;
   if (!folder.empty() && make_private_folder(folder) && make_private_folder(folder / own))
     setenv(cache_variable, (folder / own).c_str(), 1);

@@ -1,2 +1,2 @@
-// The one translation unit that holds volk's code; Debian ships it as source.
+// The only translation unit with volk's code, which Debian ships as source.
 #include <volk.c>

@@ -1,5 +1,5 @@
-// The way to Vulkan, for the .cpp files of this layer only: volk's run-time entry points, and results checked
-// by name.
+// Access to Vulkan, for the .cpp files of this layer only: volk's run-time entry points, and checks that
+// report results by name.
 #pragma once
 
 #include <volk.h>
@@ -14,10 +14,10 @@ namespace eyeray::engine::gpu {
 // "VK_ERROR_DEVICE_LOST", or "VkResult N" for a result this table does not know.
 std::string result_name(VkResult result);
 
-// The Error (no_device) that `what` was tried, and failed with `result`.
+// The Error (no_device) that an attempt to do `what` failed with `result`.
 Error failure(VkResult result, std::string_view what);
 
-// The Error (timed_out) that drivers took longer than `seconds` to load or to open a device.
+// The Error (timed_out) that drivers took longer than `seconds` to load, or to open a device.
 Error late_start(double seconds);
 
 // Throws `failure(result, what)`, unless the result is VK_SUCCESS.
