@@ -11,7 +11,7 @@
 
 namespace eyeray::engine::compare {
 
-// The outcome of a pixel, from best to worst, and the cause of an explained one.
+// The outcomes that a pixel may have, from best to worst. An explained pixel also has a cause.
 enum class Outcome : uint8_t { equal, matching, explained, unexplained, unexamined };
 struct PixelOutcome {
   Outcome outcome = Outcome::equal;

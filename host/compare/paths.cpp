@@ -15,7 +15,7 @@ constexpr size_t examined_at_once = 256;  // so that failures are reported soon
 constexpr int usual_angles = 16;
 constexpr int many_angles = 256;
 // Unexplained samples are examined again at `many_angles`, if there are at most `few`, or at most one in
-// `few_of` of the samples that do not match. If mirrors see each other, any number of samples needs that.
+// `few_of` of the samples that do not match. If mirrors see each other, any number of samples may need that.
 constexpr size_t few = 32, few_of = 64;
 // If at most one in `one_in` of all samples is still unexplained, these are examined once more, at
 // `most_angles`. A thin mirror multiplies a rounding error by a thousand, and a path may hit several.

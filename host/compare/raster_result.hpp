@@ -12,7 +12,7 @@ namespace eyeray::engine::compare {
 
 // The reasons why a traced id or depth may differ from the drawn one.
 enum class RasterCause {
-  edge,         // a triangle ends, or another begins, as near to the pixel's centre as corners are rounded
+  edge,         // a triangle ends or begins within the corners' rounding error of the pixel's centre
   depth,        // two triangles are equally near to the eye, within the precision of depths
   tessellation  // a curved surface deviates that much from the triangles that stand for it
 };

@@ -36,7 +36,7 @@ std::string first_failure(const Report& report) {
   return text.substr(0, text.find('\n'));
 }
 
-// Any text, escaped as one line of Markdown, which may contain HTML, or as one cell of a table.
+// Any text as one line of Markdown or one cell of a table. It is escaped, since Markdown interprets HTML.
 std::string cell(std::string_view text) {
   std::string escaped;
   for (const char c : log_line(text)) {

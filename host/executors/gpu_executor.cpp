@@ -279,8 +279,8 @@ class GpuExecutor final : public Executor {
   std::optional<SceneKernels> kernels_;
   std::optional<GpuQueries> queries_;
   std::optional<PhotonKernel> photons_;                         // null if the integrator gathers none
-  std::optional<Wavefront> wavefront_;                          // makes samples,
-  std::shared_ptr<gpu::Kernel> sample_kernel_;                  // or else this
+  std::optional<Wavefront> wavefront_;                          // makes the samples, if it is set,
+  std::shared_ptr<gpu::Kernel> sample_kernel_;                  // else this kernel makes them
   std::shared_ptr<gpu::Kernel> auxiliary_kernel_, hit_kernel_;  // null until they are asked for
   DispatchSize dispatch_size_;
 };

@@ -15,7 +15,7 @@ namespace eyeray::engine::executors {
 struct Row {
   std::string_view name;
   uint32_t number;
-  std::string_view traits = "";  // as its row has them
+  std::string_view traits = "";  // the text of the row's traits
 };
 // The rows of each registry, in its order.
 namespace rows {

@@ -11,7 +11,7 @@ namespace eyeray::engine::executors {
 // and to_first_hit call it.
 void check_ended(uint32_t flags);
 
-// `ray_kinds`: whether the kernel counted them (records.h, SampleResult).
+// `ray_kinds`: whether the kernel counted reflected and refracted rays (records.h, SampleResult).
 inline PixelSample to_sample(const shader::SampleResult& result, bool ray_kinds) {
   // In a kernel without a user's shaders, FLAG_ENDLESS_LOOP adds nothing to FLAG_LOOP_BUDGET.
   PixelSample sample{Vec3(result.color), result.rays, result.hits, result.flags & ~FLAG_ENDLESS_LOOP};

@@ -124,7 +124,7 @@ std::string primitives_as_constants(const records::PackedScene& scene) {
   std::string text = constant_loader("uvec4", "vertex", scene.vertices) +
                      constant_loader("Primitive", "primitive", scene.primitives) +
                      "#define SCENE_PRIMITIVES(X)";
-  std::multimap<uint32_t, size_t> by_id;  // slots
+  std::multimap<uint32_t, size_t> by_id;  // slots by primitives' ids
   for (size_t i = 0; i < scene.primitives.size(); ++i) by_id.emplace(scene.primitives[i].id, i);
   for (const auto& [id, i] : by_id)
     text += fmt::format(" X({}, {}u, load_primitive({}u))", rows::shapes[kind_of(scene.primitives[i])].name,

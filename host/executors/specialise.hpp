@@ -13,8 +13,8 @@ namespace eyeray::engine::executors {
 
 struct Specialisation {
   bool constants = true;  // compile a small scene in, instead of loading it
-  // Iterations an invocation may make before it gives up with FLAG_LOOP_BUDGET (executors/loop_budget.hpp);
-  // 0: no cap.
+  // The iterations that an invocation may make before it gives up with FLAG_LOOP_BUDGET
+  // (executors/loop_budget.hpp); 0: no cap.
   uint32_t loop_budget = 0;
   Profile profile = {};
   uint32_t subgroup_size = 8;  // for kernels/cooperative/packet.comp.glsl

@@ -26,7 +26,7 @@ bool only_triangles(const records::PackedScene& scene) {
   return scene.bvh_kinds == std::set<uint32_t>{shader::KIND_triangle};
 }
 
-// True if the cooperative kernels can traverse a BVH made of the scene's.
+// True if the cooperative kernels can traverse a BVH that is made from the scene's BVH.
 bool collapsible(const records::PackedScene& scene) {
   return scene.has_bvh && scene.quantised_nodes && scene.instances.empty() && scene.leaf_uses.empty();
 }

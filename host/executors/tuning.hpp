@@ -18,7 +18,7 @@ struct Tuning {
 };
 std::span<const Tuning> tunings();
 
-// "rays=lanes"; Error (bad_input) for an unknown key or value.
+// Applies a setting such as "rays=lanes". Error (bad_input) for an unknown key or value.
 void tune(ExecutorOptions& options, std::string_view setting);
 
 }  // namespace eyeray::engine::executors

@@ -144,7 +144,7 @@ Instance::Instance(const DeviceOptions& options) : Instance(options.timeout_seco
   const VkValidationFeatureDisableEXT disable = VK_VALIDATION_FEATURE_DISABLE_CORE_CHECKS_EXT;
   auto features = make<VkValidationFeaturesEXT>(VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT, &messenger);
 #ifdef VK_EXT_layer_settings
-  // Layers that know settings ignore the buffers that shaders read and write, unless this one is set.
+  // Layers that know settings ignore the buffers that shaders read and write, unless this setting is on.
   const VkBool32 yes = VK_TRUE;
   const VkLayerSettingEXT shader_accesses{validation_layer, "syncval_shader_accesses_heuristic",
                                           VK_LAYER_SETTING_TYPE_BOOL32_EXT, 1, &yes};

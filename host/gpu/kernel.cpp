@@ -30,8 +30,8 @@ VkDescriptorType descriptor_type(BindingKind kind) {
                                      : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 }
 
-// A pipeline cache that comes from disk and goes back there when the driver added to it. A failure of the
-// cache costs only time.
+// A pipeline cache that is loaded from disk, and stored there again if the driver added to it. A failure of
+// the cache costs only time.
 class PipelineCache {
  public:
   PipelineCache(const Context& context, std::span<const uint32_t> spirv, const DiskCache& disk)

@@ -37,7 +37,7 @@ class Kernel {
  private:
   friend class CommandList;
   friend RunTime dispatch(Device&, const Kernel&, std::span<const std::byte>, Groups);
-  struct Objects;  // Vulkan's
+  struct Objects;  // Vulkan's objects
 
   // Error (bad_input) if the shader, which may be a user's, declares push constants of another size, or a
   // buffer that is not bound. A shader may also declare none.

@@ -15,7 +15,7 @@ namespace {
 using Instruction = SpirvInstruction;
 using Block = SpirvBlock;
 
-// True if a function of GLSL.std.450, the only set of functions that shaders use, takes values alone. Modf
+// True if a function of GLSL.std.450, the only set of functions that shaders use, takes only values. Modf
 // writes through a pointer, as some of the functions after FMix do.
 bool is_function_of_values(uint32_t function) {
   return function <= GLSLstd450FMix && function != GLSLstd450Modf;
@@ -232,7 +232,7 @@ class Flattener {
   std::unordered_map<uint32_t, size_t> places_;  // the index of each label's block
   std::unordered_map<uint32_t, int> edges_;      // the number of edges into each block
   std::unordered_map<uint32_t, int> merges_;  // the number of constructs that end or continue at each block
-  std::unordered_map<uint32_t, uint32_t> joined_;  // the block that each became a part of
+  std::unordered_map<uint32_t, uint32_t> joined_;  // the block that each merged block became a part of
 };
 
 }  // namespace

@@ -6,7 +6,7 @@ namespace eyeray::engine::gpu {
 
 SpirvModule read_spirv(std::span<const uint32_t> spirv) {
   SpirvModule module;
-  bool ended = true;  // the last function
+  bool ended = true;  // whether the last function has ended
   for_each_instruction(spirv, [&](uint32_t opcode, std::span<const uint32_t> words) {
     SpirvInstruction instruction(words.begin(), words.end());
     if (opcode == spv::OpFunction) {
