@@ -53,7 +53,7 @@ fs::path behind_links(fs::path path) {
   return path;
 }
 
-// Gives the open file `part` the mode of the one that it replaces, and where it can its owner and group.
+// Gives the open file `part` the mode of the file that it replaces and, where allowed, its owner and group.
 void keep_mode(int part, const struct stat& replaced) {
   mode_t mode = replaced.st_mode & 0777;
   if (::fchown(part, uid_t(-1), replaced.st_gid) != 0) mode &= ~mode_t(S_IRWXG);  // meant for another group
@@ -64,7 +64,8 @@ void keep_mode(int part, const struct stat& replaced) {
 }  // namespace
 
 AtomicFile::AtomicFile(const fs::path& path, unsigned mode) : named_(path), path_(behind_links(path)) {
-  // stat() through the link, too: the system refuses links that others left in a folder that all may write.
+  // Call stat() on the link too: the system refuses to follow links that others left in a folder that
+  // everybody may write to.
   struct stat replaced{};
   const bool replaces = ::stat(named_.c_str(), &replaced) == 0;
   if (!replaces && errno != ENOENT) fail("write", named_, errno);

@@ -10,9 +10,9 @@
 namespace eyeray::engine {
 
 // A file that grows as PATH.part.PID beside `path`, so that the rename stays within one file system, and
-// takes its place at commit(). Without that the part file goes with its scope, and a file at `path` is
-// untouched. Where `path` is a symbolic link, the file that it points to is replaced, or made. A file that is
-// replaced keeps its mode; a new one gets `mode`, less the umask. Every failure is an Error (file_io) that
+// replaces `path` at commit(). Without commit(), the destructor removes the part file, and a file at `path`
+// is untouched. If `path` is a symbolic link, the file that it points to is replaced, or made. The mode of a
+// replaced file is kept; a new file gets `mode`, less the umask. Every failure is an Error (file_io) that
 // gives the reason, and `path` as the caller wrote it.
 class AtomicFile {
  public:
@@ -21,7 +21,7 @@ class AtomicFile {
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  // After the bytes written last.
+  // Writes after the bytes of the previous write().
   void write(std::span<const std::byte> bytes);
   void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
   // At `offset` from the file's start; bytes never written read as 0.
@@ -43,7 +43,7 @@ class AtomicFile {
 void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void write_file_atomically(const std::filesystem::path& path, std::string_view text);
 
-// Error (file_io) now rather than after a long render: whether a file of that name can be written.
+// Throws Error (file_io) if no file of that name can be written: now rather than after a long render.
 void check_writable(const std::filesystem::path& path);
 
 // The whole file; Error (file_io) when it cannot be read.

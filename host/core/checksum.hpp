@@ -6,7 +6,7 @@
 
 namespace eyeray::engine {
 
-// CRC-32 (that of zip, PNG and IEEE 802.3) of `bytes`, which follow the bytes that `so_far` is the sum of. It
+// CRC-32 (that of zip, PNG and IEEE 802.3) of `bytes`, appended to the bytes whose checksum is `so_far`. It
 // detects damage, not malice.
 uint32_t crc32(std::span<const std::byte> bytes, uint32_t so_far = 0);
 

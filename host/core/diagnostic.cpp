@@ -56,7 +56,8 @@ std::string join(const std::vector<Diagnostic>& diagnostics) {
   return text;
 }
 
-// Insertions, deletions, substitutions and swaps of neighbours that turn a into b (optimal string alignment).
+// Number of insertions, deletions, substitutions and swaps of neighbours that turn a into b (optimal string
+// alignment).
 size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<size_t> before_last(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
   for (size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -110,7 +111,7 @@ void show_source_line(Diagnostic& diagnostic, std::string_view line, int first_c
     return;
   }
 
-  // Such lines hold numbers: a byte is a column, near enough; the cut is moved to the start of a character.
+  // Long lines hold numbers, so a byte is near enough to a column. The cut moves to the start of a character.
   const auto column = static_cast<size_t>(std::max(diagnostic.position.column - first_column + 1, 1));
   const size_t middle = std::min(line.size(), column);
   size_t start = middle > window ? middle - window : 0;

@@ -30,8 +30,8 @@ struct Diagnostic {
 // Line `number` (from 1) of a text without its end, or "".
 std::string line_of(std::string_view text, int number);
 
-// Fills source_line with `line`, which starts at `first_column`: printable, and cut to a window around the
-// diagnostic's column where it is long.
+// Fills source_line with `line`, which starts at `first_column`: in printable form and, if it is long, cut to
+// a window around the diagnostic's column.
 void show_source_line(Diagnostic& diagnostic, std::string_view line, int first_column = 1);
 
 // `text` as valid UTF-8 without control characters (tabs stay), so that it can be shown on any terminal and
@@ -52,7 +52,7 @@ class InputError : public Error {
   std::vector<Diagnostic> diagnostics_;
 };
 
-// The candidate that `word` is most likely a slip for (Damerau-Levenshtein distance of at most a third of its
+// The candidate that was most likely meant by `word` (Damerau-Levenshtein distance of at most a third of its
 // length, at least 1), or "" when none is near.
 std::string nearest_name(std::string_view word, std::span<const std::string_view> candidates);
 

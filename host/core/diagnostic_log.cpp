@@ -7,7 +7,8 @@ namespace eyeray::engine {
 
 namespace {
 
-// More would hide the first ones, and a generated file of a million shapes may have a million errors.
+// More diagnostics would hide the first ones, and a generated file of a million shapes may have a million
+// errors.
 constexpr size_t most_diagnostics = 1000;
 
 }  // namespace
@@ -26,19 +27,19 @@ void DiagnosticLog::warning(SourcePosition position, std::string message) {
 }
 
 void DiagnosticLog::add(Severity severity, SourcePosition position, std::string message) {
-  // Settle where it is.
+  // Settle the diagnostic's position.
   if (position.file.empty() && !sources_.empty()) position = {sources_.front().file, 0, 0};
   if (source_index(position.file) == sources_.size()) position.line = position.column = 0;
 
-  // Drop a message that was added before, or that nobody would read. The latter is not kept for comparison
-  // either.
+  // Drop a message that was added before, or one beyond the limit, which nobody would read. The latter is not
+  // kept for comparison either.
   std::string text = fmt::format("{}:{}:{}:{}", position.file, position.line, position.column, message);
   if (seen_.contains(text)) return;
   if (severity == Severity::error) ++errors_;
   if (full()) return;
   seen_.insert(std::move(text));
 
-  // In copies of a group the same thing is wrong once: the first of them stands for all.
+  // Name the subject only now: a fault that recurs in all copies of a group is reported once, for the first.
   if (const std::string subject = subject_ ? subject_() : ""; !subject.empty())
     message = fmt::format("{}: {}", subject, message);
   Diagnostic diagnostic{severity, std::move(position), printable(message), "", 1};
@@ -83,7 +84,7 @@ std::vector<Diagnostic> DiagnosticLog::sorted() const {
     if (diagnostic.severity == Severity::error || !has_errors()) chosen.push_back(diagnostic);
   }
 
-  // Read from top to bottom.
+  // Sort them as a text is read, from top to bottom.
   std::ranges::stable_sort(chosen, {}, [&](const Diagnostic& diagnostic) {
     const SourcePosition& at = diagnostic.position;
     return std::tuple(source_index(at.file), at.line, at.column);

@@ -19,12 +19,12 @@ class DiagnosticLog {
   std::string_view add_source(std::string file, std::string text);
 
   // Adds a diagnostic; the same one at the same position counts once. A position in a file that was not added
-  // (an override) loses its line and column; one without a file is in the first.
+  // (an override) loses its line and column; a position without a file is in the first file.
   void error(SourcePosition position, std::string message);
   void warning(SourcePosition position, std::string message);
 
-  // While it lives, the messages of the log begin with the text that `subject` returns, unless that is "".
-  // The innermost counts.
+  // While an About lives, the log's messages begin with the text that `subject` returns, unless that is "".
+  // The innermost About counts.
   class About {
    public:
     About(DiagnosticLog& log, std::function<std::string()> subject)
@@ -38,8 +38,8 @@ class DiagnosticLog {
     std::function<std::string()> outer_;
   };
 
-  // Some statement could not be parsed and was skipped: a part that seems to be missing may stand there, so
-  // nothing is reported as missing.
+  // Notes that a statement could not be parsed and was skipped. A part that seems to be missing may stand
+  // there, so nothing is reported as missing.
   void set_damaged() { damaged_ = true; }
   bool damaged() const { return damaged_; }
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view ending = ".eyeray-cache";
 constexpr size_t most_entries = 512;
-constexpr size_t most_bytes = size_t{1} << 30;  // of one
+constexpr size_t most_bytes = size_t{1} << 30;  // of one entry
 
 std::filesystem::path path_from(const char* variable) {
   const char* value = std::getenv(variable);
@@ -60,7 +60,7 @@ std::optional<std::string> DiskCache::load(std::string_view name) const {
   try {
     text = read_input_file(path(name), "a cache entry", most_bytes);
   } catch (const Error&) {
-    return std::nullopt;  // somebody else's file, or removed a moment ago
+    return std::nullopt;  // the file is somebody else's, or was removed a moment ago
   }
   const std::string_view bytes = std::string_view(text).substr(std::min<size_t>(32, text.size()));
   if (!text.starts_with(ContentHash().add(name).add(bytes).hex())) return std::nullopt;

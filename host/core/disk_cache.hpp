@@ -9,21 +9,20 @@
 
 namespace eyeray::engine {
 
-// Named bytes in a folder. A cache may forget: damaged entries are as good as absent, old ones are dropped
-// when there are many, and a folder that cannot be written is a cache that remembers nothing. So is a folder,
-// or an entry, that belongs to another user, that others may write to, or that is a link
-// (private_folder.hpp).
+// Named bytes in a folder. A cache may forget: damaged entries count as absent, old ones are dropped when
+// there are many, and a folder that cannot be written remembers nothing. A folder or an entry is ignored if
+// it belongs to another user, if others may write to it, or if it is a link (private_folder.hpp).
 class DiskCache {
  public:
   // An empty path: remembers nothing.
   explicit DiskCache(std::filesystem::path folder) : folder_(std::move(folder)) {}
-  // $EYERAY_CACHE_DIR, else $XDG_CACHE_HOME/eyeray, else ~/.cache/eyeray. An EYERAY_CACHE_DIR that is set but
-  // empty is no cache.
+  // $EYERAY_CACHE_DIR, else $XDG_CACHE_HOME/eyeray, else ~/.cache/eyeray. If EYERAY_CACHE_DIR is set but
+  // empty, there is no cache.
   static DiskCache of_user();
 
   const std::filesystem::path& folder() const { return folder_; }
 
-  // Warnings, a sentence each: that the folder, or one in it, is there and not used, and why.
+  // Warnings, a sentence each, that the folder or one in it exists but is not used, and why.
   std::vector<std::string> warnings() const;
 
   // The bytes stored under `name`, a file name. Empty if there are none.

@@ -18,7 +18,7 @@ enum class ExitCode : int {
   no_device = 3,  // no usable Vulkan device, or it was lost
   file_io = 4,
   timed_out = 5,
-  cannot_resume = 6,  // nothing goes on from this checkpoint: a render has to begin anew
+  cannot_resume = 6,  // no render can resume from this checkpoint: it has to begin anew
   internal = 70,      // a fault of eyeray's own (sysexits' EX_SOFTWARE)
   interrupted = 130,
 };
@@ -38,11 +38,11 @@ class Error : public std::runtime_error {
   ExitCode code_;
 };
 
-// A fault of eyeray's own (internal), with the request to report it: nobody else can mend it.
+// Error (internal) for a fault of eyeray itself, with the request to report it, since no user can mend it.
 Error own_fault(const std::string& what);
 
-// Returns the result of work(), which reads no input of the user's: an error of bad input there is a fault of
-// eyeray itself.
+// Returns the result of work(), which reads no user input: a bad_input error from it is a fault of eyeray
+// itself.
 template <typename Work>
 auto of_own_input(const Work& work) {
   try {
@@ -57,7 +57,7 @@ namespace detail {
 [[noreturn]] void check_failed(const char* file, int line, const char* expression, const std::string& values);
 }
 
-// Ends the program with both values when a promise inside it is broken; on in every build.
+// Ends the program, and prints both values, when a promise inside it is broken. Active in every build.
 #define CHECK(condition) \
   ((condition) ? void() : ::eyeray::engine::detail::check_failed(__FILE__, __LINE__, #condition, ""))
 #define CHECK_OP_(a, b, op)                                                                        \

@@ -68,7 +68,7 @@ std::string shell_word(std::string_view word) {
 }
 
 std::string harmless_json(std::string json) {
-  // None of these stands outside of strings.
+  // These characters occur only inside strings, where they can be escaped.
   for (size_t at = 0; (at = json.find("##[", at)) != std::string::npos;) json.replace(at + 1, 1, "\\u0023");
   std::string harmless;
   harmless.reserve(json.size());

@@ -8,8 +8,8 @@ namespace eyeray::engine {
 
 class FolderTrees {
  public:
-  // Allows everything below `folder`; "" is the working directory. A folder that does not exist has nothing
-  // in it.
+  // Allows everything below `folder`; "" is the working directory. A folder that does not exist allows
+  // nothing.
   void allow(const std::filesystem::path& folder);
   // True if `file`, which need not exist, lies in one of the trees once its links are followed.
   bool hold(const std::filesystem::path& file) const;

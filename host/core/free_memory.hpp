@@ -12,8 +12,8 @@ void free_memory(Container& all) {
   Container().swap(all);
 }
 
-// From now on memory that is given back stays the process's, where it is taken and given back again and
-// again: the system clears each page that it hands out.
+// From now on the process keeps the memory that it frees. This saves time where memory is allocated and freed
+// again and again, since the system clears each page that it hands out.
 inline void keep_freed_memory() {
   mallopt(M_MMAP_MAX, 0);
   mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());

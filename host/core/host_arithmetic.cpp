@@ -20,7 +20,7 @@ std::string host_arithmetic() {
   constexpr OfTwo of_two[] = {std::pow, std::atan2, std::hypot};
   constexpr int arguments = 200;
 
-  // Calls through pointers that the compiler cannot see through, lest it computes them itself.
+  // Call through volatile pointers, so that the compiler cannot compute the results itself.
   std::vector<double> values;
   for (int i = 0; i < arguments; ++i) {
     // In (0, 1), spread evenly, with varied last bits: multiples of the golden ratio.
@@ -31,7 +31,7 @@ std::string host_arithmetic() {
     }
     for (const OfTwo volatile function : of_two) values.push_back(function(3 * x + 0.1, 7 * x - 2));
   }
-  // No number is one whatever its bits are.
+  // All NaNs count as equal, whatever their bits are.
   for (double& value : values)
     if (std::isnan(value)) value = 0;
   return ContentHash().add(std::as_bytes(std::span(values))).hex();

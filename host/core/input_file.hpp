@@ -8,8 +8,9 @@
 
 namespace eyeray::engine {
 
-// The bytes of a regular file of at most `most_bytes`. Error (file_io) "cannot read the scene a.toml:
-// reason", where `what` is "the scene", and a name in the same folder that the user may have meant.
+// The bytes of a regular file of at most `most_bytes`. Error (file_io): "cannot read the scene a.toml:
+// reason" where `what` is "the scene". If there is no such file, it suggests a name in the same folder that
+// the user may have meant.
 std::string read_input_file(const std::filesystem::path& file, std::string_view what, size_t most_bytes);
 
 // Removes the byte order mark that some editors put before text in UTF-8.

@@ -8,7 +8,7 @@ namespace eyeray::engine {
 
 constexpr size_t deepest_json = 64;
 
-// The text, or an empty one, which no parser accepts, if its brackets are nested deeper than `deepest_json`.
+// The text; or "", which no parser accepts, if the brackets are nested deeper than `deepest_json`.
 inline std::string_view unless_too_deep(std::string_view text) {
   size_t depth = 0;
   bool in_string = false;

@@ -8,8 +8,8 @@
 
 namespace eyeray::engine {
 
-// The whole number that `json` is. std::out_of_range where it is none from `least` to `most`: Json::get would
-// wrap it around or cut it off.
+// The whole number that `json` holds. std::out_of_range if it holds no whole number from `least` to `most`:
+// Json::get would wrap it around or truncate it.
 template <typename T, typename Json>
 T whole_number(const Json& json, T least = 0, T most = std::numeric_limits<T>::max()) {
   const auto within = [&](auto value) {

@@ -1,5 +1,5 @@
-// Before shader files that a .cpp compiles for itself alone: their definitions stay in it. May be included
-// again.
+// Include this before shader files that a .cpp compiles for itself alone: their definitions stay in that
+// .cpp. It may be included again.
 #undef SHADER_BEGIN
 #undef SHADER_END
 #define SHADER_BEGIN                 \

@@ -5,11 +5,11 @@
 
 namespace eyeray::engine {
 
-// True if so many bytes of address space can still be mapped (ulimit -v).
+// True if `bytes` of address space can still be mapped (ulimit -v).
 bool address_space_left(size_t bytes);
 
-// From now on a std::bad_alloc that nobody catches, and a crash with hardly any memory left, is a message and
-// exit code 3. Other crashes stay as they are. Needs the watch of core/termination.
+// From now on an uncaught std::bad_alloc, or a crash with hardly any memory left, leads to a message and exit
+// code 3. Other crashes stay as they are. Needs the watch of core/termination.
 void report_memory_shortage();
 
 }  // namespace eyeray::engine

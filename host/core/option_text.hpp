@@ -1,4 +1,5 @@
-// Names of options in messages, as whoever reads them gives them: the command line's or the library's.
+// Names of options in messages, as the reader of the message writes them: on the command line or in the
+// library.
 #pragma once
 
 #include <string>
@@ -6,12 +7,13 @@
 
 namespace eyeray::engine {
 
-// "timeout" is "--timeout" on the command line, and "`timeout`" for callers of the library, from any thread.
+// "timeout" is "--timeout" on the command line, and "`timeout`" for callers of the library. Safe from any
+// thread.
 std::string option_text(std::string_view name);
 // With its value: "--backend twin", "`backend` twin".
 std::string option_text(std::string_view name, std::string_view value);
 
-// From now on the library's callers read this process's messages.
+// From now on messages name options as callers of the library write them.
 void speak_to_library();
 
 }  // namespace eyeray::engine

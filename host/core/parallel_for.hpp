@@ -19,8 +19,8 @@ void parallel_for(int begin, int end, const Body& body) {
   });
 }
 
-// The same; but until all are done this thread helps with nothing else, which might wait for a lock that this
-// thread holds.
+// Like parallel_for(), but until all calls are done this thread takes on no other work: that might wait for a
+// lock that this thread holds.
 template <typename Body>
 void parallel_for_alone(int begin, int end, const Body& body) {
   tbb::this_task_arena::isolate([&] { parallel_for(begin, end, body); });
@@ -40,7 +40,7 @@ auto parallel_sum(int begin, int end, const Term& term) {
       std::plus<>());
 }
 
-// Calls both, perhaps at the same time. An exception from either is not allowed.
+// Calls a and b, perhaps at the same time. They must not throw.
 template <typename A, typename B>
 void parallel_invoke(const A& a, const B& b) {
   tbb::parallel_invoke(a, b);

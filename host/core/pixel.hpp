@@ -17,7 +17,7 @@ struct PixelSample {
   // The sample's rays by kind; 0 from an executor that does not count kinds (ExecutorOptions::ray_kinds).
   uint32_t reflected = 0;
   uint32_t refracted = 0;
-  uint32_t total_reflections = 0;  // hits whose refracted ray would have been followed, had there been one
+  uint32_t total_reflections = 0;  // total reflections where a refracted ray would else be followed
   uint32_t trail = 1;              // a fingerprint of a random path's decisions (docs/gates.md); else 1
   bool cut_off = false;            // whether `max_depth` ended its path; for random paths only
 };
@@ -36,8 +36,8 @@ enum SampleFlag : uint32_t {
   media_overflow = 1u << 0,   // more than four media nested
   stack_overflow = 1u << 1,   // more rays pending than the shader's stack holds
   loop_budget = 1u << 2,      // the driver's cap on loop iterations was near (docs/lavapipe.md)
-  iteration_limit = 1u << 3,  // a shape that is searched for step by step was not found in the steps allowed
-  endless = 1u << 4,  // a formula's loops did not end: whoever reads samples fails (executors/samples.hpp)
+  iteration_limit = 1u << 3,  // an iterative search for a hit ended at its limit of steps
+  endless = 1u << 4,  // a formula's loops did not end: readers of samples fail (executors/samples.hpp)
 };
 
 // The cost of one ray's search for its closest hit; −1 from an executor that does not count it.
@@ -51,15 +51,15 @@ struct FirstHit {
   double t = std::numeric_limits<double>::infinity();  // infinity where nothing is hit
   Vec3 position{0.0};                                  // world
   Vec3 normal{0.0};                                    // world, unit, shading normal as the shape defines it
-  Vec3 normal_geometric{0.0};                          // the same of the geometric normal
+  Vec3 normal_geometric{0.0};  // world, unit, geometric normal as the shape defines it
   // The cosine between normal_geometric and the reversed ray's direction: above 0 the front is seen.
   double cosine = 0;
   Vec2 uv{0.0};
   int32_t primitive = -1;  // index, see Scene::primitive_count; −1 where nothing is hit
   int32_t material = -1;   // index in Scene::materials
   uint32_t flags = 0;      // SampleFlag bits; 0 when nothing went wrong
-  // The largest coordinate, relative to the eye, that t was computed from, over the cosine of incidence: the
-  // shift of t by the rounding of coordinates is in proportion to it. Known to the reference; 0 elsewhere.
+  // The largest coordinate that t was computed from, relative to the eye, divided by the cosine of incidence.
+  // The rounding of coordinates shifts t in proportion to it. Only the reference sets it; else it is 0.
   double t_scale = 0;
   SearchCost cost{};  // of the search, with or without a hit: gates do not compare it
 };

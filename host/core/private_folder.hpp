@@ -1,4 +1,4 @@
-// Folders and files that nobody else can have changed: caches believe no others.
+// Folders and files that nobody else can have changed: caches trust no others.
 #pragma once
 
 #include <filesystem>
@@ -11,8 +11,8 @@ namespace eyeray::engine {
 bool is_private_folder(const std::filesystem::path& folder);
 bool is_private_file(const std::filesystem::path& file);
 
-// The reason why the path is no private folder, to go on from "it is not used: "; "" if it is one, or nothing
-// is there.
+// The reason why the path is no private folder, worded to follow "it is not used: ". "" if it is a private
+// folder or does not exist.
 std::string why_not_private(const std::filesystem::path& folder);
 
 // Makes the folder, and its parents, where there is none. False if there is then no private folder.

@@ -164,7 +164,7 @@ std::vector<std::string> own_command() {
 void restart(const Environment& environment) {
   std::vector<std::string> arguments = own_command();
   std::vector<std::string> variables = merged_environment(environment);
-  // By its name, which debuggers look for.
+  // Name the program by its own path, which debuggers look for.
   arguments[0] = std::filesystem::read_symlink("/proc/self/exe");
   ::execve("/proc/self/exe", pointers(arguments).data(), pointers(variables).data());
   throw Error(ExitCode::file_io, "cannot restart {}: {}", arguments[0], strerror(errno));

@@ -1,4 +1,4 @@
-// Other programs, run and listened to.
+// Runs other programs and reads their output.
 #pragma once
 
 #include <sys/types.h>
@@ -37,7 +37,7 @@ class Process {
   std::optional<int> code() const { return code_; }
   // Processor time of all its threads in seconds; 0 while it runs.
   double processor_seconds() const { return processor_seconds_; }
-  // The number of its minor page faults, where memory is new to it; 0 while it runs.
+  // The number of its minor page faults, which occur where memory is new to it; 0 while it runs.
   long page_faults() const { return page_faults_; }
   pid_t pid() const { return pid_; }
 

@@ -1,4 +1,4 @@
-// Vectors for data that grows with the scene and is written by all cores: they are not filled before.
+// Vectors for data that grows with the scene and is written by all cores: new elements are not initialised.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace eyeray::engine {
 
-// Leaves elements that are made without a value uninitialised.
+// Leaves elements uninitialised if they are made without a value.
 template <typename T>
 struct RawAllocator : std::allocator<T> {
   static_assert(std::is_trivially_copyable_v<T>);

@@ -12,9 +12,9 @@ struct RayCounts {
   uint64_t eye_hits = 0;  // of `eye`, those that hit something
   uint64_t reflected = 0;
   uint64_t refracted = 0;
-  uint64_t total_reflections = 0;  // hits where light may pass and none does
+  uint64_t total_reflections = 0;  // where a refracted ray would else be followed
   uint64_t cut_off = 0;            // samples whose path `max_depth` ended
-  uint64_t shadow = 0;             // one a light that stands before a surface, by both of its normals
+  uint64_t shadow = 0;             // one for each light in front of a surface, by both of its normals
 
   uint64_t total() const { return eye + reflected + refracted + shadow; }
 

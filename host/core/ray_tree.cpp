@@ -12,8 +12,8 @@ bool RayRecorder::has_room() {
 
 void RayRecorder::ray(RayKind kind, uint32_t number, uint32_t depth) {
   if (!has_room()) return;
-  // The number of rays that lead to it. A ray that skips a depth, as a user's integrator may, follows the
-  // last one.
+  // The number of rays that lead to this one. If it skips a depth, as in a user's integrator, its parent is
+  // the last ray.
   const size_t before = std::min(size_t(depth) + (kind == RayKind::shadow), last_of_depth_.size());
   const size_t parent = before == 0 ? 0 : last_of_depth_[before - 1];
   current_ = tree_.rays.size();
@@ -29,7 +29,7 @@ void RayRecorder::back(uint32_t depth) {
 
 void RayRecorder::value(ProbedValue value) {
   if (!has_room()) return;
-  // There is no −0, as in pictures: its sign is the compiler's choice.
+  // Turn −0 into 0, as in pictures: the sign of a zero is the compiler's choice.
   for (double& number : value.numbers) number += 0.0;
   tree_.rays[current_].values.push_back(std::move(value));
 }

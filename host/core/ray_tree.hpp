@@ -13,7 +13,7 @@
 
 namespace eyeray::engine {
 
-// `pixel`: no ray; values that belong to no ray belong to it.
+// `pixel` is no ray: it holds the values that belong to no ray.
 enum class RayKind : uint32_t { pixel, eye, reflected, refracted, shadow };
 
 struct ProbedValue {
@@ -23,15 +23,15 @@ struct ProbedValue {
   Type type = Type::real;
   int size = 1;                     // components
   std::array<double, 4> numbers{};  // float32 is widened exactly, −0 is 0; a truth is 0 or 1
-  uint32_t line = 0;                // of the shader's file that looked; 0: no shader did
-  std::string file = {};            // which; "" where unknown
+  uint32_t line = 0;                // line of the shader file that recorded it; 0: no shader did
+  std::string file = {};            // the shader file; "" where unknown
 };
 
 struct ProbedRay {
   RayKind kind = RayKind::pixel;
-  uint32_t number = 0;  // of a shadow ray its light
-  size_t parent = 0;    // in RayTree::rays, before this one; the pixel's own is itself
-  size_t place = 0;     // how many of the parent's values come before this ray
+  uint32_t number = 0;  // a shadow ray's light
+  size_t parent = 0;    // index in RayTree::rays, less than this ray's; the pixel is its own parent
+  size_t place = 0;     // number of the parent's values that come before this ray
   std::vector<ProbedValue> values = {};
 };
 
@@ -40,16 +40,16 @@ struct RayTree {
   uint64_t lost = 0;                   // values and rays beyond RayRecorder::most
 };
 
-// Makes the tree of the events that it gets, in order of time.
+// Builds the tree from events, which it receives in order of time.
 class RayRecorder {
  public:
-  // Rays and values that are kept.
+  // Limit on the rays and values that are kept.
   static constexpr uint32_t most = 1 << 17;
 
-  // From here on values belong to a new ray. A reflected or refracted one comes from the last ray with one
-  // reflection or refraction less than `depth`, a shadow ray from the last with as many.
+  // From here on values belong to a new ray. `depth` counts reflections and refractions. The parent of a
+  // reflected or refracted ray is the last ray of depth − 1; a shadow ray's is the last ray of `depth`.
   void ray(RayKind kind, uint32_t number, uint32_t depth);
-  // From here on they belong to the last ray of `depth` again, beyond every depth to the pixel.
+  // From here on values belong to the last ray of `depth` again, or to the pixel if there is no such ray.
   void back(uint32_t depth);
   void value(ProbedValue value);
   void lose(uint64_t count) { tree_.lost += count; }

@@ -14,7 +14,7 @@
 namespace eyeray::engine {
 namespace {
 
-// Writes as much as can be written; 0 when all was, else the reason.
+// Writes as much as can be written. Returns 0 if all was, else the reason as errno has it.
 int write_all(int file, const char* bytes, size_t size) {
   while (size > 0) {
     const ssize_t count = ::write(file, bytes, size);
@@ -38,7 +38,7 @@ ssize_t write_data(void*, const char* bytes, size_t size) {
   return 0;
 }
 
-// glibc lets its three streams be replaced. Where memory is too short for another they stay as they are.
+// glibc lets its three streams be replaced. Without memory for a new stream, the old one stays.
 void replace(FILE*& stream, cookie_write_function_t* write, int buffering) {
   cookie_io_functions_t functions{};
   functions.write = write;
@@ -51,7 +51,7 @@ void replace(FILE*& stream, cookie_write_function_t* write, int buffering) {
 }  // namespace
 
 void make_standard_streams_safe() {
-  // A closed input or output stays one that fails: its stand-in is open for the other direction.
+  // A closed stream still fails when used: its stand-in is open for the other direction.
   for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(file, F_GETFD) < 0) ::open("/dev/null", file == STDOUT_FILENO ? O_RDONLY : O_WRONLY);
   }

@@ -18,8 +18,8 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now();
 };
 
-// Seconds in which this process ran. It is to be queried several times a second: between two queries it
-// counts a quarter of a second at most, so not the hours for which the process was stopped (Ctrl-Z).
+// Seconds in which this process ran. Query it several times a second: it counts at most a quarter of a second
+// between two queries, and so leaves out the hours for which the process was stopped (Ctrl-Z).
 class WakefulStopwatch {
  public:
   double seconds() {

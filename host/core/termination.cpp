@@ -26,11 +26,11 @@ namespace {
 constexpr int64_t second = 1'000'000'000;  // in nanoseconds
 constexpr int64_t one_signal = second / 10;
 constexpr double grace_seconds = 0.3;
-constexpr int64_t tick = second / 50;  // of the watch, while it measures time
+constexpr int64_t tick = second / 50;  // interval of the watch, while it measures time
 constexpr size_t stack_bytes = 256 << 10;
 
 // The variables that a signal handler may access.
-std::atomic<int64_t> first_signal = 0;  // when it came, on the monotonic clock; 0: none did
+std::atomic<int64_t> first_signal = 0;  // time of the first signal, on the monotonic clock; 0: none came
 std::atomic<int> signal_number = SIGINT;
 std::atomic<bool> insisted = false;
 std::atomic<bool> without_memory = false;
@@ -44,7 +44,7 @@ struct Semaphore {
 std::atomic<int> saving = 0;
 std::atomic<const std::atomic<bool>*> stop_asked = nullptr;
 
-// The foreign call; one that has passed its limit stays when it returns after all.
+// The current foreign call. If it has exceeded its limit, it stays here even after it returns.
 struct Call {
   double limit;
   Error error;
@@ -77,7 +77,7 @@ bool can_write(int file) {
   return ::poll(&polled, 1, 0) == 1 && (polled.revents & POLLOUT);
 }
 
-// Other threads may be anywhere, and hold any lock: nothing here waits for them.
+// Other threads may be in any code and hold any lock: nothing here waits for them.
 [[noreturn]] void end(const std::function<void(const Error&)>& report, const Error& error) {
   if (can_write(STDOUT_FILENO) && can_write(STDERR_FILENO) && ::ftrylockfile(stdout) == 0 &&
       ::ftrylockfile(stderr) == 0) {
@@ -109,7 +109,7 @@ void wait_for_tick() {
 }
 
 [[noreturn]] void watch(const std::function<void(const Error&)>& report) {
-  std::optional<WakefulStopwatch> since;  // the process was to end, with nothing being saved
+  std::optional<WakefulStopwatch> since;  // time since the process should end and nothing is being saved
   while (true) {
     const std::optional<Error> reason = reason_to_end();
     if (!reason || (saving > 0 && !in_foreign_call()))
@@ -188,7 +188,8 @@ Error out_of_memory() {
   return {ExitCode::no_device, "out of memory; allow more (ulimit), or try a smaller picture or scene"};
 }
 
-// Leaves the words to the watching thread, which is whole; and does without where that has no memory either.
+// Leaves the message to the watching thread, which is intact. If that has no memory either, writes a fixed
+// message after a second and exits.
 void end_for_want_of_memory() noexcept {
   without_memory = true;
   ::sem_post(&something_happened.handle);

@@ -1,4 +1,4 @@
-// The program's end before its time: a signal, or a driver that does not come back.
+// Ends the program before its time: at a signal, or if a call of a driver does not return.
 //
 // Long work calls interrupted() between its pieces, and ends by itself. Code that cannot call it is left
 // where it is: a watching thread ends the process a third of a second after the request to end.
@@ -11,14 +11,14 @@
 
 namespace eyeray::engine {
 
-// Starts the watch; main calls it, once, as does a forked child that is to have one. SIGINT, SIGTERM and
+// Starts the watch. main calls this once; a forked child that needs a watch calls it too. SIGINT, SIGTERM and
 // SIGHUP (unless that is ignored, as under nohup) then end the process from any state, with UnfinishedFiles
-// removed; a second one does so even while something is saved. Signals within a tenth of a second are one:
-// timeout(1) sends its signal to the process and then to the group. The watching thread calls `report` with
-// the reason, if standard output and error take it.
+// removed; a second signal does so even while something is saved. Signals within a tenth of a second count as
+// one: timeout(1) sends its signal to the process and then to the group. The watching thread calls `report`
+// with the reason, if standard output and error take it.
 void watch_for_termination(std::function<void(const Error&)> report);
 
-// From now on a signal ends the process without a word: who sent it knows.
+// From now on a signal ends the process without a message: its sender knows of it.
 void end_silently();
 
 // True if a signal has requested the process's end. Safe from any thread.
@@ -36,8 +36,8 @@ class Interruptible {
   Interruptible& operator=(const Interruptible&) = delete;
 };
 
-// Throws Error (interrupted) if interrupted(). For work that may never end, of which nothing is worth saving:
-// a pixel.
+// Throws Error (interrupted) if interrupted(). For work that may never end and is not worth saving in part: a
+// pixel.
 inline void stop_if_interrupted() {
   if (interrupted()) throw Error(ExitCode::interrupted, "interrupted");
 }
@@ -45,13 +45,13 @@ inline void stop_if_interrupted() {
 // The exit status of the process: the code, or 128 + the signal if the code is `interrupted`.
 int exit_status(ExitCode code);
 
-// Why a command ends that has too little memory.
+// The error with which a command ends that has too little memory.
 Error out_of_memory();
 
-// Ends the process with that, from any thread and any signal handler.
+// Ends the process with out_of_memory(), from any thread and any signal handler.
 [[noreturn]] void end_for_want_of_memory() noexcept;
 
-// While one is alive there is something to lose: the thread queries interrupted(), saves, and ends in its own
+// While one is alive there is something to save: its thread queries interrupted(), saves, and ends in its own
 // time.
 class Saving {
  public:
@@ -63,8 +63,8 @@ class Saving {
 
 // A call that cannot be interrupted and may not return, of a driver for instance. If it takes longer than
 // `seconds` of the process's running time, the process ends with `error`: at once if the call does not
-// return, else when the results worth saving are saved. One call at a time. Without the watch only passed()
-// reports it.
+// return, else when the results worth saving are saved. One call at a time. Without the watch nothing ends
+// the process; only passed() reports the excess.
 class ForeignCall {
  public:
   ForeignCall(double seconds, Error error);

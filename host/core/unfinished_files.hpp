@@ -1,4 +1,4 @@
-// Files that are to be gone when the program ends before they are finished, however suddenly.
+// Files that are removed if the program ends before they are finished, however suddenly.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,8 @@
 
 namespace eyeray::engine {
 
-// The list of them; hold it while one is made, renamed or removed, so that list and disk agree.
+// The list of unfinished files. Hold it while such a file is made, renamed or removed, so that list and disk
+// agree.
 class UnfinishedFiles {
  public:
   UnfinishedFiles();
@@ -17,8 +18,8 @@ class UnfinishedFiles {
   std::unique_lock<std::timed_mutex> lock_;
 };
 
-// Removes all of them, folders with their contents; from then on nobody can make another, as the process is
-// about to end. Gives up where another thread holds the list for longer than a moment.
+// Removes all unfinished files, and folders with their contents. From then on nobody can make another, since
+// the process is about to end. Gives up if another thread holds the list for longer than a moment.
 void remove_unfinished_files();
 
 }  // namespace eyeray::engine
