@@ -132,7 +132,7 @@ class Bezier final : public Shape {
       // A hit may lie as far beyond a border as rounding moves it.
       const double room = 0x1p-18 * (magnitude(packer.relative(middle)) + radius);
       const auto& [from, to] = piece.range;
-      // Both ends; of 24 arcs, each with its middle and its next end; of 4 roots.
+      // Iterations for both ends; for 24 arcs, each with its middle and its next end; for 4 roots.
       packer.add_iterations(2 * 4 + 24 * (1 + 4 + 4) + 4 * 40);
       packer.add_iteration_limit();
       packer.add_piece(records::Packer::primitive(

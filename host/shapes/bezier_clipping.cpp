@@ -8,7 +8,7 @@
 namespace eyeray::engine::shapes {
 namespace {
 
-// No more than these. Beyond the many a ray runs along the patch.
+// Limits on the cuts of one search. Beyond many_cuts a ray runs along the patch.
 constexpr int most_cuts = 5000, many_cuts = 1000;
 constexpr double small = 1e-13;  // of a patch, in u and v
 
@@ -22,12 +22,13 @@ struct Interval {
   double from, to;
 };
 
-// For which parameters 0 … 1 the hull of a polynomial's bounds, four by four at 0, 1/3, 2/3 and 1, hits 0 ±
-// `room`; from > to if for none.
+// The interval of parameters 0 … 1 in which the hull of a polynomial's bounds comes within `room` of 0. `low`
+// and `high` are its four lower and four upper bounds, at 0, 1/3, 2/3 and 1. If no parameter does, from > to.
 Interval hull_at_zero(const std::array<double, 4>& low, const std::array<double, 4>& high, double room) {
   Interval found{2, -1};
   const auto include = [&](double x) { found = {std::min(found.from, x), std::max(found.to, x)}; };
-  // The hull's points in the strip around 0, and where its edges cross a border of that.
+  // Include the hull's points in the strip around 0, and the points where its edges cross a border of the
+  // strip.
   for (size_t i = 0; i < 4; ++i) {
     if (low[i] <= room && high[i] >= -room) include(double(i) / 3);
     for (size_t k = 0; k < 4; ++k) {
@@ -76,7 +77,7 @@ class Search {
       const Vec2 before = part.range.to - part.range.from;
       if (!clip(part, 0) || !clip(part, 1)) continue;
       const Vec2 size = part.range.to - part.range.from;
-      // If the search takes so long, the ray grazes the patch, and the hit is as precise as that allows.
+      // If the search takes many cuts, the ray grazes the patch: accept a hit that is 10⁴ times less precise.
       const double blur = cuts < many_cuts ? 1 : 1e4;
       if (std::max(size.x, size.y) > small * blur && extent(part) > room_ * blur) {
         // If clipping gains little, the ray may hit the piece several times.
@@ -121,7 +122,7 @@ class Search {
 
   // Cuts off, on either side along `axis`, the part that the ray cannot hit. True if anything is left.
   bool clip(Part& part, int axis) const {
-    // Distances from a line through the ray, along which the other parameter grows.
+    // Distances from a line that crosses the ray in the direction in which the other parameter grows.
     const BezierNet& p = part.net;
     const size_t step = axis == 0 ? 1 : 4, other = axis == 0 ? 4 : 1;
     Vec2 line = Vec2(p[3 * other] - p[0]) + Vec2(p[15] - p[3 * step]);
@@ -154,7 +155,8 @@ class Search {
     part.range = {from + size * within.from, from + size * within.to};
   }
 
-  // Into halves across the longer parameter, the one that begins nearer last, to be examined first.
+  // Halves the part across its longer parameter. The half that begins nearer comes last, to be examined
+  // first.
   void split(const Part& part) {
     const Vec2 size = part.range.to - part.range.from;
     const int axis = size.x >= size.y ? 0 : 1;

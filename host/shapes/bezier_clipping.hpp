@@ -9,7 +9,7 @@
 
 namespace eyeray::engine::shapes {
 
-// The nearest intersection with t > 0, with u and v of it. Borders belong to the patch, and are as wide as
+// The nearest intersection with t > 0, and its u and v. Borders belong to the patch, and are as wide as
 // float64's rounding.
 std::optional<Intersection> clip_bezier(const BezierNet& net, const Ray& ray);
 

@@ -10,17 +10,17 @@ namespace eyeray::engine::shapes {
 namespace {
 
 constexpr double flat_enough = 0.3;
-constexpr double beyond_flat = 0.2;  // twice the most that the derivatives' variation moves a border by
+constexpr double beyond_flat = 0.2;  // twice the largest shift of a border by the derivatives' variation
 constexpr double beyond_others = 1;
 constexpr double speck = 2;  // BEZIER_SPECK
 constexpr double smallest = 0x1p-14;
 constexpr double largest_speck =
-    0x1p-12;  // of the patch: flat to float32's last bit, wherever it has a curvature
+    0x1p-12;  // share of the patch; such a piece is flat to float32's last bit, wherever it has a curvature
 constexpr size_t most_pieces = 4096;
 
 using Curve = std::array<Vec3, 4>;
 
-// The value of the curve's polar form, which is the curve itself where all three agree.
+// The value of the curve's polar form, which is the curve itself where r = s = t.
 Vec3 blossom(const Curve& c, double r, double s, double t) {
   const auto between = [](const Vec3& a, const Vec3& b, double x) { return a * (1 - x) + b * x; };
   const Vec3 a = between(c[0], c[1], r), b = between(c[1], c[2], r), d = between(c[2], c[3], r);
@@ -44,7 +44,7 @@ Vec3 slope(const Curve& c, double t) {
   return 3.0 * ((c[1] - c[0]) * (s * s) + (c[2] - c[1]) * (2 * s * t) + (c[3] - c[2]) * (t * t));
 }
 
-// The variation of a part's derivatives along u and along v, in units of those in its middle.
+// The variation of a part's derivatives along u and along v, in units of the derivatives in its middle.
 struct Bend {
   double along_u = 0, along_v = 0;
 };
@@ -61,8 +61,8 @@ Vec3 spread(const std::array<Vec3, n>& values) {
 }
 
 Bend bend(const BezierNet& net) {
-  // Bring the middle's derivatives to (1, 0, 0) and (0, 1, 0), and the normal to as long as the shorter of
-  // them.
+  // Map the derivatives in the middle to (1, 0, 0) and (0, 1, 0). Scale the normal to the length of the
+  // shorter one, and map it to (0, 0, 1).
   const BezierPoint middle = bezier_point(net, 0.5, 0.5);
   const Vec3 normal = glm::cross(middle.along_u, middle.along_v);
   const double shorter = std::min(glm::length(middle.along_u), glm::length(middle.along_v));
@@ -98,7 +98,7 @@ Bend bend(const BezierNet& net) {
   return result;
 }
 
-// A normal for pieces whose middle has none: that of their corners, or any.
+// The normal in the middle of a piece. If there is none, the normal of the piece's corners, or any.
 Vec3 normal_of(const BezierNet& net) {
   const BezierPoint middle = bezier_point(net, 0.5, 0.5);
   for (const Vec3& normal :
@@ -143,7 +143,8 @@ std::vector<BezierPiece> bezier_pieces(const BezierNet& net) {
     waiting.pop_front();
     const BezierNet here = bezier_part(net, range);
 
-    // Halve it where it bends more, while there is room.
+    // Halve the piece along the parameter in which it bends more, unless it is too small or there are too
+    // many.
     const Bend bent = bend(here);
     const Vec2 size = range.to - range.from;
     const bool may_u = bent.along_u > flat_enough && size.x > smallest;

@@ -60,12 +60,13 @@ constexpr double least_thickness = 1e-4;
 class Bilinear final : public Shape {
  public:
   Bilinear(const Corners& corners, bool mirrored) : corners_(corners), mirrored_(mirrored) {
-    // A point's weights are those of the tetrahedron's corners, linear in the point.
+    // A point's weights, those of the tetrahedron's corners, are linear in the point.
     const Mat3 edges(p(1) - p(0), p(2) - p(0), p(3) - p(0));
     to_weights_ = glm::inverse(edges);
   }
 
-  // A point of space is on the surface if w₀·w₂ = w₁·w₃ of its weights, and within it if none is negative.
+  // A point of space is on the surface if its weights fulfil w₀·w₂ = w₁·w₃, and within the patch if no weight
+  // is negative.
   std::optional<Intersection> intersect(const Ray& ray) const override {
     const Vec3 middle = (p(0) + p(1) + p(2) + p(3)) * 0.25;
     const double start = glm::dot(middle - ray.o, ray.d) / glm::dot(ray.d, ray.d);
@@ -91,7 +92,7 @@ class Bilinear final : public Shape {
     SurfacePoint surface;
     surface.position =
         p(0) * ((1 - u) * (1 - v)) + p(1) * (u * (1 - v)) + p(2) * (u * v) + p(3) * ((1 - u) * v);
-    // The flatter, the more the weights' rounding moves t.
+    // The flatter the patch, the more the rounding of the weights moves t.
     const double reach = std::max({magnitude(p(0)), magnitude(p(1)), magnitude(p(2)), magnitude(p(3))});
     surface.position_error = 1e-14 * reach / thickness(corners_) + 1e-13 * reach;
     const Vec3 along_u = (p(1) - p(0)) * (1 - v) + (p(2) - p(3)) * v;

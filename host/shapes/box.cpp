@@ -45,7 +45,7 @@ class Box final : public ObjectShape {
   ShapeForm form() const override { return BoxForm{to_world().matrix()}; }
 
  private:
-  // u = the face.
+  // A crossing's u is the number of its face.
   Crossings crossings(const Ray& ray) const override {
     Crossings both;
     if (const auto span = cube::span(ray)) {

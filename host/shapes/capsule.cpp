@@ -75,7 +75,7 @@ class Capsule final : public ObjectShape {
   ShapeForm form() const override { return CapsuleForm{to_world().matrix(), half_}; }
 
  private:
-  // Each part by itself, where it is the outermost.
+  // Tests each part by itself, where it is the outermost.
   Crossings crossings(const Ray& ray) const override {
     const Vec3 &o = ray.o, &d = ray.d;
     Crossings all;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int degree = ChebyshevSeries::degree;
 
-// cos(π·i·k / degree), the values of the k-th polynomial at the points.
+// cos(π·i·k / degree): the value of the k-th polynomial at the i-th point.
 const std::array<std::array<double, degree + 1>, degree + 1>& cosines() {
   static const auto table = [] {
     std::array<std::array<double, degree + 1>, degree + 1> all;
@@ -39,7 +39,7 @@ bool ChebyshevSeries::ends(double tolerance) const {
   return std::fabs(c_[degree]) + std::fabs(c_[degree - 1]) + std::fabs(c_[degree - 2]) <= tolerance;
 }
 
-// No Chebyshev polynomial is above 1, and no derivative of the k-th above k².
+// No Chebyshev polynomial is above 1, and no derivative of the k-th polynomial is above k².
 double ChebyshevSeries::clearance() const {
   double rest = 0;
   for (size_t k = 1; k <= degree; ++k) rest += std::fabs(c_[k]);

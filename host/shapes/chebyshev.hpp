@@ -1,4 +1,4 @@
-// A function on a segment as a Chebyshev series: its values between points that were sampled.
+// A function on a segment as a Chebyshev series, which gives its values between sampled points.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@ class ChebyshevSeries {
   static constexpr int degree = 16;
   static constexpr int points = degree + 1;
 
-  // The points in [−1, 1], from 1 down to −1, at which values are wanted.
+  // The points in [−1, 1], from 1 down to −1, at which the function is sampled.
   static const std::array<double, points>& places();
 
   explicit ChebyshevSeries(const std::array<double, points>& values);
@@ -18,7 +18,7 @@ class ChebyshevSeries {
   // True if the series has converged: judged by its last terms, the terms left out sum to less than
   // `tolerance`.
   bool ends(double tolerance) const;
-  // The distance that it keeps from zero; negative if it may reach zero.
+  // A lower bound on the distance of the series from zero; negative if it may reach zero.
   double clearance() const;
   bool monotone() const;
 

@@ -40,7 +40,7 @@ std::pair<Vec3, Vec3> center_and_half(const Bounds& bounds) {
 Csg::Csg(bool all, Shapes operands, Shapes removed)
     : all_(all), operands_(std::move(operands)), removed_(std::move(removed)) {
   CHECK(!operands_.empty());
-  std::vector<std::pair<size_t, uint32_t>> origins;  // operand, and the number that the leaf has there
+  std::vector<std::pair<size_t, uint32_t>> origins;  // by leaf: its operand, and its number there
   std::vector<Leaf> leaves;
   for (size_t i = 0; i < operand_count(); ++i) {
     const bool is_removed = i >= operands_.size();
@@ -95,7 +95,7 @@ std::vector<Span> Csg::spans(const Ray& ray) const {
             : all_                ? shapes::intersect(spans, other)
                                   : unite(spans, other);
   }
-  // If the search for an operand gave up, nothing beyond is known.
+  // If the search in an operand gave up, nothing is known beyond that point.
   if (gave_up) {
     std::erase_if(spans, [&](const Span& span) { return span.in.t >= gave_up->t; });
     if (!spans.empty() && spans.back().out.t > gave_up->t)
@@ -178,7 +178,7 @@ Csg::Node Csg::node_of_operand(size_t i, bool complement) const {
   return {true, parts_[i][0], false, {}};
 }
 
-// By De Morgan's laws, complements are only at leaves, whose `removed` marks them.
+// De Morgan's laws move all complements to leaves, where `removed` marks them.
 Csg::Node Csg::node(bool complement) const {
   std::vector<Node> operands;
   for (size_t i = 0; i < operands_.size(); ++i) operands.push_back(node_of_operand(i, complement));
@@ -189,7 +189,7 @@ Csg::Node Csg::node(bool complement) const {
 }
 
 void Csg::pack(records::Packer& packer) const {
-  // The nodes, each after those that are its operands.
+  // The nodes, each after its operands.
   std::vector<shader::uvec4> nodes;
   const auto add = [&](const Node& node, const auto& self) -> uint32_t {
     shader::uvec4 record(0, 0, node.all || node.is_leaf ? 1 : 0, 0);
@@ -206,7 +206,7 @@ void Csg::pack(records::Packer& packer) const {
   add(node(false), add);
   CHECK_LT(nodes.size(), most_csg_leaves);
 
-  // The leaves, as records that stand with the vertices.
+  // The leaves, as records among the vertices.
   std::vector<shader::uvec4> leaves;
   uint32_t removed = 0, deferred = 0;
   for (size_t i = 0; i < leaves_.size(); ++i) {

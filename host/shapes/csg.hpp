@@ -8,20 +8,21 @@
 
 namespace eyeray::engine::shapes {
 
-// A CSG object's leaves, those of its operands and of theirs, are bits of a word in the shaders.
+// Limit on the leaves of a CSG object with all objects nested in it: in the shaders each leaf is a bit of a
+// word.
 inline constexpr size_t most_csg_leaves = 32;
 
 class Csg final : public Shape {
  public:
   using Shapes = std::vector<std::unique_ptr<Shape>>;
 
-  // The points within any of `operands`, or if `all` within all of them, and within none of `removed`. There
-  // is at least one operand. All shapes are closed, at most most_csg_leaves together.
+  // The points within any of `operands` (if `all`: within all of them) and within none of `removed`. There is
+  // at least one operand. All shapes are closed, at most most_csg_leaves together.
   Csg(bool all, Shapes operands, Shapes removed);
 
   std::optional<Intersection> intersect(const Ray& ray) const override;
   SurfacePoint surface(const Ray& ray, const Intersection& hit) const override;
-  // A point where there is nothing.
+  // A single point if the object is empty.
   Bounds bounds() const override;
   // True if bounds alone show that nothing is within it.
   bool is_empty() const;
@@ -32,14 +33,15 @@ class Csg final : public Shape {
   void pack(records::Packer& packer) const override;
 
  private:
-  // A shape that is no CSG object, of this one or of one in it; by kind in registry order, then as the
-  // operands stand. Its position is its number as a part.
+  // A shape that is no CSG object, from this object or one nested in it. Leaves are sorted by kind in
+  // registry order, then by the order of the operands. A leaf's index is its number as a part.
   struct Leaf {
     const Shape* shape;
     uint32_t kind;
-    bool removed;  // it counts by its outside
+    bool removed;  // its outside counts, not its inside
   };
-  // A set of points by its leaves, without differences: their complements are leaves.
+  // A set of points: a leaf, or the union or intersection of nodes. A difference is an intersection with
+  // complements of leaves.
   struct Node {
     bool is_leaf;
     uint32_t leaf;

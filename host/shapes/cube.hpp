@@ -20,16 +20,16 @@ struct Span {
 // The span of a line within the cube; empty if it passes by.
 std::optional<Span> span(const Ray& ray);
 
-// The map to the box between two corners of another space.
+// The map from the cube to the box with these two corners in another space.
 Mat4 placed(const Vec3& min, const Vec3& max);
 
 Vec3 normal(int face);
 // The point of the face that is nearest to `near`.
 Vec3 onto(int face, const Vec3& near);
-// Each face has the texture upright: seen from outside u runs to the right and v up; on top of the top face
-// is −z, and of the bottom face +z.
+// Each face has the texture upright: seen from outside u runs to the right and v up; the upper edge of the
+// top face is at −z, that of the bottom face at +z.
 Vec2 uv(int face, const Vec3& p);
-// The derivatives of a point by u and v on a surface that has the uv of a face. `gradient` is perpendicular
+// The derivatives by u and v of a point on a surface that has the uv of a face. `gradient` is perpendicular
 // to the surface.
 std::pair<Vec3, Vec3> along_uv(int face, const Vec3& gradient);
 

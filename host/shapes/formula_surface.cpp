@@ -11,15 +11,16 @@ namespace eyeray::engine::shapes {
 
 namespace {
 
-// Distances, in the cube, of the points that a gradient is taken from. The wide one is that of
-// docs/implicit-surfaces.md for a function with a Lipschitz constant and without its own gradient. The other
-// is so small that the result is the derivative.
+// Distances, in the cube, between the points from whose values a gradient is computed. The wide distance is
+// that of docs/implicit-surfaces.md for a function with a Lipschitz constant and without its own gradient.
+// The other is so small that the result is the derivative.
 constexpr double wide_difference = 1.0 / 256;
 constexpr double difference = 1e-4;
-// Lengths in the cube: pairs of roots closer than this are not seen, and a root is known to that.
+// Lengths in the cube. Pairs of roots closer than least_gap may be missed; a root is located to within
+// least_width.
 constexpr double least_gap = 1e-8;
 constexpr double least_width = 1e-14;
-// The search gives up after so many values: along a surface that is flat on the ray, none ends.
+// The search gives up after so many values: along a ray on which f is flat at 0, no search would end.
 constexpr int most_values = 400000;
 
 // Searches a segment, from its start on, by a bound of f's slope.
@@ -66,7 +67,7 @@ class LipschitzSearch {
   int values_ = 0;
 };
 
-// The search if no bound of f's slope is known: piece by piece as Chebyshev series.
+// Searches without a bound of f's slope: represents f piece by piece as Chebyshev series.
 class SeriesSearch {
  public:
   SeriesSearch(const FormulaSurface& surface, const Ray& ray, double unit)
@@ -80,7 +81,7 @@ class SeriesSearch {
     for (const double v : values) size = std::max(size, std::fabs(v));
     largest_ = std::max(largest_, size);
 
-    // No change, or one if the signs at the ends differ, where the series decides.
+    // If the series decides, there is no change of sign, or one change if the signs at the ends differ.
     const ChebyshevSeries series(values);
     const bool ends = series.ends(1e-10 * size + 1e-14 * largest_);
     const bool narrow = (to - from) / unit_ < least_gap;

@@ -13,16 +13,17 @@ class FormulaSurface {
   explicit FormulaSurface(const FormulaUse& use);
 
   double value(const Vec3& q) const;
-  // By differences of the fourth order, steps of 1e-4.
+  // By differences of the fourth order. The step is 1/256 for a formula with a Lipschitz constant and without
+  // its own gradient, else 1e-4.
   Vec3 gradient(const Vec3& q) const;
-  // The first point from `start` to `end` at which the sign is another than at `start`. By the Lipschitz
-  // constant, the values at two points exclude roots on a stretch between them, and only such stretches are
-  // left out. So no change is missed, except pairs of roots closer than 1e-8. Where there is no such
-  // constant, Chebyshev series replace it. The number of steps is limited, so that the search ends for any
-  // function. At the limit `iteration_limit` is set, and there is no change up to s.
+  // The first point from `start` to `end` at which the sign differs from that at `start`. With a Lipschitz
+  // constant, the values at two points exclude roots on a stretch between them. Only such stretches are
+  // skipped, so no change is missed, except pairs of roots closer than 1e-8. Without a Lipschitz constant,
+  // Chebyshev series replace it. The number of steps is limited, so that the search ends for any function. At
+  // the limit `iteration_limit` is set, and there is no change up to s.
   struct Change {
     double s;
-    double beyond;  // a point past it that has the other sign
+    double beyond;  // a point past `s` that has the other sign
     bool iteration_limit = false;
   };
   std::optional<Change> first_change(const Ray& ray, double start, double end) const;

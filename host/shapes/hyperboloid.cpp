@@ -63,8 +63,8 @@ constexpr Key keys[] = {
     {.name = "open", .type = KeyType::boolean, .doc = "If true, the caps are left out.", .fallback = "false"},
 };
 
-// In units of the larger radius across the axis and of half the length along it, from the waist: x² + z² =
-// waist² + square·y², from y = bottom to bottom + 2.
+// The side x² + z² = waist² + square·y², from y = bottom to bottom + 2, with the waist at y = 0. The unit is
+// the larger radius across the axis, and half the length along it.
 struct Form {
   Form(double radius, double to_radius, double least) {
     const double larger = std::max(radius, to_radius);

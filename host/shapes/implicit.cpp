@@ -124,7 +124,7 @@ constexpr Key keys[] = {
     box_open_key,
 };
 
-// In the space where the box is the cube.
+// The surface in the space where its box is the cube.
 class Implicit final : public ObjectShape {
  public:
   Implicit(const Mat4& to_world, FormulaUse use, bool open)
@@ -145,9 +145,10 @@ class Implicit final : public ObjectShape {
   static constexpr int most_crossed = 1000;
   static constexpr size_t typical_steps = 96;  // of a ray in the shaders
 
-  // Crossings of the surface, and of the cube's faces where they are within it; v is 1 if the ray enters.
-  // Each is sought from where f has the other sign for certain, so that they alternate. Where the search
-  // gives up, as after too many, the ray is within from there on, or without.
+  // Crossings with the surface, and with the cube's faces where they are within it; v is 1 if the ray enters.
+  // Each search starts where f surely has the sign past the last crossing, so that entries and exits
+  // alternate. If the search gives up, as after too many crossings, the sign changes there once more, and
+  // then stays.
   Crossings crossings(const Ray& ray) const override {
     Crossings all;
     const auto span = cube::span(ray);
@@ -208,8 +209,8 @@ class Implicit final : public ObjectShape {
   bool open_;
 };
 
-// The text and its parameters, from whichever key has them; null after an error. A ready one knows its
-// `lipschitz`, if it has one.
+// The formula from the key that the table has, with its parameters; null after an error. A ready formula sets
+// `lipschitz`, if it has such a constant and the table has not.
 std::shared_ptr<const formula::Formula> formula_of(TableReader& table, double& lipschitz) {
   constexpr std::string_view owner = "[[implicit]]";
   if (!has_one_source(table, {"code", "file", "ready"}, owner)) return nullptr;

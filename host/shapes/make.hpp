@@ -11,7 +11,7 @@
 
 namespace eyeray::engine::shapes {
 
-// An ellipsoid where `transform` is no similarity.
+// Returns an ellipsoid if `transform` is no similarity.
 std::unique_ptr<Shape> make_sphere(const Vec3& center, double radius, const Mat4& transform = Mat4(1.0));
 
 // Without `u_axis`, the default that the manual names.
@@ -65,14 +65,14 @@ std::unique_ptr<Shape> make_superellipsoid(const Vec3& center, const Vec3& radii
                                            const Mat4& transform = Mat4(1.0));
 // Rows of four control points.
 std::unique_ptr<Shape> make_bezier(const std::array<Vec3, 16>& net, const Mat4& transform = Mat4(1.0));
-// Around the patch.
+// The corners, in order around the patch.
 std::unique_ptr<Shape> make_bilinear(const std::array<Vec3, 4>& corners, const Mat4& transform = Mat4(1.0));
 
-// f ≤ 0 within a box of the shape's own space; without the box's faces where `open`.
+// The points with f ≤ 0 within a box of the shape's own space; if `open`, without the box's faces.
 std::unique_ptr<Shape> make_implicit(FormulaUse use, bool open, const Mat4& transform = Mat4(1.0));
 
-// The points within any of `operands`, or if `all` within all of them, and within none of `removed`. All
-// shapes are closed, at most 32 together, and have their materials.
+// The points within any of `operands` (if `all`: within all of them) and within none of `removed`. All shapes
+// are closed, at most 32 together, and have their materials.
 std::unique_ptr<Shape> make_csg(bool all, std::vector<std::unique_ptr<Shape>> operands,
                                 std::vector<std::unique_ptr<Shape>> removed = {});
 

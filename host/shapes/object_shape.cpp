@@ -12,7 +12,7 @@ namespace eyeray::engine::shapes {
 
 namespace {
 
-// |linear| · |inverse|, its largest row.
+// The largest sum of a row of |linear| · |inverse|, the product of the matrices of absolute values.
 double growth(const Affine& map, const Affine& inverse) {
   double largest = 0;
   for (int row = 0; row < 3; ++row) {
@@ -74,7 +74,7 @@ std::vector<Span> ObjectShape::spans(const Ray& ray) const {
   }
   std::ranges::stable_sort(passages, {}, [](const Passage& passage) { return passage.at.t; });
 
-  // At an edge, rounding may let a ray enter by two faces, or leave by two: the side that it reaches decides.
+  // At an edge, rounding may let a ray enter by two faces, or leave by two: count one entry and one exit.
   std::vector<Span> spans;
   std::optional<Intersection> entered;
   for (const Passage& passage : passages) {

@@ -1,5 +1,5 @@
-// Common parts of shapes that are a plain one, such as the unit sphere, in object space under any affine map.
-// In the shaders it is geometry/object_space.glsl.
+// Common parts of shapes that are the image, under any affine map, of a simple shape in object space, such as
+// the unit sphere. In the shaders it is geometry/object_space.glsl.
 #pragma once
 
 #include <vector>
@@ -19,7 +19,7 @@ class ObjectShape : public Shape {
   void pack(records::Packer& packer) const override;
 
  protected:
-  // The hits of a line with the shape, in any order. u and v are the shape's own.
+  // The hits of a line with the shape, in any order. The meaning of their u and v depends on the shape.
   class Crossings {
    public:
     void add(const Intersection& crossing) { all_.push_back(crossing); }
@@ -37,27 +37,27 @@ class ObjectShape : public Shape {
   };
 
   // `kind` is the shape's number in the registry. `parameters` are the numbers that the shaders find after
-  // the maps. `steps` is the limit on its loops' iterations there, after which it gives up
+  // the maps. `steps` is the limit on the iterations of the shape's loops there, after which they give up
   // (T_ITERATION_LIMIT).
   ObjectShape(uint32_t kind, const Mat4& to_world, const std::vector<float>& parameters = {},
               size_t steps = 0);
 
   const Affine& to_world() const { return to_world_; }
-  // Packs it with parameters that only the packer knows.
+  // Packs the shape with parameters that only the packer knows.
   void pack_with(records::Packer& packer, const std::vector<float>& parameters) const;
 
  private:
-  // All in object space. The ray starts near the shape; its t may be negative.
+  // The arguments and results are in object space. The ray starts near the shape; its t may be negative.
   virtual Crossings crossings(const Ray& ray) const = 0;
-  // The nearest of them beyond t = `from`.
+  // The nearest crossing beyond t = `from`.
   virtual std::optional<Intersection> first(const Ray& ray, double from) const;
   // True if the ray enters at that crossing, by the gradient there.
   virtual bool enters(const Ray& ray, const Intersection& crossing) const;
   virtual Point point(const Vec3& near, const Intersection& hit) const = 0;
   virtual Bounds extent() const = 0;
 
-  // The ray in object space, from its point nearest to the centre, so that nothing cancels however far away
-  // its own start is; and the t of that point.
+  // The ray in object space, restarted at its point nearest to the centre, and the t of that point. So
+  // nothing cancels, however far away the ray's own start is.
   std::pair<Ray, double> to_nearest(const Ray& ray) const;
 
   uint32_t kind_;
@@ -67,9 +67,9 @@ class ObjectShape : public Shape {
   size_t steps_;
 };
 
-// The map under which y = low … high on the axis of object space comes to stand from `from` to `to`, and
-// whose other two axes are `radius` long and perpendicular to it. The first of them, where u = ½, is as near
-// to the world's +x as can be; if the axis is parallel to that, to +z.
+// The map that takes y = low … high on the y axis of object space to the segment from `from` to `to`. It
+// takes the other two unit vectors to vectors of the length `radius`, perpendicular to the segment. The image
+// of x, where u = ½, is as near to the world's +x as can be; if the segment is parallel to +x, to +z.
 Mat4 along_axis(const Vec3& from, const Vec3& to, double radius, double low, double high);
 
 // Reports at `transform` if the shape is too large, small or far away to be computed with under this map to

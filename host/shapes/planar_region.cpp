@@ -56,8 +56,8 @@ double signed_area(std::span<const Vec2> outline) {
   return sum;
 }
 
-// Sunday, "Inclusion of a Point in a Polygon" (2001): edges that pass the point on its right, upwards less
-// downwards.
+// Sunday, "Inclusion of a Point in a Polygon" (2001): the number of edges that pass the point upwards on its
+// right, less the number that pass it downwards there.
 int winding(std::span<const Vec2> outline, const Vec2& point) {
   int turns = 0;
   for (size_t i = 0; i < outline.size(); ++i) {

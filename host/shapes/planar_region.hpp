@@ -22,25 +22,27 @@ struct PlanarRegion {
   std::vector<Outline> holes = {};
 
   size_t size() const;  // number of vertices of all outlines
-  // Unit, to where the outer outline runs counter-clockwise; (0, 0, 0) where it has no area.
+  // Unit, towards the side from which the outer outline runs counter-clockwise; (0, 0, 0) if that has no
+  // area.
   Vec3 normal() const;
-  // About twice its area over the square of its size; below `thinnest_region` it counts as none.
+  // About twice its area over the square of its size; a region below `thinnest_region` counts as one without
+  // area.
   double thickness() const;
   PlanarRegion transformed(const Affine& map) const;
 };
 
-// Why a region in the world cannot be computed with in float32, or "".
+// The reason why float32 cannot compute with a region in the world, or "".
 std::string why_out_of_range(const PlanarRegion& region);
 
-// Newell's area vector from the outline's first vertex, of all triangles together, in squares of the
-// outline's size: it points to where the outline runs counter-clockwise.
+// Newell's area vector: the sum over the outline's triangles with its first vertex, in units of the square of
+// the outline's size. It points to the side from which the outline runs counter-clockwise.
 Vec3 area_of(const Outline& outline);
 // Twice the area within an outline, signed: above 0 where it runs counter-clockwise.
 double signed_area(std::span<const Vec2> outline);
 // The winding number of an outline around a point, counter-clockwise.
 int winding(std::span<const Vec2> outline, const Vec2& point);
 
-// Vertices that are farther off the plane than this share of the outline's size are no rounding.
+// Vertices that are farther off the plane than this share of the outline's size are not off by mere rounding.
 inline constexpr double most_unevenness = 1e-5;
 inline constexpr size_t most_outline_vertices = 16384;
 
@@ -57,10 +59,10 @@ inline constexpr Key holes_key{.name = "holes",
                                .min = -max_coordinate,
                                .max = max_coordinate};
 
-// The region in a table with these keys; nothing, with one error at the vertex that is to blame, where it is
-// none. Its outlines must be flat, have an area and at least 3 vertices each, no two at the same point. They
-// must neither cross nor touch themselves or each other. Holes must lie within the outer outline, beside each
-// other.
+// The region in a table with these keys. If it is invalid, returns nothing and reports one error, at the
+// vertex that is to blame. Its outlines must be flat, have an area and at least 3 vertices each, no two at
+// the same point. They must neither cross nor touch themselves or each other. Holes must lie within the outer
+// outline, beside each other.
 std::optional<PlanarRegion> read_region(TableReader& table);
 
 }  // namespace eyeray::engine::shapes

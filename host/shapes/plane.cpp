@@ -52,7 +52,7 @@ constexpr Key keys[] = {
 
 class Plane final : public Shape {
  public:
-  // All in the world; gradients of u and v lie in the plane.
+  // All arguments are in the world; the gradients of u and v lie in the plane.
   Plane(const Vec3& point, const Vec3& normal, const Vec3& u_gradient, const Vec3& v_gradient)
       : point_(point), normal_(normal), u_gradient_(u_gradient), v_gradient_(v_gradient) {}
 
@@ -97,7 +97,7 @@ std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
   if (table.has("u_axis")) u_axis = table.vec3("u_axis");
   if (table.failed()) return nullptr;
 
-  // Check that every direction is one, before and after the map.
+  // Check that every direction has a length, before and after the map.
   if (normal == Vec3(0)) {
     table.error("normal", "the normal has no length");
   } else if (u_axis) {
@@ -124,7 +124,7 @@ std::unique_ptr<Shape> make_plane(const Vec3& point, const Vec3& normal, const M
   const Vec3 n = unit(normal);
   const auto [u, v] = plane_axes(n, u_axis);
 
-  // Gradients map as normals do, but keep their length; off the plane they need not count.
+  // Gradients map as normals do, but keep their length; their component off the plane need not count.
   const Vec3 world_normal = map.normal(n);
   return std::make_unique<Plane>(map.point(point), world_normal, tangential(map.cotangent * u, world_normal),
                                  tangential(map.cotangent * v, world_normal));

@@ -53,7 +53,7 @@ constexpr Key keys[] = {
 
 class Polygon final : public Shape {
  public:
-  // All in the world; gradients of u and v lie in the plane.
+  // All arguments are in the world; the gradients of u and v lie in the plane.
   Polygon(PlanarRegion region, const Vec3& normal, const Vec3& u_gradient, const Vec3& v_gradient)
       : region_(std::move(region)), normal_(normal), u_gradient_(u_gradient), v_gradient_(v_gradient) {}
 
@@ -98,7 +98,7 @@ class Polygon final : public Shape {
     const auto go_to = [&](const Vec3& vertex, bool along_edge = false) {
       vertices.push_back(records::to_bits(records::to_vec4(packer.relative(vertex), along_edge)));
     };
-    // With the polygon to the left.
+    // Goes round an outline with the polygon to the left.
     const auto go_round = [&](const Outline& outline, const Vec3& up) {
       const bool as_given = glm::dot(area_of(outline), up) > 0;
       const size_t n = outline.size();
@@ -112,7 +112,7 @@ class Polygon final : public Shape {
     }
     while ((vertices.size() - path_begin - 1) % 4 != 0) go_to(origin());
 
-    // The bounds, around the vertices as rounded, seen from a point of the plane.
+    // The bounds around the rounded vertices, relative to a point of the plane.
     const auto rounded = [&](size_t i) { return Vec3(std::bit_cast<shader::vec4>(vertices[i])); };
     Bounds box;
     for (size_t i = path_begin; i < vertices.size(); ++i) box.include(rounded(i));
@@ -130,8 +130,8 @@ class Polygon final : public Shape {
  private:
   const Vec3& origin() const { return region_.outer[0]; }
 
-  // True if the outline winds around the ray's line: it is sheared along the ray into the plane across its
-  // main axis z, as intersect_triangle does, so that neighbours agree on their edges.
+  // True if the outline winds around the ray's line. The outline is sheared along the ray into the plane
+  // across the ray's main axis z, as in intersect_triangle, so that neighbours agree on their edges.
   static bool is_within(const Outline& outline, const Ray& ray) {
     const Vec3 size = glm::abs(ray.d);
     const int z = size.x > size.y && size.x > size.z ? 0 : size.y > size.z ? 1 : 2;

@@ -48,7 +48,7 @@ constexpr Key keys[] = {
      .max = max_coordinate},
 };
 
-// Less than this share of the extrusion off the outline's plane is no height.
+// A prism has no height if less than this share of the extrusion points off the outline's plane.
 constexpr double least_height = 1e-6;
 
 // Intersection::u: the part hit. Walls count on from there.
@@ -66,7 +66,7 @@ struct PrismForm {
 
   Mat4 to_world;
   std::vector<std::vector<Vec2>>
-      outlines;  // x and z; the outer one and holes run so that the body is to the left
+      outlines;  // x and z; the outer one and the holes run with the body to the left
   std::vector<Wall> walls;
   double height;
   Vec3 u_cap, v_cap;  // u = u_cap · (x, z, 1) on the cap at y = 1
@@ -136,8 +136,8 @@ class Prism final : public ObjectShape {
   ShapeForm form() const override { return ExtrusionForm{to_world().matrix(), form_.outlines}; }
 
  private:
-  // Each face by itself: a wall where the line hits its plane between its ends, a cap where the outlines wind
-  // around the point.
+  // Tests each face by itself: a wall where the line hits its plane between its ends, a cap where the
+  // outlines wind around the point.
   Crossings crossings(const Ray& ray) const override {
     constexpr double room = 1e-14;  // for edges, where faces join
     const Vec3 &o = ray.o, &d = ray.d;

@@ -37,7 +37,7 @@ double steepest_metaballs(Parameters parameters) {
 }
 
 // Schoen: Infinite Periodic Minimal Surfaces Without Self-Intersections, NASA TN D-5541, 1970; its first
-// Fourier terms. Each of the three derivatives is within ±1 turn, cos a cos b − sin c sin d.
+// Fourier terms. Each of the three derivatives is cos a cos b − sin c sin d, and so within ±1.
 constexpr std::string_view gyroid = R"glsl(
 const float TURN = 6.28318530717958648;
 float f(vec3 p) {
@@ -57,7 +57,7 @@ double steepest_gyroid(Parameters) {
   return std::numbers::sqrt3;
 }
 
-// Distances, and so nowhere steeper than 1. Quilez: Distance Functions,
+// A distance function, and so nowhere steeper than 1. Quilez: Distance Functions,
 // https://iquilezles.org/articles/distfunctions.
 constexpr std::string_view rounded_box = R"glsl(
 float f(vec3 p) {
@@ -142,7 +142,7 @@ float f(vec3 p) {
 )glsl";
 
 // Sums of value noise (Perlin's lattice with values at its corners), each octave twice as fine and half as
-// high. A fifth-degree ease is steepest in the middle, 15/8, along each of the two axes.
+// high. The fifth-degree easing curve along each of the two axes is steepest in the middle: 15/8.
 constexpr std::string_view height_field = R"glsl(
 float corner(int x, int z) {
   uint h = uint(x) * 1597334677u ^ uint(z) * 3812015801u ^ uint(int(seed)) * 2654435769u;

@@ -1,4 +1,4 @@
-// Formulas that come with eyeray; each goes the way of a user-defined one.
+// Formulas that come with eyeray; each is handled as a user-defined one is.
 #pragma once
 
 #include <span>

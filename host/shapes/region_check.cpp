@@ -11,7 +11,7 @@ namespace eyeray::engine::shapes {
 
 namespace {
 
-// Outlines nearer than this share of the region's size touch.
+// Outlines closer to each other than this share of the region's size touch.
 constexpr double touching = 1e-9;
 
 double cross(const Vec2& a, const Vec2& b) {
@@ -48,7 +48,7 @@ class RegionCheck {
     Vec2 to;
   };
 
-  // An error at a vertex, or at an outline. Always false.
+  // Reports an error at a vertex, or at an outline. Always returns false.
   bool fail(size_t outline, std::string message) {
     if (outline == 0)
       table_.error("vertices", std::move(message));
@@ -106,8 +106,8 @@ class RegionCheck {
   }
 
   bool has_area() {
-    // The widest triangle with the first vertex: an outline that crosses itself has one, even if its area
-    // comes to 0.
+    // Take the widest triangle with the first vertex: an outline that crosses itself has a wide one, even if
+    // its area sums to 0.
     for (size_t k = 0; k < outlines_.size(); ++k) {
       const Outline& outline = *outlines_[k];
       const auto farthest = [&](const auto& measure) {
@@ -143,7 +143,7 @@ class RegionCheck {
                                      "{:.3g} long: move it, or use triangles",
                                      worst.vertex + 1, name(worst.outline), most, size_));
 
-    // Lay it flat for the next steps.
+    // Lay the region flat for the next steps.
     const auto [u, v] = plane_axes(normal_);
     for (const Outline* outline : outlines_) {
       flat_.emplace_back();
@@ -159,7 +159,7 @@ class RegionCheck {
       for (size_t i = 0; i < flat_[k].size(); ++i)
         edges.push_back({{k, i}, flat_[k][i], flat_[k][(i + 1) % flat_[k].size()]});
 
-    // Edges that do not overlap in x cannot hit.
+    // Edges that do not overlap in x cannot cross.
     const auto low = [](const Edge& edge) { return std::min(edge.from.x, edge.to.x); };
     const auto high = [](const Edge& edge) { return std::max(edge.from.x, edge.to.x); };
     std::stable_sort(edges.begin(), edges.end(),

@@ -4,7 +4,7 @@
 
 namespace eyeray::engine::shapes {
 
-// Each shape's .cpp defines its own; one that is missing is a link error that bears its name.
+// Each shape's .cpp defines its own type; a missing one causes a link error that contains its name.
 #define X(name, number) extern const ShapeType name##_type;
 SHAPES(X)
 #undef X

@@ -11,17 +11,18 @@
 
 namespace eyeray::engine::shapes {
 
-// The words that each kind declares its keys with, and reads them.
+// The types with which each kind declares and reads its keys.
 using reading::Key, reading::KeyType, reading::TableReader;
 
 struct ShapeType {
   std::string_view name;      // its table in a scene, its .glsl, its scene file
   std::string_view manual;    // equation, parameters' meaning, the numeric trap, the source; Markdown
   std::span<const Key> keys;  // beside `name`, `material` and `transform`, which every shape has
-  // Builds the shape from its table, `transform` applied; problems go to the reader, and nullptr comes back.
+  // Builds the shape from its table, with `transform` applied. Reports errors to the reader, and then returns
+  // nullptr.
   std::unique_ptr<Shape> (*parse)(TableReader& table, const Mat4& transform) = nullptr;
-  // Makes shapes of this kind from others instead: from those in its table, which are already placed, and
-  // from those to be subtracted.
+  // Replaces `parse` for kinds that consist of other shapes: `operands` are those in the table, already
+  // transformed, and `removed` are those to be subtracted.
   using Shapes = std::vector<std::unique_ptr<Shape>>;
   std::unique_ptr<Shape> (*combine)(TableReader& table, Shapes operands, Shapes removed) = nullptr;
   bool bounded = true;  // whether every such shape has an end in all directions

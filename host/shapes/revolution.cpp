@@ -42,7 +42,8 @@ ShapeForm Revolution::form() const {
                      .open = open_};
 }
 
-// Each part by itself: the side where it is between the planes, the caps where they are within the side.
+// Tests each part by itself: the side where it is between the planes, the caps where they are within the
+// side.
 ObjectShape::Crossings Revolution::crossings(const Ray& ray) const {
   const Vec3 &o = ray.o, &d = ray.d;
   const auto& [square, linear, constant, bottom, top] = profile_;

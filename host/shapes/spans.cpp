@@ -12,7 +12,8 @@ bool before(const Intersection& a, const Intersection& b) {
   return std::tie(a.t, a.part) < std::tie(b.t, b.part);
 }
 
-// The earlier or the later of two crossings. Among equal ones it is always that of the lower part.
+// The earlier or the later of two crossings. At equal t it is always the crossing of the part with the lower
+// number.
 const Intersection& earlier(const Intersection& a, const Intersection& b) {
   return before(b, a) ? b : a;
 }

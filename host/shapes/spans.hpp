@@ -1,5 +1,5 @@
-// Operations on sets of points, by their stretches of one ray's line: lists of Spans in order, none touching
-// another. Where two crossings are at the same t, the one that remains is that of the lower part.
+// Operations on sets of points along one ray's line. A set is a list of Spans in order, none touching
+// another. If two crossings are at the same t, the crossing of the part with the lower number remains.
 #pragma once
 
 #include <vector>

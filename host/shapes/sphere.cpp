@@ -96,7 +96,7 @@ class Sphere final : public Shape {
  private:
   // The span of the line within the sphere.
   std::optional<Span> inside(const Ray& ray) const {
-    // Take the discriminant from the point of the ray's line that is nearest to the centre.
+    // Compute the discriminant from the point of the ray's line that is nearest to the centre.
     const Vec3 f = ray.o - center_;
     const double a = glm::dot(ray.d, ray.d);
     const double b = -glm::dot(f, ray.d);

@@ -95,8 +95,8 @@ class Superellipsoid final : public ObjectShape {
     return {s, norm(at) - 1, glm::dot(gradient(at), ray.d)};
   }
 
-  // A point within the shape, by cutting planes: between two points on either side of the least value the
-  // tangents bound it from below.
+  // Finds a point within the shape by cutting planes: the tangents at two points on either side of the
+  // minimum bound it from below.
   std::optional<double> inner(const Ray& ray, Sample low, Sample high) const {
     for (int i = 0; i < 400; ++i) {
       if (low.value < 0) return low.s;
@@ -111,7 +111,7 @@ class Superellipsoid final : public ObjectShape {
       const Sample middle = sample(ray, next);
       (middle.slope < 0 ? low : high) = middle;
     }
-    // By now they are as near as can be: 0.9⁴⁰⁰ is 5e-19.
+    // By now `low` and `high` are as near as can be: 0.9⁴⁰⁰ is 5e-19.
     return std::nullopt;
   }
 
@@ -141,7 +141,8 @@ class Superellipsoid final : public ObjectShape {
     const Vec3 p = near / norm(near);
     const double u = 0.5 + std::atan2(-p.z, p.x) / (2 * std::numbers::pi);
     const double v = std::atan2(std::hypot(p.x, p.z), -p.y) / std::numbers::pi;
-    // Along the sphere of directions, and then as far out or in as keeps to the surface.
+    // A derivative runs along the sphere of directions, plus as far outward or inward as keeps it on the
+    // surface.
     const Vec3 g = gradient(p);
     const auto along = [&](const Vec3& d) { return d - p * (glm::dot(g, d) / glm::dot(g, p)); };
     return {p, g, {u < 1 ? u : 0, v}, along(along_turn(p)), along(along_meridian(unit(p)) * glm::length(p))};

@@ -11,7 +11,7 @@ namespace eyeray::engine::shapes {
 
 namespace {
 
-// float32 cannot distinguish thinner ones from a circle.
+// float32 cannot distinguish thinner tori from a circle.
 constexpr double least_ratio = 1e-4;
 // TORUS_CUBIC_STEPS and TORUS_STEPS of torus.glsl.
 constexpr size_t steps = 24 + 48;
@@ -67,7 +67,7 @@ constexpr Key keys[] = {
      .max = max_coordinate},
 };
 
-// About the circle x² + z² = 1, y = 0.
+// The torus about the circle x² + z² = 1, y = 0.
 class Torus final : public ObjectShape {
  public:
   Torus(const Mat4& to_world, double minor)

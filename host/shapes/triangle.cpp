@@ -92,7 +92,8 @@ class Triangle final : public Shape {
     const auto& [v0, v1, v2] = vertices_;
     SurfacePoint point;
     point.position = v0 + (v1 - v0) * hit.u + (v2 - v0) * hit.v;
-    // Onto the plane that t comes from: a sliver's normal is rough, and its corners may lie off it.
+    // Move the point onto the plane from which t was computed: a sliver's normal is imprecise, and its
+    // corners may lie off that plane.
     point.position -= normal_ * glm::dot(normal_, point.position - v0);
     point.position_error = 1e-13 * std::max({magnitude(v0), magnitude(v1), magnitude(v2)});
     point.normal_geometric = normal_;
@@ -133,7 +134,7 @@ class Triangle final : public Shape {
                              records::to_bits(records::to_vec4(gradients.v))});
       }
     }
-    // Without −0, so that compiled-in triangles of one plane share its computed values.
+    // Remove −0, so that compiled-in triangles of one plane share its computed values.
     const Vec3 normal = normal_ + 0.0;
     packer.add(records::Packer::primitive(
         shader::KIND_triangle, material, records::to_vec4(packer.relative(vertices_[0]), normal.x),
@@ -175,7 +176,7 @@ std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
   if (table.failed()) return nullptr;
 
   // Check the triangle as it came, so that the message is at the key that is to blame, and then in the world.
-  // The normals only as they came: there they are interpolated, wherever the triangle is taken.
+  // Check the normals only as they came: they are interpolated in that space, whatever the transform.
   if (!(thickness(values.vertices) >= thinnest_triangle)) {
     table.error("vertices", "the triangle has no area: its vertices coincide or lie on one line");
   } else if (values.normals && std::count(values.normals->begin(), values.normals->end(), Vec3(0)) > 0) {
