@@ -15,7 +15,7 @@ namespace eyeray::engine::dev {
 
 class Board {
  public:
-  // The status: one JSON object that is sent to the page whenever it changes. `change` is called with it.
+  // Calls `change` with the status: one JSON object that is sent to the page whenever it changes.
   template <typename Change>
   void update(const Change& change) {
     const std::lock_guard lock(mutex_);
@@ -23,8 +23,8 @@ class Board {
     publish();
   }
 
-  // The progress of a row: the request whose picture it is, the last sample, and the number of pixels for
-  // each rendered one.
+  // The progress of a row: the generation of its request, its last sample, and its stride: each rendered
+  // pixel fills stride x stride pixels.
   struct Row {
     int64_t generation = -1, sample = -1, stride = 0;
     bool operator==(const Row&) const = default;
@@ -35,25 +35,25 @@ class Board {
     std::optional<image::FalseColor> shown_as;
     std::vector<Row> rows;
   };
-  // Rows of a view's picture, from the worker: {"generation", "view", "width", "height", "row", "rows",
-  // "sample", "stride", "channels"} and float32s; with "shown_as", a FalseColor. Of a coarse picture
-  // (stride > 1) each pixel fills a square. Nothing for a message that does not add up.
+  // Stores rows of a view's picture, from the worker: {"generation", "view", "width", "height", "row",
+  // "rows", "sample", "stride", "channels"} and float32s; with "shown_as", a FalseColor. In a coarse picture
+  // (stride > 1) each pixel fills a square. Ignores a message whose sizes do not fit together.
   void put_rows(const Message& message);
-  // A copy of a view's picture; nothing where there is none.
+  // A copy of a view's picture; empty if the view has none.
   std::optional<Picture> picture(const std::string& view) const;
   // The difference of the colours of "gpu" and "reference": 0 where both are NaN, infinity where one is. NaN
-  // in rows that one of them has rendered further than the other: their difference would mean nothing. Empty
-  // if there are no two pictures of one size.
+  // in rows that one picture has rendered further than the other: their difference would mean nothing. Empty
+  // unless both pictures exist and have the same size.
   std::optional<Picture> difference() const;
 
   // The answer to the last probe.
   void put_probe(Json answer);
   Json probe() const;
 
-  // The status as text, once its version is another than `seen`, which is set; nothing when that takes longer
-  // than `seconds` or the board was closed.
+  // Waits until the version of the status differs from `seen`, sets `seen` to it, and returns the status as
+  // text. Empty after `seconds` without a change, or if the board was closed.
   std::optional<std::string> next_status(uint64_t& seen, double seconds) const;
-  // Nobody waits any more.
+  // Wakes all threads that wait for a status: next_status() then returns nothing.
   void close();
   bool closed() const;
 

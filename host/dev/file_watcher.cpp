@@ -36,7 +36,7 @@ void FileWatcher::watch(const WatchList& list) {
   const std::map<int, Interest> before = std::exchange(interests_, {});
   endings_ = list.endings;
 
-  // Watch a file under the name it was given, and where links lead.
+  // Watch each file by its given name, and by the name that its links lead to.
   for (const fs::path& file : list.files) {
     std::error_code ignored;
     const fs::path place = fs::absolute(file).lexically_normal();
@@ -46,13 +46,14 @@ void FileWatcher::watch(const WatchList& list) {
   }
   for (const fs::path& folder : list.folders) add_tree(fs::absolute(folder).lexically_normal());
 
-  // Drop watches that nobody asks for any more.
+  // Drop the watches that the new list no longer needs.
   for (const auto& [id, interest] : before) {
     if (!interests_.contains(id)) inotify_rm_watch(fd_, id);
   }
 }
 
-// Watches `name` in `folder`; where the folder is missing, its appearance in the nearest folder that exists.
+// Watches `name` in `folder`. If the folder is missing, watches the nearest existing folder above it, in
+// which the missing one may appear.
 void FileWatcher::add_folder(const fs::path& folder, const std::string& name, bool endings) {
   const int id = inotify_add_watch(fd_, folder.c_str(), appeared | vanished | IN_ONLYDIR);
   if (id >= 0) {
@@ -122,7 +123,8 @@ std::set<std::string> FileWatcher::take_changes() {
 std::set<std::string> FileWatcher::wait() {
   while (!interrupted()) {
     if (std::set<std::string> changed = take_changes(); !changed.empty()) return changed;
-    // A signal that comes just before poll() begins does not end it: check the flag now and then.
+    // A signal that comes just before poll() begins does not end poll(): return about every 0.1 s, to check
+    // interrupted().
     pollfd polled{fd_, POLLIN, 0};
     ::poll(&polled, 1, int(std::min(settles_in().value_or(0.1), 0.1) * 1000) + 1);
   }

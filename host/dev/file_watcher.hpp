@@ -20,7 +20,7 @@ struct WatchList {
 };
 
 // inotify on the folders of the files, never on the files themselves: an editor that writes a new file and
-// renames it over the old one would leave a watch on the dead one.
+// renames it over the old one would leave a watch on the deleted one.
 class FileWatcher {
  public:
   FileWatcher();  // Error (file_io) when the system has no inotify instance left
@@ -30,14 +30,15 @@ class FileWatcher {
 
   // Replaces the watch list. A change between two calls is not lost.
   void watch(const WatchList& list);
-  // To poll for reading.
+  // The descriptor of inotify, to poll for reading.
   int descriptor() const { return fd_; }
-  // The names of changed files, once the saving is over: after 10 ms of silence; 200 ms after a file has
-  // vanished, since many editors put it back. Empty before. Never waits.
+  // The names of changed files, once the saving is over: after 10 ms without events, or 200 ms if a file has
+  // vanished, since many editors put it back. Until then empty. Never waits.
   std::set<std::string> take_changes();
-  // When to call again though nothing can be read, in seconds; nothing where nothing has changed.
+  // The seconds after which to call take_changes() again, even if nothing can be read; empty if nothing has
+  // changed.
   std::optional<double> settles_in() const;
-  // Waits for changes; empty when interrupted() came true.
+  // Waits for changes and returns the files' names; empty once interrupted() is true.
   std::set<std::string> wait();
 
  private:
@@ -56,7 +57,7 @@ class FileWatcher {
   std::map<int, Interest> interests_;  // by inotify's watch descriptor
   std::vector<std::string> endings_;
   std::set<std::string> changed_;  // not yet taken
-  double quiet_seconds_ = 0;       // of silence after the last change
+  double quiet_seconds_ = 0;       // to wait after the last change
   Stopwatch since_change_;
 };
 

@@ -24,7 +24,7 @@ namespace eyeray::engine::dev {
 namespace {
 
 constexpr int ports_to_try = 32;
-constexpr int most_milliseconds = 50;  // between two checks of the limits of time
+constexpr int most_milliseconds = 50;  // between two checks of the time limits
 constexpr double seconds_between_signs_of_life = 10;
 constexpr size_t block_bytes = 64 << 10;
 
@@ -104,7 +104,7 @@ class HttpServer::Loop {
     Loop& loop;
     MHD_Connection* connection;
     State state = State::asks;
-    bool suspended = false;  // there is nothing to send
+    bool suspended = false;  // by the library, while there is nothing to send
     Stopwatch watch;         // since it was accepted, or since its last event
     Request request;
     Answer answer;
@@ -136,7 +136,7 @@ class HttpServer::Loop {
   int port_ = 0;
   std::vector<MHD_Daemon*> daemons_;
   std::list<Client> clients_;  // the oldest first
-  bool has_closed_ = false;    // one of them, when the daemons ran last
+  bool has_closed_ = false;    // a connection has closed since the daemons last ran
   std::mutex event_mutex_;
   std::string event_;
   uint64_t event_number_ = 0;
@@ -150,13 +150,14 @@ int HttpServer::Loop::Client::socket() const {
   return MHD_get_connection_info(connection, MHD_CONNECTION_INFO_CONNECTION_FD)->connect_fd;
 }
 
-// The library finds the socket's end, and closes it.
+// The library then finds that the socket has ended, and closes it.
 void HttpServer::Loop::Client::drop() {
   state = State::dropped;
   ::shutdown(socket(), SHUT_RDWR);
 }
 
-// True if a client of events has closed the connection, which the library does not see of a suspended one.
+// True if a client that receives events has closed its connection: the library does not notice that while the
+// connection is suspended.
 bool HttpServer::Loop::Client::has_gone() const {
   char next;
   return state == State::receives_events && ::recv(socket(), &next, 1, MSG_PEEK | MSG_DONTWAIT) == 0;
@@ -180,8 +181,8 @@ bool HttpServer::Loop::Client::has_something_to_send() {
   return !unsent.empty();
 }
 
-// The library calls it when the header has arrived, for each part of the body, at the end of the request, and
-// when the answer is there.
+// The library calls take() when the header has arrived, for each part of the body, at the end of the request,
+// and when the answer is ready.
 MHD_Result HttpServer::Loop::Client::take(const char* path, const char* method, const char* data,
                                           size_t* size) {
   if (state == State::dropped || loop.ends_) return MHD_NO;
@@ -251,7 +252,7 @@ ssize_t HttpServer::Loop::Client::send_event(char* to, size_t most) {
   return ssize_t(count);
 }
 
-// ---- All of them ----
+// ---- All clients ----
 
 HttpServer::Loop::Loop(int port, Handler handler, const WebLimits& limits)
     : handler_(std::move(handler)), limits_(limits), wake_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
@@ -279,8 +280,8 @@ void HttpServer::Loop::publish(std::string text) {
   wake();
 }
 
-// True if both addresses, or 127.0.0.1 on a machine without IPv6, have the port free; else errno has the
-// reason.
+// Listens on `port`. True if it is free on both addresses, or on 127.0.0.1 on a machine without IPv6; else
+// errno has the reason.
 bool HttpServer::Loop::listen(int port) {
   std::vector<int> sockets;
   for (const int family : {AF_INET, AF_INET6}) {
@@ -320,7 +321,7 @@ void HttpServer::Loop::start_daemon(int socket) {
   daemons_.push_back(daemon);
 }
 
-// The library calls it for each connection that it has accepted or closed.
+// The library calls notice() for each connection that it has accepted or closed.
 void HttpServer::Loop::notice(MHD_Connection* connection, void** context,
                               MHD_ConnectionNotificationCode code) {
   if (code == MHD_CONNECTION_NOTIFY_CLOSED) {

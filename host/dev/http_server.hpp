@@ -12,9 +12,9 @@ namespace eyeray::engine::dev {
 struct WebLimits {
   size_t header_bytes = 16 << 10;  // of a request
   size_t body_bytes = 1 << 20;
-  double request_seconds = 5;  // from the connection to the end of its request
+  double request_seconds = 5;  // from accepting a connection to the end of its request
   unsigned write_seconds = 5;  // without a byte that the client accepts
-  unsigned connections = 64;   // at a time; a newer one replaces the oldest that has sent no whole request
+  unsigned connections = 64;   // at a time; one more replaces the oldest one without a complete request
   int listeners = 8;           // connections that receive events
 };
 
@@ -43,12 +43,12 @@ class HttpServer {
   // Listens on 127.0.0.1 and, if this machine has IPv6, on the same port of ::1. A port that is taken is
   // replaced by one of the next 31, or else by any other; 0: any. Error (file_io) if there is no port.
   HttpServer(int port, Handler handler, const WebLimits& limits);
-  // Closes all connections; it waits for the calls of the handler.
+  // Closes all connections, and waits for the running calls of the handler.
   ~HttpServer();
 
   int port() const;
-  // Sends a text to all connections that receive events, and first of all to those that come later. One that
-  // is slow misses all texts but the newest. May be called from any thread.
+  // Sends a text to all connections that receive events. A later connection first gets the newest text. A
+  // slow one misses all texts but the newest. May be called from any thread.
   void publish(std::string text);
 
  private:

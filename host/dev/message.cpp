@@ -66,7 +66,7 @@ bool MessageSocket::readable() const {
   return !pending_.empty() || (!closed() && ::poll(&polled, 1, 0) > 0);
 }
 
-// The first message of the pending bytes, if it is there as a whole.
+// The first message of the pending bytes, if all of it has arrived.
 std::optional<Message> MessageSocket::take() {
   Sizes sizes;
   if (pending_.size() < sizeof sizes) return std::nullopt;

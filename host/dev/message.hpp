@@ -16,25 +16,25 @@ struct Message {
 };
 
 // One end of a pair of sockets. A message is two little-endian uint32, the sizes of the JSON text and of the
-// bytes, and then these. The other end may be a process whose memory a shader has overwritten: bytes that are
-// no message close the socket.
+// bytes, followed by the text and the bytes. The other end may be a process whose memory a shader has
+// overwritten: bytes that are no message close the socket.
 class MessageSocket {
  public:
   MessageSocket() = default;  // closed
-  // From now on the descriptor is no child's.
+  // Sets FD_CLOEXEC: child processes do not inherit the descriptor.
   explicit MessageSocket(int descriptor);
   ~MessageSocket() { close(); }
   MessageSocket(MessageSocket&& other) noexcept;
   MessageSocket& operator=(MessageSocket&& other) noexcept;
 
-  // To poll for reading; -1 once closed.
+  // The socket's descriptor, to poll for reading; -1 once closed.
   int descriptor() const { return descriptor_; }
   bool closed() const { return descriptor_ < 0; }
   void close();
 
-  // True if it went out as a whole.
+  // True if all of the message was sent.
   bool send(const Message& message);
-  // The next message, if it comes whole within so many seconds.
+  // The next message, if all of it arrives within `seconds`.
   std::optional<Message> receive(double seconds);
   // True if there is something to receive, or the other end is gone.
   bool readable() const;

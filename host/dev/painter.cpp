@@ -11,12 +11,13 @@
 namespace eyeray::engine::dev {
 namespace {
 
-// The wanted time of a band of rows: the picture then grows smoothly, and an edit waits no longer.
+// The wanted time for a band of rows: short enough for a picture that grows smoothly, and for edits, which
+// wait for the end of a band.
 constexpr double wanted_seconds = 0.04;
 constexpr int first_pixels = 4096;  // of the first band
 constexpr int coarse_stride = 8;
 
-// Calls work(row, rows) for all rows of a picture in bands; it returns whether to go on.
+// Calls work(row, rows) for each band of a picture's rows, until it returns false.
 template <typename Work>
 bool for_bands(const ImageSettings& image, int& band, const Work& work) {
   for (int row = 0; row < image.height;) {

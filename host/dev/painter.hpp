@@ -11,7 +11,7 @@
 
 namespace eyeray::engine::dev {
 
-// The picture that is viewed: the colours of an executor, or an AOV of the GPU's.
+// The picture that is viewed: the colours of an executor, or an AOV from the GPU.
 struct View {
   executors::Backend backend = executors::Backend::gpu;
   film::Channel aov = nullptr;
@@ -21,11 +21,11 @@ struct View {
   film::Channels film_channels() const { return aov ? film::Channels{aov} : film::Channels(); }
 };
 
-// "gpu", "twin", "reference" or an AOV's name; Error (bad_input) for another.
+// The view called `name`: "gpu", "twin", "reference" or an AOV. Error (bad_input) for another name.
 View parse_view(const std::string& name);
 
-// Rows of a view, of so many pixels along each axis one. The first counts from the top of the picture of that
-// stride. Returns whether to go on.
+// Rows of a view, with one pixel for `stride` x `stride` pixels of the picture. `first`: the first row's
+// number, from the top, among the rows of that stride. A sink returns whether to go on.
 struct PaintedRows {
   const image::Image& rows;
   int first = 0;
@@ -39,8 +39,8 @@ struct Painted {
   session::PictureQuality quality = {};
 };
 
-// All of a view by `executor`, which has the view's backend and counts the values that the view needs; in
-// bands of some hundredths of a second. Nothing when the sink or a signal ended it.
+// Renders all of a view in bands of some hundredths of a second. `executor` has the view's backend and counts
+// the values that the view needs. Empty if the sink or a signal ended the work.
 std::optional<Painted> paint(const View& view, const Scene& scene, executors::Executor& executor,
                              const RowsSink& sink);
 

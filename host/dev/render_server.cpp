@@ -19,11 +19,11 @@ namespace {
 
 constexpr std::pair colors_of_gpu(executors::Backend::gpu, film::Needs::nothing);
 constexpr int no_sample = -1;
-constexpr double longest_wait = 3600;  // for a driver; the supervisor loses patience before
+constexpr double longest_wait = 3600;  // for a driver; the supervisor kills the worker earlier
 // Packing a larger scene twice takes too much memory, and its preview too long.
 constexpr uint64_t most_previewed = 1 << 18;
 
-// "path" is for editors: nothing of the shaders that are embedded.
+// "path" is for editors: embedded shaders have none.
 Json to_json(const Diagnostic& diagnostic) {
   std::error_code error;
   const bool on_disk = std::filesystem::is_regular_file(diagnostic.position.file, error);
@@ -115,7 +115,7 @@ void RenderServer::load(const Json& request) {
                           {"high", each.high},
                           {"written", each.written},
                           {"value", each.written}});
-  // A scene with sliders is about to change: its kernel must do for other values too.
+  // A scene with sliders is about to change: its kernel must work for other values too.
   own_kernel_ = request.value("shaders_changed", true) && tunables.empty();
   Json files = Json::array();
   for (const auto& file : scene_->files) files.push_back(file.string());
@@ -166,21 +166,21 @@ executors::Executor& RenderServer::executor_for(const View& view) {
 // ---- Previews ----
 
 bool RenderServer::may_preview(const View& view) const {
-  // Edited shaders are compiled as C++ only where somebody asks for that.
+  // No previews of edited shaders: they are compiled as C++ only if the user views the twin.
   return previews_ && view.backend == executors::Backend::gpu && !view.aov &&
          !executors_.contains(colors_of_gpu) && options_.executor.shader_folder.empty() &&
          scene_->primitive_count() <= most_previewed && !sends_photons(scene_->render.integrator);
 }
 
 void RenderServer::start_making() {
-  // While it is made nothing else uses the device.
+  // Nothing else may use the device while the thread makes the executor.
   std::erase_if(executors_, [](const auto& each) { return each.first.first == executors::Backend::gpu; });
   made_of_ = revision_;
   being_made_ = std::async(std::launch::async, [scene = scene_, options = options_for({})]() mutable {
     if (!options.gpu.open_device) options.gpu.open_device = executors::open_device(options.gpu);
     std::unique_ptr<executors::Executor> executor =
         executors::make_executor(executors::Backend::gpu, *scene, options);
-    // Drivers may compile at the first dispatch.
+    // Dispatch one row: drivers may compile at the first dispatch.
     const Rect row{0, 0, scene->image.width, 1};
     std::vector<PixelSample> samples(size_t(row.pixels()));
     executor->sample(row, 0, samples);
@@ -267,7 +267,7 @@ void RenderServer::paint(const std::string& name, bool last) {
   if (outdated()) return;
   send("stage", {{"stage", "render"}});
   const auto painted = dev::paint(view, *scene_, executor, [&](const PaintedRows& rows) {
-    // Nothing is shown coarser than a preview has it.
+    // Skip rows that are coarser than those that a preview has shown.
     const bool is_news = *shown == no_sample || (rows.stride == 1 && rows.sample >= *shown);
     if (is_news) send_rows(name, view, rows, false);
     return !outdated();

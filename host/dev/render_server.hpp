@@ -1,4 +1,4 @@
-// In the worker: renders as requested, and sends the picture while it grows.
+// The worker's server: renders as requested, and sends the picture while it grows.
 #pragma once
 
 #include <functional>
@@ -16,8 +16,8 @@
 
 namespace eyeray::engine::dev {
 
-// Answers messages until the socket is closed. A newer message ends the work on an older one: at once between
-// two bands of rows, else when the work begun is done.
+// Answers messages until the socket is closed. A newer message ends the work on an older one: between two
+// bands of rows, or else at the end of the current step.
 //
 //   {"do": "render", "revision": 7, "generation": 12, "defines": ["camera.eye=[0,1,5]"], "views": ["gpu"]}
 //     "tunables": {"shapes/sphere.glsl:WIDTH": [0.5]}, the values chosen for constants of shaders
@@ -41,10 +41,10 @@ namespace eyeray::engine::dev {
 class RenderServer {
  public:
   struct Options {
-    // The scene with "KEY=VALUE"s laid over it.
+    // Loads the scene, with the "KEY=VALUE"s of `defines` laid over it.
     std::function<Scene(const std::vector<std::string>& defines)> load;
     executors::ExecutorOptions executor;
-    double unnoticed_seconds = 0.15;  // a kernel that is there sooner needs no preview
+    double unnoticed_seconds = 0.15;  // a kernel that is ready sooner needs no preview
   };
   RenderServer(Options options, MessageSocket socket);
 
@@ -62,15 +62,15 @@ class RenderServer {
   executors::Executor& executor_for(const View& view);
   void send_rows(const std::string& name, const View& view, const PaintedRows& rows, bool is_preview);
 
-  // Drivers compile for seconds and listen to nobody, so where previews may be shown a thread makes the
-  // executor of the GPU's colours. What it has made goes to executors_ within so many seconds, or is
-  // forgotten where it is of another revision; its error is thrown.
+  // Drivers compile for seconds and cannot be interrupted, so where previews are allowed a thread makes the
+  // executor of the GPU's colours. collect() waits at most `seconds` for it, then moves it to executors_. An
+  // executor of another revision is dropped, with its error; else its error is thrown.
   bool may_preview(const View& view) const;
   void start_making();
   void collect(double seconds);
   bool gpu_is_ready(double seconds);
-  // Shows the twin's picture until the GPU is ready. Returns the sample that it has begun to show, or
-  // no_sample; nothing when the request is outdated.
+  // Shows the twin's picture until the GPU is ready. Returns the last sample of which it has shown rows, or
+  // no_sample if it has shown none; empty if the request is outdated.
   std::optional<int> preview(const std::string& view);
 
   void probe(const Json& request);
@@ -83,13 +83,13 @@ class RenderServer {
   int64_t generation_ = 0;
   int64_t revision_ = -1;
   double processor_seconds_ = 0;  // when the request came
-  bool own_kernel_ = true;        // of this revision
+  bool own_kernel_ = true;        // whether the kernel serves only the values of this revision
   std::shared_ptr<executors::Tunables> tunables_;
   bool previews_ = false;
   std::shared_ptr<const Scene> scene_;
-  // Executors of this revision, by the values they count.
+  // Executors of this revision, by backend and by the values that they count.
   std::map<std::pair<executors::Backend, film::Needs>, std::unique_ptr<executors::Executor>> executors_;
-  int64_t made_of_ = -1;  // revision
+  int64_t made_of_ = -1;  // the revision of being_made_
   std::future<std::unique_ptr<executors::Executor>> being_made_;
 };
 

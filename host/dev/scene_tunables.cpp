@@ -25,7 +25,7 @@ std::vector<std::string> numbers_in(const std::string& text) {
   return numbers;
 }
 
-// Reads the type and value of the text at a key; false if the control does not move such values.
+// Reads the type and value from the text of a key's value; false if the control cannot set such values.
 bool read_value(const std::string& control, const std::string& text, SceneTunable& tunable) {
   const std::vector<std::string> numbers = numbers_in(text);
   if (control == "checkbox") {
@@ -46,7 +46,8 @@ bool read_value(const std::string& control, const std::string& text, SceneTunabl
   return true;
 }
 
-// "material", "0" and "diffuse.formula.parameters.size" of a key; the number is that of an array's table.
+// The parts of a key: "material", "0" and "diffuse.formula.parameters.size". The number is the index of a
+// table in its array.
 struct Parts {
   std::string table, number, rest;
   std::string instance() const { return table + "." + number; }
@@ -70,8 +71,8 @@ std::string property_name(const std::string& path) {
 
 std::vector<SceneTunable> scene_tunables(std::string_view text) {
   std::vector<SceneTunable> found;
-  std::map<std::string, int> counts;          // of the tables of each array
-  std::map<std::string, std::string> called;  // those tables, by "material.0"
+  std::map<std::string, int> counts;          // the number of tables in each array so far
+  std::map<std::string, std::string> called;  // the names of these tables, by "material.0"
   std::string table;
   std::istringstream lines{std::string(text)};
   for (std::string line; std::getline(lines, line);) {

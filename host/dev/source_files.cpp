@@ -66,7 +66,8 @@ std::set<std::filesystem::path> SourceFiles::changed() {
   for (auto& [file, state] : states_) {
     const Stamp stamp = stamp_of(file);
     state.last_look = stamp;
-    // A clock may stand still between two quick saves: only large files are taken at their stamp's word.
+    // The clock may stand still between two quick saves, so an equal stamp counts as unchanged only for large
+    // files.
     if (stamp == state.stamp && stamp.size > hashed_always) continue;
     state.stamp = stamp;
     const std::string hash = hash_of(file);

@@ -12,25 +12,26 @@ namespace eyeray::engine::dev {
 class SourceFiles {
  public:
   using Clock = std::chrono::system_clock;
-  // By the clock of files' times.
+  // The present time, by the clock that sets files' times.
   static Clock::time_point now();
 
-  // Sets the watched files, read since `began`. The present bytes of new ones are those that later bytes are
-  // compared with. If a file, new or not, was written since `began`, it is unknown which bytes were read: it
+  // Sets the watched files, which were read since `began`. Later bytes of a new file are compared with its
+  // present bytes. If a file, new or not, was written since `began`, it is unknown which bytes were read: it
   // counts as changed, once.
   void set(const std::set<std::filesystem::path>& files, Clock::time_point began);
   const std::set<std::filesystem::path>& files() const { return files_; }
-  // True if there is a file of which it is unknown which bytes were read.
+  // True if for some file it is unknown which bytes were read.
   bool any_unknown() const;
 
-  // Those whose bytes are others than at the last call: saving the same bytes counts for nothing.
+  // The files whose bytes differ from those at the last call: a file saved with the same bytes does not
+  // count.
   std::set<std::filesystem::path> changed();
-  // The changed files where no notifications arrive, on network file systems for instance. To be called about
-  // every second. A file counts once it has not changed between two calls.
+  // The changed files on file systems without notifications, such as network file systems. To be called about
+  // every second. A changed file counts once it has the same stamp in two calls.
   std::set<std::filesystem::path> changed_unnoticed();
 
  private:
-  // Identifies a file's bytes without reading them; all 0 if there is no file.
+  // Identifies a file's bytes without reading the file; all 0 if there is no file.
   struct Stamp {
     uint64_t inode = 0, size = 0;
     int64_t seconds = 0, nanoseconds = 0;
@@ -38,7 +39,7 @@ class SourceFiles {
   };
   struct State {
     Stamp stamp, last_look;
-    Stamp unknown;  // of a file that counted as changed without a check
+    Stamp unknown;  // the stamp at which the file counted as changed without a check
     std::string hash;
   };
   static Stamp stamp_of(const std::filesystem::path& file);

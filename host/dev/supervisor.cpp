@@ -89,7 +89,7 @@ ExitCode Supervisor::run() {
   begin();
   while (!interrupted()) {
     step();
-    // No save will help a machine without a device.
+    // If the machine has no device, no saved file can help: end.
     if (result_ && (options_.once || (result_ == ExitCode::no_device && !seen_any_))) return *result_;
   }
   return ExitCode::interrupted;
@@ -98,7 +98,8 @@ ExitCode Supervisor::run() {
 void Supervisor::wait() {
   std::vector<pollfd> polled{{watcher_.descriptor(), POLLIN, 0}, {wake_, POLLIN, 0}};
   if (worker_.running()) polled.push_back({worker_.socket().descriptor(), POLLIN, 0});
-  // A signal that comes just before poll() begins does not end it: check the flag now and then.
+  // A signal that comes just before poll() begins does not end poll(): return about every 0.1 s, to check
+  // interrupted().
   const double longest = std::min(watcher_.settles_in().value_or(0.1), 0.1);
   ::poll(polled.data(), polled.size(), int(longest * 1000) + 1);
 }
@@ -116,7 +117,7 @@ std::vector<std::string> Supervisor::views() const {
   return {view_};
 }
 
-// Files or defines are others than before.
+// Starts a new revision: files or defines have changed.
 void Supervisor::begin_revision() {
   ++revision_;
   ++edit_;
@@ -127,7 +128,7 @@ void Supervisor::begin_revision() {
 void Supervisor::request() {
   watch();
   ++generation_;
-  probing_ = false;  // an answer would be of an older request: it is requested again
+  probing_ = false;  // its answer would be of an older request, so the probe is sent again
   result_.reset();
   board_.update([&](Json& status) {
     status["state"] = "loading";
@@ -142,7 +143,7 @@ void Supervisor::request() {
 }
 
 void Supervisor::request_worker() {
-  // A new one may take its time to start.
+  // A new worker may start slowly: `grace` applies only to one that already runs.
   heard_ = !worker_.running();
   if (heard_) worker_.start();
   busy_ = true;
@@ -187,11 +188,11 @@ void Supervisor::take_messages() {
   }
 }
 
-// Ends a worker that is of no more use; the next request starts another. Without a message: it ended by
-// itself.
+// Kills a worker that is of no more use; the next request starts another. Empty `message`: the worker ended
+// by itself.
 void Supervisor::lose_worker(ExitCode code, const std::string& message) {
   const std::string how = worker_.kill();
-  if (!std::exchange(busy_, false)) return;  // in its sleep: not this request's doing
+  if (!std::exchange(busy_, false)) return;  // it was idle: no request has failed
   const std::string why = message.empty() ? "the rendering process ended by " + how : message;
   fail({{"event", "failed"}, {"code", int(code)}, {"message", why}, {"diagnostics", Json::array()}});
 }
@@ -236,7 +237,7 @@ void Supervisor::handle(const Message& message) {
   } else if (event == "failed") {
     busy_ = false;
     const auto code = ExitCode(json.value("code", 2));
-    // A device that was lost or still runs a shader is of no more use to its process.
+    // A process cannot go on using a device that was lost or that still runs a shader.
     if (code == ExitCode::timed_out || code == ExitCode::no_device) worker_.kill();
     fail(json);
   } else if (event == "probed") {
@@ -250,7 +251,7 @@ void Supervisor::handle(const Message& message) {
 
 void Supervisor::fail(Json failure) {
   result_ = ExitCode(failure.value("code", 2));
-  if (std::exchange(probing_, false)) probe_.reset();  // it would fail again
+  if (std::exchange(probing_, false)) probe_.reset();  // the same probe would fail again
   // The files that the attempt read are not known; its messages name some of them.
   for (const Json& diagnostic : failure.value("diagnostics", Json::array()))
     scene_files_.insert(diagnostic.value("file", ""));
@@ -310,7 +311,7 @@ void Supervisor::obey(const Json& command) {
     view_ = command["view"];
     request();
   }
-  // Values to lay over the scene; null takes one away.
+  // Values to lay over the scene; null removes one.
   if (const auto found = command.find("defines"); found != command.end() && found->is_object()) {
     for (const auto& [key, value] : found->items()) {
       if (value.is_null())
@@ -320,7 +321,7 @@ void Supervisor::obey(const Json& command) {
     }
     begin_revision();
   }
-  // Values of shaders' constants, by id; null gives one back to its text.
+  // Values of shaders' constants, by id; null restores the value in the shader's text.
   if (const auto found = command.find("tunables"); found != command.end() && found->is_object()) {
     for (const auto& [id, value] : found->items()) {
       if (value.is_array())
@@ -337,7 +338,7 @@ void Supervisor::obey(const Json& command) {
     probe_ = {(*found)[0], (*found)[1]}, probing_ = false;
 }
 
-// Not while a picture grows: it would have to wait.
+// Does nothing while the worker renders: the probe waits until the picture is done.
 void Supervisor::send_probe() {
   if (!probe_ || busy_ || !worker_.running()) return;
   busy_ = probing_ = true;

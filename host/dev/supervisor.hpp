@@ -22,10 +22,10 @@ struct SupervisorOptions {
   std::vector<std::string> worker;      // the command line of a RenderServer
   std::filesystem::path scene;          // watched from the start
   std::filesystem::path shader_folder;  // likewise; empty: none
-  std::string view = "gpu";             // shown at first
+  std::string view = "gpu";             // the view shown first
   double timeout_seconds = 20;          // of a worker that sends nothing
   std::optional<int> port;              // of the page; none: no page
-  bool once = false;                    // end with the first picture, or with the faults
+  bool once = false;                    // end with the first picture, or with its failure
 };
 
 class Supervisor {
@@ -36,11 +36,12 @@ class Supervisor {
   using Report = std::function<void(const Json&)>;
   Supervisor(SupervisorOptions options, Report report);
 
-  // Shows the page and asks for the first picture. Then, again and again: waits a little for any event, and
-  // does the work that it asks for.
+  // begin() serves the page and requests the first picture. Then step() is called again and again: it waits a
+  // little for events, and handles them.
   void begin();
   void step();
-  // Both, until interrupted() comes true or, with `once`, the first picture is there. Then: the exit code.
+  // Calls begin(), then step() until interrupted() is true or, with `once`, the first picture is done or has
+  // failed. Ends too if no device was found and no picture was ever shown. Returns the exit code.
   ExitCode run();
   const Board& board() const { return board_; }
 
@@ -67,26 +68,26 @@ class Supervisor {
   Worker worker_;
   FileWatcher watcher_;
   SourceFiles files_;
-  std::set<std::filesystem::path> scene_files_, shader_files_;  // that the last pictures were made of
+  std::set<std::filesystem::path> scene_files_, shader_files_;  // from which the last pictures were made
   SourceFiles::Clock::time_point began_;
-  Stopwatch since_look_;  // at files without a notification
+  Stopwatch since_look_;  // since files were last checked without notification
 
   int64_t revision_ = 0;         // of files and defines
   int64_t generation_ = 0;       // of requests
   int64_t edit_ = 0;             // of the pictures' sources: files, defines and values of shaders
   bool busy_ = false;            // the worker has not answered the last request
-  bool heard_ = false;           // it has begun with it
+  bool heard_ = false;           // the worker has begun the last request
   bool shaders_changed_ = true;  // since the last picture
   WakefulStopwatch since_message_;
   std::string view_;
   std::map<std::string, std::string> defines_;  // that the page laid over the scene
   Json tunables_ = Json::object();              // values that the page chose
   std::optional<ExitCode> result_;              // of the last request
-  bool seen_any_ = false;                       // picture
-  std::optional<std::pair<int, int>> probe_;    // a pixel to look into once the worker has time
-  bool probing_ = false;                        // it has it
+  bool seen_any_ = false;                       // whether any picture was completed
+  std::optional<std::pair<int, int>> probe_;    // the pixel to probe once the worker is idle
+  bool probing_ = false;                        // the worker has this probe
 
-  // From the web server's threads.
+  // Commands from the web server's threads.
   std::mutex commands_mutex_;
   std::vector<Json> commands_;
   int wake_ = -1;  // an eventfd

@@ -67,7 +67,7 @@ double number(Request& request, const char* name, double otherwise) {
   return text.empty() || *end || !std::isfinite(value) ? otherwise : value;
 }
 
-// NaN and infinities are words, which JSON has no numbers for.
+// NaN and infinities become strings, since JSON has no such numbers.
 Json as_json(float value) {
   if (std::isfinite(value)) return value;
   return std::isnan(value) ? "NaN" : value > 0 ? "inf" : "-inf";
@@ -134,7 +134,8 @@ std::optional<Answer> WebServer::Site::refused(Request& request) const {
   for (const char* name : {"127.0.0.1", "localhost", "[::1]"})
     known = known || host == fmt::format("{}:{}", name, request.port);
   if (!known) return refusal(403, "This is not the host that you asked for.");
-  // Browsers name the page from which a request comes if it may change something, and perhaps for the rest.
+  // Browsers name the page that a request comes from if the request may change something; for other requests
+  // they may leave it out.
   const std::string &origin = request.header["origin"], &site = request.header["sec-fetch-site"];
   const bool must_say = request.method != "GET" && request.method != "HEAD";
   if ((origin != "http://" + host && (must_say || !origin.empty())) ||

@@ -1,9 +1,10 @@
-// The page, on 127.0.0.1 and ::1 only.
+// The web server of the page, on 127.0.0.1 and ::1 only.
 //
 // Whoever may use this machine can reach a port of it, as can any web page that a browser on it shows.
-// Therefore every path begins with a random token. The Host must be this machine's own name, against names
-// that are bound to it later (DNS rebinding). A request that changes anything must come from this page
-// (Origin). Only data that the page needs is served, none of it from a file.
+// Therefore every path begins with a random token. The Host must be a name of this machine itself, as a
+// defence against DNS rebinding: foreign names that are later bound to its address. A request that changes
+// anything must come from this page (Origin). Only data that the page needs is served, none of it from a
+// file.
 #pragma once
 
 #include <functional>

@@ -29,7 +29,7 @@ void Worker::start() {
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
     throw Error(ExitCode::file_io, "cannot talk to a worker process: socketpair: {}", strerror(errno));
   socket_ = MessageSocket(ends[0]);
-  // All that the child does between fork and exec is safe beside other threads.
+  // Between fork and exec the child makes only calls that are safe in a program with other threads.
   const std::string descriptor = std::to_string(ends[1]);
   std::vector<char*> arguments;
   for (std::string& word : command_) arguments.push_back(word.data());
@@ -50,7 +50,7 @@ void Worker::start() {
 
 std::string Worker::kill() {
   if (!running()) return "";
-  // One that is idle ends by itself, and any other at a signal: it should not come to the second.
+  // An idle worker ends once its socket is closed, any other at SIGTERM. SIGKILL should not be needed.
   ::shutdown(socket_.descriptor(), SHUT_RDWR);
   const Stopwatch watch;
   bool asked = false;
@@ -81,7 +81,7 @@ bool Worker::has_ended() const {
 }
 
 void be_a_worker() {
-  // Ctrl-C in a terminal reaches both, and is the supervisor's business.
+  // Ctrl-C in a terminal reaches both processes; the supervisor handles it.
   for (const int number : {SIGINT, SIGHUP}) std::signal(number, SIG_IGN);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   prctl(PR_SET_NAME, "eyeray-worker");

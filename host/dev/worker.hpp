@@ -10,7 +10,7 @@
 
 namespace eyeray::engine::dev {
 
-// The supervisor's hand on it.
+// The supervisor's handle of such a process.
 class Worker {
  public:
   // The program and its arguments; start() appends the descriptor of the worker's socket.
@@ -23,10 +23,10 @@ class Worker {
   void start();
   bool running() const { return pid_ >= 0; }
   MessageSocket& socket() { return socket_; }
-  // True if a debugger is attached to it, and may hold it for as long as a person thinks.
+  // True if a debugger is attached to the process, and may stop it for as long as a person thinks.
   bool debugged() const;
-  // Ends it in any state: soon, and with its unfinished files gone. Returns how it ended, for people: "signal
-  // 11 (Segmentation fault)"; a process that ends by itself does so before it is killed.
+  // Ends the process soon, whatever its state, and removes its unfinished files. It may first end by itself,
+  // and is killed otherwise. Returns how it ended, for people: "signal 11 (Segmentation fault)".
   std::string kill();
 
  private:
@@ -37,8 +37,8 @@ class Worker {
   MessageSocket socket_;
 };
 
-// In the worker, before anything else: it ends when the process that started it does, leaves Ctrl-C to it,
-// and is called eyeray-worker.
+// To be called first in the worker process. It then ends when the process that started it ends, leaves Ctrl-C
+// to that process, and is called eyeray-worker.
 void be_a_worker();
 
 }  // namespace eyeray::engine::dev
