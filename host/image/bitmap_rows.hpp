@@ -1,5 +1,5 @@
-// Pictures in TGA and BMP files, for coded_image.cpp. Our own, since stb_image takes missing bytes for
-// zeros.
+// Pictures in TGA and BMP files, for coded_image.cpp. We decode them ourselves, since stb_image reads missing
+// bytes as zeros.
 #pragma once
 
 #include <array>
@@ -18,12 +18,13 @@ struct BitmapSize {
   int64_t height;
 };
 
-// The most pixels that a byte of a file can stand for: a run of 128 in two bytes; 8 a byte.
+// The most pixels that a byte of a file can stand for. TGA: a run of 128 pixels in two bytes. BMP: 8 pixels
+// in a byte.
 inline constexpr int64_t most_tga_pixels_a_byte = 64;
 inline constexpr int64_t most_bmp_pixels_a_byte = 8;
 
-// Truevision's TGA 1 and 2 (TGA File Format Specification, Version 2.0, 1991). It has no magic number:
-// whether the header can be one.
+// Truevision's TGA 1 and 2 (TGA File Format Specification, Version 2.0, 1991). It has no magic number: true
+// if the header can be that of a TGA.
 bool is_tga(std::string_view bytes);
 BitmapSize tga_size(std::string_view bytes);
 // Windows' and OS/2's BMP (Microsoft: Bitmap Storage).
@@ -31,9 +32,9 @@ bool is_bmp(std::string_view bytes);
 BitmapSize bmp_size(std::string_view bytes);
 
 // Decode to `pixels`, the top row first: red, green, blue and alpha, 8 bits each, 255 where the file has no
-// alpha. There are as many pixels as the size has. Return the fault, as in "it ends early", or "". `warnings`
-// gets a clause for each field that changes the numbers' meaning and is not honoured, as in "its colours are
-// …".
+// alpha. The number of pixels must be that of the size. Return the fault, for instance "it ends early", or
+// "". `warnings` gets a clause, such as "its colours are …", for each ignored field that changes the meaning
+// of the numbers.
 std::string read_tga(std::string_view bytes, std::span<std::array<uint8_t, 4>> pixels,
                      std::vector<std::string>& warnings);
 std::string read_bmp(std::string_view bytes, std::span<std::array<uint8_t, 4>> pixels,

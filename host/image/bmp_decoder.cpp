@@ -14,7 +14,8 @@ using Pixel = std::array<uint8_t, 4>;
 constexpr uint64_t file_header = 14, core_header = 12, info_header = 40;
 enum Compression : uint32_t { plain = 0, bit_fields = 3, alpha_bit_fields = 6 };
 
-// The header behind the file header's 14 bytes, in the form of Windows 3 and later; OS/2 1's is shorter.
+// The header that follows the file header's 14 bytes, in the form of Windows 3 and later; the header of OS/2
+// 1 is shorter.
 struct Header {
   uint64_t pixels_at, size;
   int64_t width, height;
@@ -35,7 +36,7 @@ struct Header {
 
   uint64_t color_size() const { return size == core_header ? 3 : 4; }
   uint64_t row_size() const { return (uint64_t(width) * bits + 31) / 32 * 4; }
-  // Masks of colours: part of the header, or behind one of 40 bytes.
+  // The offset of the colour masks: in the header, or right after a header of 40 bytes.
   uint64_t masks_at() const { return file_header + info_header; }
   uint64_t palette_at() const {
     const uint64_t masks = size != info_header               ? 0
@@ -69,7 +70,7 @@ struct Header {
   }
 };
 
-// A channel of a pixel: its bits under the mask as 0 … 255.
+// A channel of a pixel: its bits under the mask, scaled to 0 … 255; `without` if the mask is 0.
 uint8_t channel(uint32_t value, uint32_t mask, uint8_t without) {
   if (mask == 0) return without;
   const uint64_t most = mask >> std::countr_zero(mask), code = (value & mask) >> std::countr_zero(mask);
@@ -86,7 +87,7 @@ std::array<uint32_t, 4> masks_of(std::string_view bytes, const Header& header) {
   return masks;
 }
 
-// The fields that define the colours.
+// Adds warnings about the fields that define the colours.
 void note_colors(std::string_view bytes, const Header& header, std::vector<std::string>& warnings) {
   if (header.size == core_header) return;
   const uint32_t across = number_at(bytes, file_header + 24, 4), down = number_at(bytes, file_header + 28, 4);

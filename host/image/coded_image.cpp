@@ -16,9 +16,10 @@ namespace eyeray::engine::image {
 
 namespace {
 
-// The most pixels that a byte of a file can stand for. Of a PNG: deflate makes at most 1032 bytes of one (RFC
-// 1951), and a byte holds at most 8 pixels. A JPEG spends at least a bit on each block of 8 · 8 samples of a
-// channel. A channel may be coarser than the picture by 4 in one direction, if another is fine in that one.
+// The most pixels that a byte of a file can stand for. PNG: deflate expands a byte to at most 1032 bytes (RFC
+// 1951), each of which holds at most 8 pixels. JPEG: each block of 8 · 8 samples of a channel takes at least
+// a bit. A channel may be coarser than the picture by a factor of 4 in one direction, if another channel is
+// not coarser in that direction.
 constexpr int64_t most_png_pixels_a_byte = 1032 * 8;
 constexpr int64_t most_jpeg_pixels_a_byte = 8 * 256;
 
@@ -34,7 +35,7 @@ struct Free {
   void operator()(stbi_uc* pixels) const { stbi_image_free(pixels); }
 };
 
-// A format, and the facts of it needed before memory is taken for its pixels.
+// A file's format. The functions below give the facts that are needed before memory is taken for the pixels.
 enum class Format { png, jpeg, bmp, tga, other };
 
 Format format_of(std::string_view bytes) {
@@ -61,7 +62,7 @@ const stbi_uc* stb_bytes(std::string_view bytes) {
   return reinterpret_cast<const stbi_uc*>(bytes.data());
 }
 
-// Nothing where the header of a PNG or a JPEG cannot be read.
+// The size that the header states; empty if the header of a PNG or a JPEG cannot be read.
 std::optional<BitmapSize> size_of(std::string_view bytes, Format format) {
   if (format == Format::bmp) return bmp_size(bytes);
   if (format == Format::tga) return tga_size(bytes);
@@ -71,7 +72,7 @@ std::optional<BitmapSize> size_of(std::string_view bytes, Format format) {
   return BitmapSize{width, height};
 }
 
-// To four channels; returns the fault, or "".
+// Decodes to four channels; returns the fault, or "".
 std::string read_jpeg(std::string_view bytes, std::span<std::array<uint8_t, 4>> pixels) {
   int width = 0, height = 0, channels = 0;
   const std::unique_ptr<stbi_uc, Free> codes(
@@ -127,7 +128,7 @@ CodedImage decode_coded_image(std::span<const std::byte> bytes, const std::strin
         clauses = png_color_fields(text);
         return damaged(read_png_rows(bytes, image.pixels));
       case Format::jpeg:
-        // stb_image since 2.28 decodes a file that is cut off.
+        // Check for the end: stb_image since 2.28 accepts a truncated file.
         if (!has_jpeg_end(text)) return std::string("it ends early");
         clauses = jpeg_color_fields(text);
         return damaged(read_jpeg(text, image.pixels));

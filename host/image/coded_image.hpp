@@ -1,4 +1,4 @@
-// Pictures as the 8-bit codes that their files hold: for textures.
+// Pictures as 8-bit codes, as their files hold them, for textures.
 #pragma once
 
 #include <array>
@@ -26,20 +26,20 @@ class TooManyPixels : public Error {
   using Error::Error;
 };
 
-// The number of pixels that the images of one scene may have together. They are counted where they are
-// decoded or copied.
+// The number of pixels that the images of one scene may still take. Each image is counted when it is decoded
+// or copied.
 struct PixelBudget {
   int64_t left = int64_t{1} << 28;  // 1 GiB
-  // TooManyPixels (file_io) where fewer are left.
+  // Takes width · height pixels from the budget. TooManyPixels (file_io) if fewer are left.
   void take(int width, int height, const std::string& name);
 };
 
 // Decodes a PNG, a JPEG, a BMP or a TGA, distinguished by their first bytes. Grey becomes equal red, green
-// and blue, of 16 bits the upper 8 are kept, and pictures without alpha get 255; a JPEG is turned by its EXIF
-// orientation. `warnings` gets a sentence for each field of the header that changes the meaning of the codes
-// and is not honoured. Error (file_io) with "cannot read NAME: why" for all else, a file that ends early
-// included. The header is believed only as far as a file of that length can go, so that memory is bounded by
-// the file's size; and no more is decoded than is taken from the budget.
+// and blue. From 16 bits the upper 8 are kept. Pictures without alpha get 255. A JPEG is rotated by its EXIF
+// orientation. `warnings` gets a sentence for each ignored field of the header that changes the meaning of
+// the codes. Error (file_io) with "cannot read NAME: why" for anything else, such as a file that ends early.
+// A header that states more pixels than a file of that length can hold is an error, so that memory is bounded
+// by the file's size. The pixels are taken from the budget before they are decoded.
 CodedImage decode_coded_image(std::span<const std::byte> bytes, const std::string& name, PixelBudget& budget,
                               std::vector<std::string>& warnings);
 

@@ -30,7 +30,8 @@ bool is_srgb_profile(std::string_view profile) {
       [&](std::string_view name) { return profile.find(name) != std::string_view::npos; });
 }
 
-// The profile in an iCCP chunk: a name, a zero, the method 0, then zlib's data; as much as can be read.
+// The profile in an iCCP chunk, as far as it can be read. The chunk is a name, a zero, the method 0, then
+// zlib's data.
 std::string inflated(std::string_view chunk) {
   constexpr size_t most = size_t{1} << 22;
   const size_t name = chunk.find('\0');
@@ -66,7 +67,7 @@ std::string png_colors(const std::map<std::string_view, std::string_view>& chunk
                ? ""
                : fmt::format("its colour profile (iCCP){}", taken_as_srgb);
   if (chunks.contains("sRGB")) return "";
-  // In 1/100000; gamma of 1/2.2 is how sRGB is written without its own chunk.
+  // In units of 1/100000. A gamma of 1/2.2 is how sRGB is written without an sRGB chunk.
   constexpr int64_t gamma = 45455, gamma_apart = 500, place_apart = 300;
   constexpr int64_t places[] = {31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000};
   if (const std::string_view written = chunk("gAMA"); written.size() == 4)
@@ -83,7 +84,7 @@ std::string png_colors(const std::map<std::string_view, std::string_view>& chunk
 
 std::vector<std::string> png_color_fields(std::string_view bytes) {
   std::map<std::string_view, std::string_view> chunks;
-  // A length, a name, as many bytes, a checksum. Pixels begin at IDAT.
+  // Each chunk is a length, a name, that many bytes and a checksum. Pixels begin at IDAT.
   constexpr size_t signature = 8, around = 12;
   for (size_t at = signature; at + around <= bytes.size();) {
     const size_t length = number(bytes, at, 4);

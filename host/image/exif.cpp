@@ -54,7 +54,7 @@ int tiff_orientation(std::string_view tiff) {
 void for_each_jpeg_segment(std::string_view jpeg,
                            const std::function<void(uint32_t, std::string_view)>& visit) {
   const auto byte = [&](size_t at) { return size_t{uint8_t(jpeg[at])}; };
-  // FF, a marker, a length that counts itself. Pixels begin at FF DA.
+  // Each segment is FF, a marker, a length that includes its own bytes, and content. Pixels begin at FF DA.
   for (size_t at = 2; at + 4 <= jpeg.size() && byte(at) == 0xff && byte(at + 1) != 0xda;) {
     const size_t length = byte(at + 2) << 8 | byte(at + 3);
     if (length < 2 || length > jpeg.size() - at - 2) break;
@@ -68,11 +68,11 @@ bool has_jpeg_end(std::string_view jpeg) {
   for (size_t at = 2; at + 2 <= jpeg.size();) {
     const size_t marker = byte(at + 1);
     if (byte(at) != 0xff || marker == 0xff) {
-      ++at;  // coded pixels, or a byte that fills
+      ++at;  // coded pixels, or a fill byte
     } else if (marker == 0xd9) {
       return true;
     } else if (marker == 0 || marker == 1 || (marker >= 0xd0 && marker <= 0xd8)) {
-      at += 2;  // without a length
+      at += 2;  // a marker without a length
     } else if (at + 4 <= jpeg.size()) {
       at += 2 + (byte(at + 2) << 8 | byte(at + 3));
     } else {

@@ -23,8 +23,9 @@ namespace eyeray::engine::image {
 
 namespace {
 
-// The largest number of bytes that one byte of a file can expand to. Deflate makes 1032 at most (RFC 1951),
-// other compressions fewer. But DWA stores an even block of 8 · 8 halves in two, and deflates these.
+// The largest number of bytes that one byte of a file can expand to. Deflate expands a byte to at most 1032
+// (RFC 1951), other compressions to fewer. But DWA stores a uniform block of 8 · 8 halves as two bytes, and
+// deflates these.
 constexpr uint64_t most_deflated = 1032;
 constexpr uint64_t most_of_cosines = 64 * most_deflated;
 // Limit on the pixels of a tile.
@@ -52,7 +53,7 @@ class MemoryStream final : public Imf::IStream {
 struct Channel {
   int part;
   std::string name;       // in its part
-  std::string layer;      // "" of the picture itself
+  std::string layer;      // "" for the picture itself
   std::string component;  // the name without the layer
 };
 
@@ -158,7 +159,7 @@ class ExrReader {
     return fmt::format("{}", fmt::join(names, ", "));
   }
 
-  // The channels of the layer that make a picture, in their order.
+  // The channels of the layer that form a picture, in the picture's order.
   std::vector<Channel> choose(const std::string& layer) const {
     std::vector<Channel> all = in_layer(layer);
     if (all.empty() && layer.empty() && !channels_.empty()) {
@@ -210,10 +211,10 @@ class ExrReader {
   MemoryStream stream_;
   Imf::MultiPartInputFile file_;
   std::vector<Channel> channels_;
-  std::string first_part_;  // its name: another for the layer ""
+  std::string first_part_;  // the first part's name, which also stands for the layer ""
 };
 
-// The value of `read` for the file's reader.
+// Calls `read` with a reader of the file, and returns its value.
 template <typename Read>
 auto with_reader(std::string_view bytes, const std::string& name, const Read& read) {
   // Sets the limits before the library takes memory for the size that a header states.

@@ -17,7 +17,8 @@ namespace eyeray::engine::image {
 
 namespace {
 
-// The library writes its table of offsets in a destructor and drops any error there: it is kept here.
+// The library writes its table of offsets in a destructor and drops any error there: this stream keeps the
+// error.
 class FileStream final : public Imf::OStream {
  public:
   explicit FileStream(AtomicFile& file) : Imf::OStream("picture"), file_(file) {}
@@ -52,13 +53,14 @@ Imf::Header header_of(int width, int height, const std::vector<ExrChannel>& chan
   return header;
 }
 
-// Finite values stay finite.
+// Converts to half: finite values stay finite.
 half to_half(float value) {
   constexpr float most = HALF_MAX;
   return half(std::isfinite(value) ? std::clamp(value, -most, most) : value);
 }
 
-// The library compresses blocks of 16 rows side by side, where it is given more than one at a time.
+// The number of threads with which the library compresses blocks of 16 rows in parallel, if it gets several
+// blocks at a time.
 int compressing_threads() {
   static const int threads = [] {
     const unsigned cores = std::thread::hardware_concurrency();
@@ -81,7 +83,7 @@ class ExrEncoder final : public RowEncoder {
     const auto in_row = size_t(rows.width()), pixels = in_row * size_t(rows.height());
     std::vector<std::vector<half>> halves(channels_.size());
     const auto slice = [&](Imf::PixelType type, const void* first, size_t stride) {
-      // The library only reads from it, and counts rows from the picture's top.
+      // The library only reads from the slice, and counts rows from the picture's top.
       return Imf::Slice::Make(type, const_cast<void*>(first), Imath::V2i(0, file_->currentScanLine()),
                               rows.width(), rows.height(), stride, stride * in_row);
     };

@@ -19,17 +19,18 @@ struct ExrChannel {
 // The channels of a picture without layers: R, G and B, or Y.
 std::vector<ExrChannel> exr_channels(int channels, bool half);
 
-// The channels of one layer, as they are named before it: R, G and B, else X, Y and Z, else Y, else all there
-// are, up to three and sorted by name. With two the third is 0. What else is there (A, beside R, G and B) is
-// left out. `layer` "": that without a name, or the only one. A part of a file of several is a layer of its
-// name. Reads scan lines and tiles, of these the largest level; the picture is the display window: 0 where it
-// has no data, and without the data around it. Chromaticities other than Rec. 709's and pixels that are no
-// squares are warnings. Error (file_io), with `name` in it, for a layer that is not there or lacks a channel,
-// deep or subsampled data, a file that ends early or is too short for its pixels.
+// Reads the channels of one layer: R, G and B; else X, Y and Z; else Y; else all of them, at most three,
+// sorted by name. With two channels the third is 0. Other channels (A, beside R, G and B) are left out.
+// `layer` "": the layer without a name, or the only one. In a file of several parts, each part is a layer
+// with the part's name. Reads scan lines, and the largest level of tiles. The picture is the display window:
+// it is 0 where the file has no data, and data outside it is left out. Chromaticities other than Rec. 709's
+// and pixels that are not square are warnings. Error (file_io), with `name` in it, for a layer that is
+// missing or lacks a channel, for deep or subsampled data, and for a file that ends early or is too short for
+// its pixels.
 Image decode_exr(std::string_view bytes, const std::string& name, const std::string& layer,
                  std::vector<std::string>& warnings);
 
-// Its channel A, of the layer without a name; none where there is no such channel.
+// Reads the channel A of the layer without a name; empty if there is no such channel.
 std::optional<Image> decode_exr_alpha(std::string_view bytes, const std::string& name);
 
 }  // namespace eyeray::engine::image

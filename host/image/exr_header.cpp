@@ -40,7 +40,7 @@ constexpr FixedType fixed_types[] = {
     {"v3i", 12},
 };
 
-// Takes values from the front; none where there are too few bytes.
+// Takes values from the front of the bytes; each is empty if too few bytes are left.
 class Reader {
  public:
   explicit Reader(std::string_view bytes) : rest_(bytes) {}
@@ -59,7 +59,7 @@ class Reader {
     std::memcpy(&value, bytes->data(), sizeof value);
     return value;
   }
-  // Up to a zero, which is taken too.
+  // Takes the bytes up to a zero, and the zero.
   std::optional<std::string_view> name() {
     const size_t end = rest_.find('\0');
     if (end == std::string_view::npos) return std::nullopt;
@@ -105,7 +105,8 @@ bool sound(std::string_view type, std::string_view value) {
   return fixed == std::end(fixed_types) || value.size() == fixed->bytes;
 }
 
-// Takes one header. None where it is not sound, false where it is an empty one, which ends those of parts.
+// Takes one header. Returns nothing if it is not sound, false if it is empty: an empty header ends the
+// headers of parts.
 std::optional<bool> take_header(Reader& reader) {
   for (bool any = false;; any = true) {
     const auto name = reader.name();

@@ -103,7 +103,7 @@ Image FalseColorPainter::paint(const Image& data) const {
   parallel_for(0, data.height(), [&](int y) {
     for (int x = 0; x < data.width(); ++x) {
       const Vec3 shown = glm::clamp(color(data.pixel(x, y)), 0.0, 1.0);
-      // The colours above are meant as the screen shows them; an image is linear.
+      // The colours are sRGB, as a screen shows them; an image is linear.
       for (int c = 0; c < 3; ++c) picture.pixel(x, y)[c] = float(linear_from_srgb(shown[c]));
     }
   });

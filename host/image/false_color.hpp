@@ -13,19 +13,19 @@ enum class FalseColor {
   scalar,     // 1 channel: viridis from the least to the greatest finite value
   depth,      // 1 channel: viridis, near is bright; logarithmic, since depths span decades
   ids,        // 1 channel: a different colour for every number ≥ 0
-  color,      // 3 channels: itself
+  color,      // 3 channels: the data itself
   direction,  // 3 channels: (n + 1) / 2
   position,   // 2 or 3 channels: each from its least to its greatest finite value
 };
 
-// A 3-channel picture whose .png shows the colours named above. What has no value (a miss: not finite, an id
-// below 0, a direction of length 0) is grey.
+// A 3-channel picture whose .png shows the colours named above. Pixels without a value (misses: not finite,
+// an id below 0, a direction of length 0) are grey.
 Image false_color(const Image& data, FalseColor kind);
 
-// Paints a picture that is passed a few rows at a time: all of them to see(), then all of them to paint().
+// Paints a picture from a few rows at a time: pass all rows to see(), then all rows to paint().
 class FalseColorPainter {
  public:
-  // `channels` as the kind wants them.
+  // `channels`: a number that `kind` allows.
   FalseColorPainter(FalseColor kind, int channels);
 
   void see(const Image& data);

@@ -34,7 +34,7 @@ class Image {
   std::vector<float> samples_;
 };
 
-// The image in 3 channels; a grey one's become equal red, green and blue.
+// The image with 3 channels: a grey image gets equal red, green and blue.
 Image in_color(Image image);
 
 }  // namespace eyeray::engine::image

@@ -31,7 +31,7 @@ struct Free {
   throw Error(ExitCode::file_io, "cannot read {} as PNG: {}", name, why);
 }
 
-// Decodes with one of stb_image's loaders, and takes each sample through `convert`.
+// Decodes with one of stb_image's loaders, and converts each sample by `convert`.
 template <typename Load, typename Convert>
 Image decode(std::string_view bytes, const std::string& name, Load load, Convert convert) {
   const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
@@ -82,7 +82,8 @@ std::optional<Image> decode_png_alpha(std::string_view bytes, const std::string&
   return alpha;
 }
 
-// The least linear value that a code stands for, for codes 1 … 255: where srgb · 255 rounds up to it.
+// For each code 1 … 255, the least linear value that gets it: the value at which srgb · 255 rounds up to the
+// code.
 std::array<float, 256> code_thresholds() {
   std::array<float, 256> thresholds{};
   for (int code = 1; code < 256; ++code)

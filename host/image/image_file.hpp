@@ -18,7 +18,8 @@ namespace eyeray::engine::image {
 
 enum class ImageFormat { png, pfm, hdr, exr };
 
-// The format that a file name's ending asks for; Error (bad_input) that lists the known endings otherwise.
+// The format for a file name's ending. Error (bad_input), with a list of the known endings, for another
+// ending.
 ImageFormat image_format(const std::filesystem::path& path);
 
 // True if a picture may be this large: 1 … 65536 pixels each way, 2^28 in all.
@@ -27,17 +28,17 @@ bool image_size_allowed(int64_t width, int64_t height);
 // Writes a 1- or 3-channel image atomically.
 void write_image(const std::filesystem::path& path, const Image& image);
 
-// The bytes of a .png of it.
+// The bytes of a .png of the image.
 std::string encode_png(const Image& image);
 
-// Reads a picture as linear float32 (a PNG through the inverse sRGB curve), of an .exr that layer. Sizes up
-// to 65536 × 65536 and 2^28 pixels; Error (file_io) for anything unreadable or malformed. `warnings` gets a
-// sentence for each field of the header that changes the meaning of the numbers and is not honoured.
+// Reads a picture as linear float32 (a PNG through the inverse sRGB curve); `layer` is that of an .exr. Sizes
+// up to 65536 × 65536 and 2^28 pixels; Error (file_io) for anything unreadable or malformed. `warnings` gets
+// a sentence for each ignored field of the header that changes the meaning of the numbers.
 Image read_image(const std::filesystem::path& path, const std::string& layer,
                  std::vector<std::string>& warnings);
 Image read_image(const std::filesystem::path& path, const std::string& layer = "");
 
-// The alpha of a .png or .exr, 1 channel; none where the file has none.
+// The alpha of a .png or .exr, 1 channel; empty if the file has none.
 std::optional<Image> read_alpha(const std::filesystem::path& path);
 
 // Linear [0, 1] to an 8-bit sRGB code (IEC 61966-2-1), round half up.

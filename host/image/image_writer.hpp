@@ -1,4 +1,4 @@
-// A picture file that is written as its rows are finished, so that nobody needs to hold all of it.
+// A picture file that is written as its rows are finished, so that no caller holds the whole picture.
 #pragma once
 
 #include <filesystem>
@@ -17,11 +17,11 @@ class RowEncoder;
 
 class ImageWriter {
  public:
-  // Begins a file of the format that the ending of `path` asks for (image/image_file.hpp), beside that path.
-  // Size as image_size_allowed, 1 or 3 channels; Error (bad_input) for an unknown ending, Error (file_io)
-  // here and below when it cannot be written.
+  // Begins a file beside `path`, in the format for its ending (image/image_file.hpp). The size must be one
+  // that image_size_allowed allows, with 1 or 3 channels. Error (bad_input) for an unknown ending. Error
+  // (file_io) here and below if the file cannot be written.
   ImageWriter(const std::filesystem::path& path, int width, int height, int channels);
-  // An .exr of those channels, at least one.
+  // Begins an .exr of these channels, of which there must be at least one.
   ImageWriter(const std::filesystem::path& path, int width, int height, std::vector<ExrChannel> channels);
   // Leaves no trace unless finish() has been called.
   ~ImageWriter();
@@ -29,7 +29,7 @@ class ImageWriter {
 
   // The next rows, from the top down: any number of them, of the picture's width and channels.
   void write(const Image& rows);
-  // After the last row: the file takes its place.
+  // To be called after the last row: renames the file to `path`.
   void finish();
 
  private:

@@ -63,7 +63,7 @@ size_t row_size(int width, int channels) {
   return size_t(width) * size_t(channels) * sizeof(float);
 }
 
-// The rows of `image` in the file's order, from the bottom up, and back.
+// The rows of `image` in reverse order: a file has them from the bottom up.
 std::vector<float> turned_over(const Image& image) {
   std::vector<float> samples(image.sample_count());
   const size_t row_samples = size_t(image.width()) * size_t(image.channels());

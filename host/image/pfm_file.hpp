@@ -11,15 +11,15 @@
 
 namespace eyeray::engine::image {
 
-// Strict: exact header, both byte orders, no byte too few or too many. Error (file_io), with `name` in it,
-// otherwise.
+// Decodes a PFM of either byte order. Error (file_io), with `name` in it, unless the header is exact and no
+// byte is missing or left over.
 Image decode_pfm(std::string_view bytes, const std::string& name);
 
 // A file that ImageWriter has just written, read again a few rows at a time.
 class PfmRows {
  public:
-  // `width`, `height` and `channels` are known, since the file is our own; Error (file_io) here and below
-  // when it cannot be read.
+  // `width`, `height` and `channels` are those with which the file was written. Error (file_io) here and
+  // below if it cannot be read.
   PfmRows(std::filesystem::path path, int width, int height, int channels);
 
   // Rows [first, first + count), counted from the top.

@@ -13,7 +13,7 @@ namespace {
 // Limit on the bytes of a chunk that holds no pixels.
 constexpr png_alloc_size_t most_chunk_bytes = 8'000'000;
 
-// libpng is C and may not be unwound through: a failure comes back as a text.
+// libpng is C, and no exception may pass through it: a failure is returned as a text.
 class PngReader {
  public:
   explicit PngReader(std::span<const std::byte> bytes)
@@ -28,7 +28,7 @@ class PngReader {
 
   bool read(std::span<std::array<uint8_t, 4>> pixels) {
     if (setjmp(png_jmpbuf(png_))) return false;
-    // Checksums are not checked, as with JPEG; chunks without effect on codes are skipped.
+    // Checksums are not checked: a JPEG has none either. Chunks that do not affect codes are skipped.
     png_set_crc_action(png_, PNG_CRC_QUIET_USE, PNG_CRC_QUIET_USE);
     png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
     png_set_chunk_malloc_max(png_, most_chunk_bytes);

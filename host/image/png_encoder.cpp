@@ -23,8 +23,8 @@ constexpr int filters = PNG_FILTER_SUB | PNG_FILTER_UP;
 constexpr int strategy = Z_RLE;
 constexpr size_t flushed_bytes = 1 << 20;
 
-// libpng is C and may not be unwound through: its callbacks keep the written bytes in memory, and a failure
-// comes back as false.
+// libpng is C, and no exception may pass through it: its callbacks keep the written bytes in memory, and a
+// failure is returned as false.
 class PngStream {
  public:
   PngStream() : png_(png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, fail, nullptr)) {

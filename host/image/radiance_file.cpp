@@ -49,9 +49,9 @@ class Reader {
   }
 
  private:
-  // Pixels one by one. A pixel of 1, 1, 1 repeats the one before as often as its last byte states; several
-  // such make one number, the lowest byte first. (Nobody else writes 1, 1, 1: colours are scaled to 128 and
-  // more.)
+  // Reads a row pixel by pixel. A pixel of 1, 1, 1 repeats the pixel before it; its last byte is the count.
+  // Several such pixels in sequence form one count, the lowest byte first. (No colour is written as 1, 1, 1:
+  // colours are scaled to 128 and more.)
   void plain_row(std::vector<Rgbe>& pixels) {
     int shift = 0;
     for (size_t x = 0; x < pixels.size();) {
@@ -91,8 +91,8 @@ class Reader {
   const std::string& name_;
 };
 
-// Encodes a colour like Radiance's own setcolr: the largest channel's exponent for all three. It has neither
-// NaN nor negatives nor infinity.
+// Encodes a colour like Radiance's own setcolr: all three channels share the exponent of the largest. RGBE
+// has no NaN, negative numbers or infinity.
 Rgbe to_rgbe(const float* color) {
   std::array<float, 3> held{};
   for (size_t c = 0; c < 3; ++c) held[c] = color[c] > 0 ? std::min(color[c], 1e38f) : 0.0f;
@@ -118,7 +118,7 @@ bool usual_primaries(const std::string& line) {
   });
 }
 
-// Rows of the new run-length encoding, where the format has it, else plain.
+// Writes rows in the new run-length encoding if the format allows it for this width, else plain.
 class RadianceEncoder final : public RowEncoder {
  public:
   RadianceEncoder(AtomicFile& file, int width, int height)
@@ -148,7 +148,7 @@ class RadianceEncoder final : public RowEncoder {
       for (const Rgbe& pixel : row_) bytes_.append(reinterpret_cast<const char*>(pixel.data()), 4);
     }
   }
-  // One channel, as Reader::runs takes it: runs of equal bytes, and the bytes between them.
+  // Appends one channel in the form that Reader::runs reads: runs of equal bytes, and the bytes between them.
   void append_runs(size_t channel) {
     constexpr size_t shortest_run = 4, longest_run = 127, longest_between = 128;
     const auto equal_from = [&](size_t x, size_t most) {
@@ -189,7 +189,7 @@ Image decode_radiance(std::string_view bytes, const std::string& name, std::vect
   const std::string magic = reader.line();
   if (magic != "#?RADIANCE" && magic != "#?RGBE") reader.malformed("it does not begin with #?RADIANCE");
   bool rgbe = false;
-  Vec3 scale(1);  // from the file's numbers to light
+  Vec3 scale(1);  // the factor from the file's numbers to light
   for (std::string line = reader.line(); !line.empty(); line = reader.line()) {
     rgbe = rgbe || line == "FORMAT=32-bit_rle_rgbe";
     double r = 1, g = 1, b = 1;
@@ -214,7 +214,7 @@ Image decode_radiance(std::string_view bytes, const std::string& name, std::vect
     reader.malformed("its size is not of the form -Y HEIGHT +X WIDTH");
   }
   if (!image_size_allowed(width, height)) reader.malformed("its size is out of range");
-  // No row is shorter than this, so that a few bytes cannot ask for gigabytes.
+  // No row is shorter than this. The check prevents a file of a few bytes from requesting gigabytes.
   constexpr size_t least_of_runs = 8;
   if (reader.left() < size_t(height) * std::min(size_t(width) / 32, least_of_runs))
     reader.malformed("it ends too early");

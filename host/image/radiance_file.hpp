@@ -1,5 +1,5 @@
-// Radiance pictures (.hdr, Greg Ward's RGBE). Our own, since Debian 12's stb_image never ends on a
-// truncated one.
+// Radiance pictures (.hdr, Greg Ward's RGBE). We decode them ourselves, since Debian 12's stb_image never
+// ends on a truncated file.
 #pragma once
 
 #include <string>
@@ -10,10 +10,10 @@
 
 namespace eyeray::engine::image {
 
-// A 3-channel picture, top row first; flat rows, and both run-length encodings. The pixels are divided by the
-// product of all EXPOSUREs and COLORCORRs, which gives the light. PRIMARIES and PIXASPECT that are not the
-// usual ones are warnings; other lines of the header do not change the numbers. Strict: Error
-// (file_io), with `name` in it, for anything else, and for a byte too few or too many.
+// Decodes to 3 channels, top row first. Reads flat rows and both run-length encodings. The pixels are divided
+// by the product of all EXPOSUREs and COLORCORRs, which gives the light. Unusual PRIMARIES and PIXASPECT are
+// warnings; other lines of the header do not change the numbers. Error (file_io), with `name` in it, for
+// anything else, and for missing or surplus bytes.
 // Source: Ward: Radiance File Formats, "Picture File Format".
 Image decode_radiance(std::string_view bytes, const std::string& name, std::vector<std::string>& warnings);
 

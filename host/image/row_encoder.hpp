@@ -1,4 +1,5 @@
-// The formats behind ImageWriter: each turns rows of a picture, as they come, into a file. Private to core.
+// The encoders behind ImageWriter: each writes rows of a picture, as they arrive, to a file of its format.
+// Used only in host/image.
 #pragma once
 
 #include <memory>
@@ -19,7 +20,7 @@ class RowEncoder {
   virtual void finish() {}
 };
 
-// Each writes to `file`, which outlives it, a picture of 1 or 3 channels, from its header on.
+// Each encoder writes a picture of 1 or 3 channels, header included, to `file`, which must outlive it.
 std::unique_ptr<RowEncoder> png_encoder(AtomicFile& file, int width, int height, int channels);
 std::unique_ptr<RowEncoder> pfm_encoder(AtomicFile& file, int width, int height, int channels);
 std::unique_ptr<RowEncoder> radiance_encoder(AtomicFile& file, int width, int height, int channels);

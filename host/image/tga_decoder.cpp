@@ -12,7 +12,7 @@ using Pixel = std::array<uint8_t, 4>;
 
 constexpr size_t header_size = 18, footer_size = 26, extension_size = 495;
 
-// The 18 bytes that a file begins with.
+// The header: the first 18 bytes of a file.
 struct Header {
   uint64_t id_size, map_type, type, map_first, map_count, map_bits, width, height, bits, descriptor;
 
@@ -52,8 +52,7 @@ uint8_t five_bits(uint32_t value) {
   return uint8_t(((value & 31) * 255 + 15) / 31);
 }
 
-// A colour as a file has it, in 15, 16, 24 or 32 bits; `alpha`: whether its bits beyond three channels are
-// alpha.
+// Reads a colour of 15, 16, 24 or 32 bits. `alpha`: whether the bits beyond three channels are alpha.
 Pixel color(std::string_view bytes, uint64_t at, uint64_t bits, bool alpha) {
   if (bits <= 16) {
     const uint32_t value = number_at(bytes, at, 2);
@@ -98,7 +97,8 @@ class TgaReader {
   }
 
  private:
-  // The i-th pixel of the file, by where its first row and column are seen.
+  // The pixel of the picture for the i-th pixel of the file: the header states on which sides the file's rows
+  // and columns begin.
   Pixel& place(std::span<Pixel> pixels, size_t i) const {
     const auto width = size_t(header_.width), height = size_t(header_.height);
     const size_t row = i / width, column = i % width;
@@ -117,7 +117,8 @@ class TgaReader {
             header_.bits == 16 && has_alpha_ ? uint8_t(number_at(bytes_, at_ + 1, 1)) : uint8_t(255)};
   }
 
-  // Reads the header's statement on alpha, and TGA 2's further one in its last bytes.
+  // Reads whether the file has alpha, from the header and from TGA 2's extension area. The file's last bytes
+  // point to that area. Warns of ignored fields.
   void look_at_extension(std::vector<std::string>& warnings) {
     has_alpha_ = header_.alpha_bits() > 0;
     const uint64_t bits = header_.is_mapped() ? header_.map_bits : header_.bits;
@@ -143,7 +144,7 @@ class TgaReader {
       case 4:
         warnings.emplace_back("its colours are multiplied by alpha, which is ignored");
         break;
-      default:  // 0: no alpha; 1 and 2: it means nothing
+      default:  // 0: no alpha; 1 and 2: alpha without meaning
         has_alpha_ = false;
     }
   }

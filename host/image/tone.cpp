@@ -9,7 +9,7 @@ namespace eyeray::engine::image {
 namespace {
 
 Vec3 neutral(Vec3 color) {
-  // Take off a dielectric's reflection head-on, which renders of base colours have on top.
+  // Subtract a dielectric's reflection at normal incidence, which renders add to base colours.
   const double least = std::min({color.r, color.g, color.b});
   color -= least < 0.08 ? least - 6.25 * least * least : 0.04;
   constexpr double start = 0.76, room = 1 - start;

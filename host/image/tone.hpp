@@ -1,4 +1,4 @@
-// From the light of a picture to its look on a screen: for .png, whose colours end at 1.
+// Maps the light of a picture to its look on a screen: for .png, whose colours end at 1.
 #pragma once
 
 #include <string_view>
@@ -16,8 +16,9 @@ struct Tone {
   ToneCurve curve = ToneCurve::none;
 };
 
-// A picture of 3 channels, still linear, as a .png is to show it. `neutral` keeps values below 0.76, and
-// squeezes brighter ones below 1, towards white: Khronos PBR Neutral Tone Mapper, 2024.
+// Maps a picture of 3 channels to the colours that a .png shows; the result is still linear. `neutral` keeps
+// values below 0.76, and squeezes brighter ones below 1, towards white: Khronos PBR Neutral Tone Mapper,
+// 2024.
 Image toned(const Image& image, const Tone& tone);
 
 }  // namespace eyeray::engine::image
