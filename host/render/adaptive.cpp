@@ -7,8 +7,8 @@
 namespace eyeray::engine::render {
 namespace {
 
-// Blocks in a row that have left, between others that have not, take part all the same: a separate dispatch
-// costs a device more.
+// The widest gap, in blocks of a row, that is filled between unfinished blocks: the blocks in it go on
+// although they could finish, since a separate dispatch costs a device more.
 constexpr int widest_filled_gap = 4;
 
 int blocks_of(int pixels) {
@@ -79,7 +79,7 @@ std::vector<Rect> AdaptiveSampling::left(int row, int height) const {
         continue;
       }
       const int first = begin * film::noise_block, last = std::min(x * film::noise_block, width_);
-      // Under one of the same width it is a part of that.
+      // Merge with a rectangle right above that has the same columns.
       const auto above = std::ranges::find_if(parts, [&](const Rect& part) {
         return part.x == first && part.width == last - first && part.y + part.height == top;
       });
@@ -97,7 +97,7 @@ double AdaptiveSampling::samples_to_go(const film::Film& sums, uint64_t samples,
   for (int y = 0; y < rows_; ++y) {
     for (int x = 0; x < columns_; ++x) {
       if (!row_of_blocks(y)[x]) continue;
-      // Up to the judgement after it will do.
+      // The block goes on to the first judgement after `enough` samples.
       const double ratio = sums.noise(block(x, y)) / target_;
       const double enough = double(samples) * ratio * ratio;
       double judged = std::max(double(first_judgement), 2.0 * double(samples));

@@ -9,9 +9,9 @@
 
 namespace eyeray::engine::render {
 
-// Blocks of `film::noise_block` × `film::noise_block` pixels leave when their noise and their neighbours'
-// (Film::noise) is no more than the target. They are judged seldom, after 64, 128, 256, … samples a
-// pixel: who stops as soon as the samples happen to agree is biased (Kirk and Arvo, "Unbiased sampling
+// Blocks of `film::noise_block` × `film::noise_block` pixels finish when their noise and their neighbours'
+// (Film::noise) is no more than the target. They are judged seldom, after 64, 128, 256, … samples a pixel:
+// stopping as soon as the samples happen to agree would bias the picture (Kirk and Arvo, "Unbiased sampling
 // techniques for image synthesis", SIGGRAPH 1991).
 class AdaptiveSampling {
  public:
@@ -22,14 +22,13 @@ class AdaptiveSampling {
   static bool judges_after(uint64_t samples) {
     return samples >= first_judgement && std::has_single_bit(samples);
   }
-  // Finishes the blocks that are good.
+  // Finishes the blocks that have little enough noise.
   void judge(film::Film& sums);
   bool finished() const { return left_ == 0; }
-  // Rectangles, in pixels of the band, of the unfinished part of its rows [row, row + height). Gaps between
-  // blocks of a row are filled where they are small, for a device's sake.
+  // Rectangles, in pixels of the band, that cover the unfinished blocks in rows [row, row + height).
   std::vector<Rect> left(int row, int height) const;
-  // About how many samples of pixels are still to be taken, where each may have `most`: noise falls as their
-  // root.
+  // An estimate of the samples that all pixels together still need, at most `most` for each pixel: noise
+  // falls with the square root of the number of samples.
   double samples_to_go(const film::Film& sums, uint64_t samples, int most) const;
 
  private:

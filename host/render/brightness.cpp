@@ -10,7 +10,7 @@ namespace eyeray::engine::render {
 namespace {
 
 size_t place_of(double luminance) {
-  // A NaN may have a sign, and is no brightness.
+  // A NaN, which may have a sign bit, counts as 0.
   return std::bit_cast<uint32_t>(luminance > 0 ? float(luminance) : 0.0f) >> 20;
 }
 

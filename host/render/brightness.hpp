@@ -13,11 +13,11 @@ namespace eyeray::engine::render {
 class Brightness {
  public:
   void add(std::span<const PixelSample> samples);
-  // The number of samples with more luminance than that; samples that are hardly brighter are counted only in
-  // part. Returns 0 unless `luminance` is above 0.
+  // The number of samples with more than `luminance`. Of samples that are hardly brighter only some are
+  // counted. Returns 0 unless `luminance` is above 0.
   uint64_t above(double luminance) const;
-  // The number of samples so much brighter than the mean that they make dots, in a picture of `pixels` whose
-  // luminances have that sum.
+  // The number of samples so much brighter than the mean that they appear as dots, in a picture of `pixels`
+  // pixels whose luminances sum to `luminances`.
   uint64_t fireflies(double luminances, int64_t pixels) const {
     return above(times_of_fireflies * luminances / double(pixels));
   }
@@ -32,7 +32,7 @@ class Brightness {
       counts_{};  // by the upper bits of a float32: exponent, and three of its fraction
 };
 
-// The luminances of all pixels in rows of colours, added.
+// The sum of the luminances of all pixels in rows of colours.
 double sum_of_luminances(const image::Image& rows);
 
 }  // namespace eyeray::engine::render

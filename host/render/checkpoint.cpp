@@ -38,7 +38,7 @@ std::string as_text(const std::vector<IdentityPart>& identity) {
   return text;
 }
 
-// The value of a part in `text`; nothing when the text lacks it.
+// The value of the part `name` in `text`; empty if the text lacks the part.
 std::string_view value_in(std::string_view text, const std::string& name) {
   const std::string begin = name + ": ";
   while (!text.empty()) {
@@ -79,7 +79,7 @@ void Checkpoint::damaged(const std::string& why) const {
   throw Error(ExitCode::cannot_resume, "cannot resume from {}: {}", file_.string(), why);
 }
 
-// The next `value` of the file, added to `checksum`.
+// Reads the next value of the file, and adds its bytes to `checksum`.
 template <typename Value>
 Value Checkpoint::take(uint32_t& checksum) {
   Value value{};
@@ -110,7 +110,7 @@ void Checkpoint::read_header() {
   const uint32_t sum = checksum;
   if (take<uint32_t>(checksum) != sum) damaged("it is damaged: its checksum is wrong");
 
-  // Only now is it worth saying that it is somebody else's.
+  // Now that the header is known to be undamaged, check that the checkpoint is of this render.
   std::vector<std::string> differences;
   for (const IdentityPart& part : identity_) {
     const std::string_view value = value_in(text, part.name);

@@ -1,4 +1,4 @@
-// A render that can be taken up again: its sums so far, in a file.
+// A file with the sums of an unfinished render, from which the render can be resumed.
 //
 // FILE, little-endian, written whole and atomically every time:
 //
@@ -8,8 +8,8 @@
 //   12       4       n, at most 65536
 //   16       n       the identity: a line "name: value\n" for each of its parts
 //   16 + n   8 each  RenderPosition, in the order of its members
-//            4       CRC-32 of FILE.rows as far as finished_rows go
-//            4       CRC-32 of all above
+//            4       CRC-32 of FILE.rows up to the last of finished_rows
+//            4       CRC-32 of everything above
 //            40 each the sums of the band's pixels, top row first: red, green, blue (float64), hits, rays,
 //                    flags, samples and in the highest bit whether it takes no more (uint32)
 //            8 each  the sums of each channel (the identity names them), of the same pixels (float64)
@@ -29,38 +29,38 @@
 
 namespace eyeray::engine::render {
 
-// Something that decides a picture's bits: a render is resumed only where all of it is the same.
+// A fact that decides a picture's bits: a render is resumed only if all such facts are the same.
 struct IdentityPart {
   std::string name;   // "samples a pixel", for messages
   std::string value;  // without line breaks
-  bool shown = true;  // whether the value means something to people, as a hash does not
+  bool shown = true;  // whether messages show the value: people cannot read a hash
 };
 
 // The progress of a render.
 struct RenderPosition {
   uint64_t finished_rows = 0;   // above the band, counted from the top of the rendered rows
-  uint64_t samples = 0;         // a pixel, in the band's sums; with adaptive sampling the most
-  uint64_t extra_rows = 0;      // the band's rows, from its top, whose sums hold one more
-  uint64_t rays = 0;            // all in all
+  uint64_t samples = 0;         // of each pixel in the band's sums; with adaptive sampling the most
+  uint64_t extra_rows = 0;      // the number of rows, from the band's top, whose sums hold one more sample
+  uint64_t rays = 0;            // traced so far
   uint64_t flagged_pixels = 0;  // in the finished rows
   uint64_t flags = 0;           // in the finished rows
 };
 
 class Checkpoint {
  public:
-  // Will be written at `file` every `seconds`. Error (bad_input) when it is there already, so that a
-  // forgotten one is not lost; Error (file_io) when it cannot be written.
+  // A new checkpoint, to be written to `file` every `seconds`. Error (bad_input) if the file exists, so that
+  // no forgotten checkpoint is lost; Error (file_io) if it cannot be written.
   static Checkpoint begin(std::filesystem::path file, std::vector<IdentityPart> identity, double seconds);
-  // Reads it, to be written again. Error (cannot_resume) when it is missing, damaged, or not of this render;
-  // the message then names the difference.
+  // Reads the checkpoint `file`, which will also be written every `seconds`. Error (cannot_resume) if it is
+  // missing, damaged, or of another render; the message then names the differences.
   static Checkpoint resume(std::filesystem::path file, std::vector<IdentityPart> identity, double seconds);
 
   const std::filesystem::path& file() const { return file_; }
   bool resumes() const { return input_ != nullptr; }
 
-  // The position that was read. Below: the band's sums, whose size is set, and the finished rows from the top
-  // down. Error (cannot_resume) if damaged; check_rows reports it if the damage is found after rows were
-  // returned.
+  // The contents of the file: the position; the band's sums, which read_sums reads into a film of their size;
+  // and the finished rows, to be read from the top down. Error (cannot_resume) if they are damaged. Some
+  // damage of the rows is found only after they were returned, by check_rows.
   const RenderPosition& position() const { return position_; }
   void read_sums(film::Film& film);
   film::Rows read_rows(int first, int count, int width, const film::Channels& channels);
@@ -68,14 +68,15 @@ class Checkpoint {
   [[noreturn]] void damaged(const std::string& why) const;
 
   bool due() const { return failure_.empty() && since_saved_.seconds() >= seconds_; }
-  // Neither throws: the reason of a failure is in failure(), and from then on nothing more is written.
+  // append_rows() and save() do not throw: failure() has the reason of a failure, and nothing more is written
+  // after it.
   void append_rows(const film::Rows& rows);
   void save(const RenderPosition& position, const film::Film& film);
-  // The reason why the file is not valid; "" when it is.
+  // The reason why the file could not be written; "" if it could.
   const std::string& failure() const { return failure_; }
-  // True if there is a file to resume from, if only an older one.
+  // True if there is a file to resume from, even an older one.
   bool on_disk() const { return saved_ || resumes(); }
-  // When the picture is done.
+  // Removes the files, when the picture is done.
   void remove();
 
  private:

@@ -30,7 +30,8 @@ void combine_corners(const float* above, const float* below, Combine combine, im
   }
 }
 
-// All rows of pixels between the rows of corners, of which `last` is the one before; and the new last one.
+// All rows of pixels between `last`, the row of corners before `corners`, and the rows of `corners`. Sets
+// `last` to the last of these.
 image::Image between(image::Image& last, const image::Image& corners, Combine combine) {
   const int above = last.height();
   image::Image pixels(corners.width() - 1, corners.height() - 1 + above, corners.channels());

@@ -18,7 +18,7 @@ struct FlagText {
 
 std::span<const FlagText> flag_texts();
 
-// "3 pixels may be wrong: …", by the flags of `pixels` together; "" without a flag.
+// "3 pixels may be wrong: …", where `flags` are those of all `pixels` together; "" if there are none.
 std::string flag_warning(uint32_t flags, uint64_t pixels);
 
 }  // namespace eyeray::engine::render

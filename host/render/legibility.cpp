@@ -9,7 +9,7 @@ namespace {
 
 // The difference up to which a display may show two values alike.
 constexpr double alike = 1.0 / 512;
-// The share of a picture that must differ from the background, at least.
+// The least share of a picture that must differ from the background.
 constexpr double least_foreground = 1e-3;
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Checks whether a picture shows anything: the share of it that is beyond white, and whether there is more
-// than background.
+// Checks whether a picture shows anything: how much of it is brighter than white, and whether it shows more
+// than the background.
 #pragma once
 
 #include <optional>
@@ -13,13 +13,13 @@ namespace eyeray::engine::render {
 
 class Legibility {
  public:
-  // `background`: linear RGB of rays that miss. `exposure`: stops, as the picture is shown.
+  // `background`: linear RGB of rays that miss. `exposure`: that of the shown picture, in stops.
   Legibility(const Vec3& background, double exposure);
 
   // Rows of the picture, 3 channels, linear.
   void see(const image::Image& rows);
-  // One sentence where more than half of the foreground is beyond 1, or where all but a thousandth
-  // is background; else "".
+  // A sentence, if more than half of the foreground is beyond 1, or if less than a thousandth of the picture
+  // is foreground; else "".
   std::string warning() const;
 
  private:
@@ -27,10 +27,11 @@ class Legibility {
   double gain_;
   int64_t pixels_ = 0;
   int64_t foreground_ = 0;  // pixels that differ from the background
-  int64_t bright_ = 0;      // of these, with all channels beyond 1
+  int64_t bright_ = 0;      // pixels of the foreground with all channels beyond 1
 };
 
-// For a model alone in eyeray's own light; nothing for other scenes, or with an environment.
+// The check for a scene that is a model alone, in eyeray's own light; empty for other scenes, or with an
+// environment.
 std::optional<Legibility> legibility_of(const Scene& scene);
 
 }  // namespace eyeray::engine::render

@@ -41,7 +41,7 @@ class RowsAtATime {
   int most_;
 };
 
-// The wanted channels, and those that Driver needs.
+// The requested channels, and those that Driver needs.
 film::Channels channels_of(const RenderOptions& options) {
   const film::Channels channels = film::with(options.channels, {"samples"});
   return options.noise > 0 ? film::with(channels, {"noise"}) : channels;
@@ -66,7 +66,7 @@ class Driver {
         at_a_time_(crop_.width) {
     CHECK(pixels_ > 0 && !(tiles_ && options.noise > 0));
     const size_t rows = options.band_bytes / (size_t(crop_.width) * sizeof(film::PixelTotals));
-    // A block's noise is known from the whole block. So is a tile from all of it.
+    // Bands must hold whole blocks of noise, and whole tiles.
     const bool blocks = film::contains(channels_, film::channel_named("noise"));
     const size_t unit = blocks || tiles_ ? film::noise_block : 1;
     const auto height = size_t(crop_.height);
@@ -109,7 +109,7 @@ class Driver {
     look_for_what_is_left();
   }
 
-  // Goes on where the checkpoint stands. Returns false when interrupted.
+  // Resumes at the checkpoint's position. Returns false if interrupted.
   bool take_up() {
     Checkpoint& checkpoint = *options_.checkpoint;
     const RenderPosition position = checkpoint.position();
@@ -124,7 +124,7 @@ class Driver {
     position_ = position;
     totals_.rays_resumed = position.rays;
 
-    // Hand the finished rows on again, to the files of this run.
+    // Pass the finished rows again to the sink, for the files of this run.
     for (int row = 0; row < int(position.finished_rows);) {
       if (interrupted()) return false;
       const int count = std::min(rows_of(most_handed_on, crop_.width), int(position.finished_rows) - row);
@@ -138,7 +138,7 @@ class Driver {
     return true;
   }
 
-  // Takes the samples of the band that are still missing. Returns false when interrupted.
+  // Takes the missing samples of the band. Returns false if interrupted.
   bool sample_band() {
     while (position_.samples < uint64_t(samples_)) {
       if (adaptive_ && position_.extra_rows == 0 && !some_are_left()) break;
@@ -178,7 +178,7 @@ class Driver {
                   : Rect{crop_.x + part.x, crop_.y + part.y, part.width, part.height};
   }
 
-  // One of every pixel of `parts` of the band, or none.
+  // Takes one sample of every pixel in `parts` of the band. If interrupted, returns false and adds none.
   bool sample(const std::vector<Rect>& parts) {
     size_t pixels = 0;
     for (const Rect& part : parts) pixels += size_t(part.pixels());
@@ -221,7 +221,7 @@ class Driver {
     return true;
   }
 
-  // Scaled, so that their colours stay.
+  // Clamps samples by scaling them, which keeps their hues.
   void clamp_samples() {
     totals_.clamped += parallel_sum(0, int(tile_samples_.size()), [&](int i) {
       Vec3& color = tile_samples_[size_t(i)].color;
@@ -236,12 +236,13 @@ class Driver {
     if (options_.noise > 0) adaptive_.emplace(options_.noise, film_);
   }
 
-  // Between two samples: whether the band needs another; and how many all will be.
+  // To be called between two samples of the band: returns whether it needs another one, and estimates the
+  // total number.
   bool some_are_left() {
     const uint64_t samples = position_.samples;
     if (AdaptiveSampling::judges_after(samples)) adaptive_->judge(film_);
     if (samples >= 8 && std::has_single_bit(samples)) {
-      // Bands to come are taken to be like those that were.
+      // Assume that the bands to come need as many samples as those so far.
       const double until_now =
           double(progress_.samples_done) + adaptive_->samples_to_go(film_, samples, samples_);
       const double pixels = double(crop_.width) * double(position_.finished_rows + uint64_t(film_.height()));
@@ -257,7 +258,7 @@ class Driver {
     if (options_.progress) options_.progress(progress_);
   }
 
-  // Gives the band's rows to the sink, and to the checkpoint where they will be missed.
+  // Passes the band's rows to the sink, and, unless the band is the last, to the checkpoint.
   void hand_on() {
     const bool last = int(position_.finished_rows) + film_.height() == crop_.height;
     for (int row = 0; row < film_.height();) {
@@ -317,7 +318,7 @@ class Driver {
   const RowSink& sink_;
   const ShardTiles* const tiles_;
   const Rect crop_;       // the rendered area, or the stack of the tiles
-  const int64_t pixels_;  // of it
+  const int64_t pixels_;  // of crop_, or of the tiles alone
   const int samples_;
   const film::Channels channels_;
   const bool has_auxiliaries_;
@@ -326,10 +327,10 @@ class Driver {
 
   RenderPosition position_;
   film::Film film_;                           // of the band
-  std::optional<AdaptiveSampling> adaptive_;  // likewise
-  uint64_t samples_given_ = 0;                // of pixels of the rows that were handed on
-  int least_samples_;                         // of one of them
-  double luminances_given_ = 0;               // the sum of theirs
+  std::optional<AdaptiveSampling> adaptive_;  // of the band, with `noise`
+  uint64_t samples_given_ = 0;                // samples of the rows passed to the sink
+  int least_samples_;                         // the least that a pixel of these rows has
+  double luminances_given_ = 0;               // the sum of the luminances in these rows
   Brightness brightness_;                     // of all samples
   std::vector<PixelSample> tile_samples_;
   std::vector<AuxiliarySample> tile_auxiliaries_;
@@ -337,7 +338,7 @@ class Driver {
   Progress progress_;
   RenderTotals totals_;
   Stopwatch watch_;               // since sampling began
-  std::optional<Saving> saving_;  // from the first tile on there is something to lose
+  std::optional<Saving> saving_;  // since the first tile, as there are samples to lose
 };
 
 void copy_rows(const image::Image& rows, int first, image::Image& picture) {
@@ -358,7 +359,7 @@ bool trace_first_hits(executors::Executor& executor, const Rect& crop, const Fir
                     std::min(rows_of(most_traced, crop.width), crop.height - row)};
     hits.assign(size_t(tile.pixels()), {});
     executor.first_hits(tile, hits);
-    // An interrupted executor may leave out any pixel.
+    // Drop these hits: an interrupted executor may leave out any pixel.
     if (interrupted()) return false;
     sink(row, hits);
     row += tile.height;

@@ -27,36 +27,37 @@ struct Progress {
 
 struct RenderOptions {
   Rect crop;                                      // in pixels of the whole picture; empty: all of it
-  bool first_hits = false;                        // for render(): whether they are wanted
+  bool first_hits = false;                        // for render(): whether to trace first hits
   std::function<void(const Progress&)> progress;  // called between tiles; may be empty
-  // The bytes of sums to hold (40 a pixel, and those of channels). A larger picture is rendered in bands of
-  // rows: all samples of one band, then of the next. A smaller one is one band, so that samples of the whole
-  // picture follow each other.
+  // The most bytes of sums in memory (40 for each pixel, and those of channels). A larger picture is rendered
+  // in bands of rows: all samples of one band, then of the next. A smaller picture is one band: every pixel
+  // gets its first sample before any gets its second.
   size_t band_bytes = size_t{256} << 20;
   // The channels of rows, beside `samples` and, with `noise`, the noise. The executor must compute the values
   // that channels need.
   film::Channels channels = {};
-  bool ray_kinds = false;  // count rays by kind in all: then the executor must too
-  // Above 0, pixels whose noise (Film::noise) is no more take no more samples (render/adaptive.hpp), and
-  // scene.image.samples is the most that one takes.
+  bool ray_kinds = false;  // sum up the counts of rays by kind; the executor must count them
+  // If above 0, pixels whose noise (Film::noise) is at most this take no more samples (render/adaptive.hpp),
+  // and a pixel takes at most scene.image.samples.
   double noise = 0;
-  // Above 0, samples count for no more than this in any channel, which makes means too dark.
+  // If above 0, samples are clamped to at most this in every channel, which makes means too dark.
   double clamp = 0;
-  // Is shown each sample of a tile of the whole picture, as it is taken; may be empty.
+  // Called with sample number `index` of the pixels of a tile, once it is taken; the tile is in pixels of the
+  // whole picture. May be empty.
   std::function<void(const Rect& tile, uint32_t index, std::span<const PixelSample>)> witness = {};
-  // Only these tiles, of `crop`: rows are then those of their stack. Not with `noise`, which needs
-  // neighbours. Null: all pixels.
+  // If not null, only these tiles of `crop` are rendered, and rows are those of their stack. Not allowed with
+  // `noise`, which needs neighbours.
   const ShardTiles* tiles = nullptr;
   Checkpoint* checkpoint = nullptr;  // kept and resumed from; see render_rows
 };
 
-// The results of a render beside its pixels.
+// The results of a render, except its pixels.
 struct RenderTotals {
   uint64_t rays = 0;            // resumed ones included
   uint64_t flagged_pixels = 0;  // pixels with any SampleFlag
   uint32_t flags = 0;           // all SampleFlags seen
-  int samples_done = 0;  // that every pixel of the picture has, and with RenderOptions::noise some have more
-  int bands = 1;         // in which the picture was rendered
+  int samples_done = 0;         // the samples that every pixel has; with RenderOptions::noise some have more
+  int bands = 1;                // the number of bands
   bool interrupted = false;
   double seconds = 0;            // of this run, of sampling alone
   double processor_seconds = 0;  // the same, of all threads together
@@ -64,21 +65,22 @@ struct RenderTotals {
   uint64_t samples_total = 0;    // as in Progress
   uint64_t samples_resumed = 0;
   uint64_t rays_resumed = 0;
-  RayCounts ray_kinds;     // of this run, where they were asked for
-  int most_samples = 0;    // that a pixel has
+  RayCounts ray_kinds;     // of this run, if requested
+  int most_samples = 0;    // of a pixel
   uint64_t fireflies = 0;  // Brightness::fireflies of this run
-  Brightness brightness;   // of its samples
+  Brightness brightness;   // of this run's samples
   uint64_t clamped = 0;    // samples of this run that RenderOptions::clamp changed
-  // With RenderOptions::noise: how many pixels have no more, and the greatest that one has.
+  // With RenderOptions::noise: the number of pixels with at most that noise, and the greatest noise of a
+  // pixel.
   uint64_t quiet_pixels = 0;
   double greatest_noise = 0;
 };
 
 using RowSink = std::function<void(const film::Rows&)>;
 
-// Renders scene.image through `executor` and hands its rows on as they are finished, some megabytes at a
-// time. When interrupted, a picture of one band is handed on whole, if every pixel has a sample; of several
-// bands `sink` may have got some, and samples_done is 0.
+// Renders scene.image with `executor` and passes its rows to `sink` as they are finished, some megabytes at a
+// time. If interrupted, a picture of one band is passed on as a whole if every pixel has a sample. A picture
+// of several bands may then have been passed on in part, and samples_done is 0.
 //
 // A checkpoint is written every now and then, when interrupted, before an error of the executor goes on to
 // the caller, and when the last sample is taken. From then on it states that nothing but handing on is left.

@@ -9,19 +9,19 @@ namespace {
 
 using executors::Executor;
 
-// At least, where there are so many: a well-spread set of Sobol' points, and so few that 16 moments are seen
-// in the 64 samples after which adaptive sampling first judges.
+// The least number of samples in a run, if there are enough samples. 4 Sobol' points are well spread, and few
+// enough that the 64 samples before adaptive sampling's first judgement show 16 moments.
 constexpr int samples_in_run = 4;
 
-// A step through `count` numbers that reaches each, and is spread after any number of steps: about the
-// golden section of them.
+// A step, near the golden section of `count`, whose multiples modulo `count` reach all of its numbers, and
+// are well spread after any number of steps.
 int golden_step(int count) {
   int step = std::max(1, int(0.618034 * count));
   while (std::gcd(step, count) != 1) ++step;
   return step;
 }
 
-// One executor at a time: that of the moment asked for last.
+// Holds one executor at a time: that of the moment requested last.
 class Shutter final : public Executor {
  public:
   Shutter(executors::Backend backend, const Scene& scene, executors::ExecutorOptions options)
@@ -73,7 +73,7 @@ class Shutter final : public Executor {
     options_.gpu.open_device = facts_.device;
   }
 
-  // Work of the executor, whose facts and times are then these.
+  // Does work with the executor, then takes over its facts and times.
   template <typename Work>
   std::invoke_result_t<Work> timed(const Work& work) {
     auto done = work();
@@ -89,9 +89,9 @@ class Shutter final : public Executor {
   executors::Backend backend_;
   const Scene& scene_;
   executors::ExecutorOptions options_;
-  StageTimes gone_;  // of the executors before
+  StageTimes gone_;  // of the earlier executors
   double shown_ = 0;
-  std::unique_ptr<Scene> moment_;  // that the executor is of
+  std::unique_ptr<Scene> moment_;  // the scene of executor_
   std::unique_ptr<Executor> executor_;
 };
 

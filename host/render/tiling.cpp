@@ -24,7 +24,7 @@ int divided_up(int64_t value, int64_t divisor) {
 class SplitMix {
  public:
   explicit SplitMix(uint64_t seed) : state_(seed) {}
-  // From 0 to `end` − 1. For orders: a bias of one in 2³² is none.
+  // A number from 0 to `end` − 1. Its bias of one in 2³² is negligible for shuffling.
   uint32_t below(uint32_t end) { return uint32_t((next() >> 32) * end >> 32); }
 
  private:

@@ -1,5 +1,5 @@
-// Divides a picture among machines, its shards: into tiles that each belong to one shard, with all samples of
-// their pixels.
+// Divides a picture into shards, one for each machine. Each tile of the picture belongs to one shard, with
+// all samples of its pixels.
 #pragma once
 
 #include <vector>
@@ -17,18 +17,18 @@ struct Shard {
   friend bool operator==(const Shard&, const Shard&) = default;
 };
 
-// Most shards that a picture may have.
+// The most shards that a picture may have.
 constexpr int most_shards = 1 << 20;
 
-// The tiles of a picture, from its top left on, row by row. They are a block of noise high and whole blocks
-// wide, but at the right and at the bottom of the picture: so each measurement of a block is one shard's.
-// A tile is a dispatch. The more pixels a shard has, the more tiles it has, and the larger these are; but no
-// more than `tiles_wanted`, and no narrower than `least_width`.
+// The tiles of a picture, from its top left on, row by row. A tile is a block of noise high and whole blocks
+// wide, except at the right and at the bottom of the picture: so each block is measured by one shard. A tile
+// is a dispatch. A shard of more pixels has more tiles and larger ones, but at most `tiles_wanted`, and none
+// narrower than `least_width`.
 //
-// Shards get one tile each of the first `shards` tiles, one each of the next, and so on, each time in an
-// order drawn anew. So all shards have equally many, to within one, and they lie all over the picture,
-// wherever it is costly. The orders are drawn from the number of that round of tiles alone, and are the same
-// everywhere.
+// Each shard gets one of the first `shards` tiles, one of the next `shards`, and so on, each time in a new
+// random order. So the shards' numbers of tiles differ by at most one, and every shard has tiles all over the
+// picture, costly parts included. The order depends only on the number of the group of tiles, and is the same
+// on every machine.
 class Tiling {
  public:
   // `width`, `height`, `shards` ≥ 1.
@@ -38,12 +38,12 @@ class Tiling {
   static constexpr int tiles_wanted = 16;
   static constexpr int least_width = 4 * film::noise_block;
 
-  int tile_width() const { return tile_width_; }  // of all but the last of a row
+  int tile_width() const { return tile_width_; }  // except for the last tile of a row
   int columns() const { return columns_; }
   int rows() const { return rows_; }
   int count() const { return columns_ * rows_; }
   Rect tile(int number) const;
-  // The index of the shard that it belongs to.
+  // The index of the shard that the tile belongs to.
   int owner(int number) const { return owners_[size_t(number)]; }
 
  private:
@@ -52,9 +52,9 @@ class Tiling {
   std::vector<int> owners_;
 };
 
-// The tiles of one shard, stacked: one below the other, each with the height of a whole one. That is the
-// picture which its machine renders; any of it to the right of a narrow tile or below a low one is no
-// pixel, and gets no sample.
+// The tiles of one shard, stacked: one below the other, each as high as a whole tile. The shard's machine
+// renders this stack as its picture. The area to the right of a narrow tile or below a low one has no pixels,
+// and gets no samples.
 class ShardTiles {
  public:
   // The shard's tiles of `area`, a part of a picture.
@@ -66,11 +66,11 @@ class ShardTiles {
   int height() const { return int(tiles_.size()) * Tiling::tile_height; }
   // The number of pixels to render: less than the stack's area.
   int64_t pixels() const { return pixels_; }
-  // In pixels of the picture, `area` included, from the stack's top on.
+  // The tiles, from the stack's top on, in pixels of the whole picture: the offset of `area` is included.
   const std::vector<Rect>& tiles() const { return tiles_; }
-  // The pixels in rows [row, row + height) of the stack, in its pixels.
+  // Rectangles of the tiles' pixels in rows [row, row + height) of the stack, in pixels of the stack.
   std::vector<Rect> parts(int row, int height) const;
-  // The position of such a part in the picture.
+  // The rectangle in the picture for a rectangle of parts().
   Rect in_picture(const Rect& part) const;
 
  private:

@@ -42,7 +42,7 @@ std::vector<render::IdentityPart> identity_of_checkpoint(const Plan& plan) {
       {"--classic", request.classic ? "on" : "off"},
       {"AOVs of samples", film::channel_names(summed)},
       {"--noise", std::to_string(request.noise)},
-      // The processors' executors compute the same wherever the same program runs.
+      // Executors on the CPU compute the same bits on every machine that runs the same program.
       {"device", gpu ? plan.executor.facts().description : "none"},
       {"--band-memory", std::to_string(request.band_bytes >> 20)},
   };

@@ -1,4 +1,4 @@
-// The facts that decide a picture's bits, for its checkpoint and for its parts.
+// The facts that decide a picture's bits, as the identity of its checkpoint and of its parts.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace eyeray::engine::session {
 
-// Error (file_io) when a file of the scene or a shader cannot be read any more.
+// The identity of a checkpoint. Error (file_io) if a file of the scene or a shader can no longer be read.
 std::vector<render::IdentityPart> identity_of_checkpoint(const Plan& plan);
 // The identity of a part, which must match those of other machines: it names only the device's properties
 // that decide bits.

@@ -43,7 +43,7 @@ void LayeredFile::write(Layer& layer, const image::Image& rows) {
   layer.rows += rows.height();
 }
 
-// Its rows from `first` on, as the channels of `rows` from `channel` on.
+// Reads the layer's rows from `first` on into the channels of `rows` from `channel` on.
 void LayeredFile::read(const Layer& layer, int first, image::Image& rows, size_t channel) const {
   const size_t kept = layer.channels.size(), channels = size_t(rows.channels());
   std::vector<float> samples(size_t(width_) * size_t(rows.height()) * kept);

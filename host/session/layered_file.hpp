@@ -11,24 +11,24 @@
 
 namespace eyeray::engine::session {
 
-// A row of the file holds all layers, and these come one after the other: until the last has come they wait,
-// in a file beside it that nobody sees.
+// A row of the .exr holds all layers, but the layers arrive one after the other. Until the last one has
+// arrived they wait in a hidden file beside the .exr.
 class LayeredFile {
  public:
-  // `half`: whether the picture is written so; AOVs never are.
+  // `half`: whether the picture is written as half floats; AOVs never are.
   LayeredFile(std::filesystem::path path, const film::Channels& aovs, int width, int height, bool half);
 
   // The next rows, from the top down, of the picture (plane 0) or of an AOV (1 + its index).
   void write(size_t plane, const image::Image& rows) { write(layers_[plane], rows); }
-  // Makes the file: of all layers, or of the picture alone, which AOVs are left out of where it was
-  // interrupted. Adds its name to `files`.
+  // Makes the .exr of all layers, or of the picture alone if an interrupted render leaves out the AOVs. Adds
+  // its name to `files`.
   void finish(std::vector<std::filesystem::path>& files, bool with_aovs);
 
  private:
   struct Layer {
     std::vector<image::ExrChannel> channels;
-    uint64_t begin;  // of its rows in the waiting file
-    int rows = 0;    // that have come
+    uint64_t begin;  // the offset of its rows in the waiting file
+    int rows = 0;    // the number of rows written so far
   };
   uint64_t row_bytes(const Layer& layer) const;
   void add(std::vector<image::ExrChannel> channels);

@@ -9,10 +9,10 @@
 
 namespace eyeray::engine::session {
 
-// Nothing of it is seen before all of it is there; Error (file_io) when the file cannot be written.
+// Writes a part. The file appears only once it is complete; Error (file_io) if it cannot be written.
 class PartFile final : public Output {
  public:
-  // `scene`: its file, as it was named.
+  // `file`: the part. `scene`: the scene's file, as the user named it.
   PartFile(std::string file, std::string scene) : file_(std::move(file)), scene_(std::move(scene)) {}
 
   std::vector<std::filesystem::path> files() const override { return {file_}; }

@@ -16,7 +16,7 @@
 
 namespace eyeray::engine::session {
 
-// All that a picture with these outputs and AOVs writes.
+// All files that a picture with these outputs and AOVs writes.
 std::vector<std::filesystem::path> files_written(const std::vector<std::string>& outputs,
                                                  const film::Channels& aovs);
 
@@ -26,13 +26,13 @@ using LegendOf = std::function<std::filesystem::path(size_t aov, const std::file
 // One AOV on its way to NAME.AOV.pfm and NAME.AOV.png.
 class AovFiles {
  public:
-  // NAME from `output`.
+  // NAME is taken from `output`.
   AovFiles(film::Channel aov, std::filesystem::path output, int width, int height);
 
   // The next rows, from the top down.
   void write(const image::Image& rows);
-  // The data takes its place, and is read again to be painted: its range is known only now. Adds the files'
-  // names to `files`. Returns that of the picture.
+  // Finishes the .pfm, and reads it again to paint the .png: only now is the range of the data known. Adds
+  // the files' names to `files`. Returns the .png's name.
   const std::filesystem::path& finish(std::vector<std::filesystem::path>& files);
 
  private:
@@ -56,11 +56,11 @@ class PictureFiles final : public Output {
   void begin(const Plan& plan) override;
   // Begins a picture that is not rendered now. `tone`: the tone curve of each .png.
   void begin(int width, int height, const image::Tone& tone);
-  // Opens the files with the first rows: a picture of one band comes when it is done.
+  // Opens the files only when the first rows arrive, which for a picture of one band is when it is done.
   void write(size_t plane, const image::Image& rows) override;
   void finish_color() override;
   void finish(const film::ChannelValues& values, Result& result) override;
-  // The AOVs, all complete.
+  // Finishes the AOVs, which must all be complete.
   void finish_aovs(const LegendOf& write_legend);
   const std::vector<std::filesystem::path>& written() const { return written_; }
 
@@ -73,9 +73,9 @@ class PictureFiles final : public Output {
   int width_ = 0, height_ = 0;
   image::Tone tone_;
   bool opened_ = false;
-  std::vector<std::pair<std::string, image::ImageWriter>> writers_;  // one an output that is not layered_
+  std::vector<std::pair<std::string, image::ImageWriter>> writers_;  // one for each output except layered_
   std::optional<LayeredFile> layered_;
-  std::vector<AovFiles> aov_files_;  // none where layered_
+  std::vector<AovFiles> aov_files_;  // empty with layered_
   std::vector<std::filesystem::path> written_;
 };
 

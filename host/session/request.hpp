@@ -13,11 +13,11 @@
 
 namespace eyeray::engine::session {
 
-// The files in which a long render saves its progress; without either, it saves none.
+// The file in which a long render saves its progress; if both names are empty, it saves none.
 struct CheckpointFile {
-  std::string begin;    // a new one
-  std::string resume;   // the one to go on from, and to keep
-  double seconds = 30;  // between two of its writings
+  std::string begin;    // a new file
+  std::string resume;   // the file to go on from, which is then kept up to date
+  double seconds = 30;  // between two writes
 };
 
 struct Request {
@@ -33,27 +33,28 @@ struct Request {
   CheckpointFile checkpoint;
   size_t band_bytes = render::RenderOptions().band_bytes;
   std::string overrides;                                  // the settings laid over the scene's file, as text
-  std::function<void(const render::Progress&)> progress;  // first before kernels compile; may be empty
+  std::function<void(const render::Progress&)> progress;  // first called before kernels compile; may be empty
   std::function<void(const std::string&)>
       warn;  // gets at once warnings that would cost time later; may be empty
 };
 
-// A scene that was read, with the doubts about its formulas among its warnings. InputError for formulas that
-// do not compile.
+// Returns `scene`, which was just read, with the doubts about its formulas added to its warnings. InputError
+// for formulas that do not compile.
 Scene checked(Scene scene);
 
-// `crop`, or all of the picture where it is empty. Error (bad_input) where it leaves the picture.
+// Returns `crop`, or the whole picture if `crop` is empty. Error (bad_input) if it extends beyond the
+// picture.
 Rect crop_within(const Rect& crop, const ImageSettings& image);
 
 // Returns `options` with ray_kinds and search_cost set if these channels need them, else cleared.
 executors::ExecutorOptions counting(executors::ExecutorOptions options, const film::Channels& channels);
 
-// Samples corners of pixels, a depth of five with the camera rays, and leaves nothing out that counts for
-// little, as the published statistics of Haines' databases do.
+// Sets up the render of the published statistics of Haines' databases: samples at the corners of pixels, a
+// depth of five counting the camera rays, and no ray left out because it contributes little.
 void make_classic(Scene& scene, Request& request);
 
-// Throws Error (bad_input) where `scene` cannot be rendered as `request` wants. Returns its channels, without
-// those that the scene does not have where all were asked for.
+// Throws Error (bad_input) if `scene` cannot be rendered as `request` wants. Returns the request's channels;
+// if all channels were requested, those that the scene does not have are left out.
 film::Channels check(const Request& request, const Scene& scene);
 
 }  // namespace eyeray::engine::session

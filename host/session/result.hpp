@@ -16,25 +16,25 @@
 namespace eyeray::engine::session {
 
 struct Result {
-  render::RenderTotals totals;  // `interrupted` also where first hits were
+  render::RenderTotals totals;  // `interrupted` is also true if first hits were
   Rect crop;                    // the rendered area
-  int samples = 0;              // a pixel, asked for
+  int samples = 0;              // requested for each pixel
   int64_t pixels = 0;           // of the crop, or of the share
   std::optional<render::Shard> shard;
   std::string device;         // Executor::description()
-  uint64_t flagged_hits = 0;  // 0 if no channel is made of first hits
+  uint64_t flagged_hits = 0;  // pixels; 0 if no channel is made of first hits
   PictureQuality quality;     // of colour and first hits
   std::vector<Diagnostic> warnings;
   std::vector<std::filesystem::path> files;  // written
-  std::filesystem::path checkpoint;          // left behind, to go on from; empty: none
-  std::optional<RayCounts> ray_kinds;        // of this run, where they were asked for
+  std::filesystem::path checkpoint;          // the file left to resume from; empty: none
+  std::optional<RayCounts> ray_kinds;        // of this run, if requested
   StageTimes times;
-  double seconds = 0;  // all in all
+  double seconds = 0;  // of the whole request
 
   bool interrupted() const { return totals.interrupted; }
   // The share of all samples that were taken.
   double share() const;
-  // Samples of a pixel on average.
+  // The average number of samples of a pixel.
   double mean_samples() const { return pixels > 0 ? double(totals.samples_taken) / double(pixels) : 0; }
   // The rate of this run, without resumed rays.
   double rays_per_second() const;

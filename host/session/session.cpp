@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 namespace eyeray::engine::session {
 namespace {
 
-// Throws where an output would replace a file that was read, links followed.
+// Throws if an output, links followed, would replace a file that the scene reads.
 void spare_sources(const std::vector<fs::path>& outputs, const Scene& scene) {
   for (const fs::path& output : outputs) {
     for (const fs::path& source : scene.files) {
@@ -100,7 +100,7 @@ class Rendering {
     result_.totals = render::render_rows(plan_.scene, executor_, options, [&](const film::Rows& rows) {
       output_times_.measure("encode", [&] { write(request_.classic ? corners.add(rows) : rows); });
     });
-    // A part is whole or nothing.
+    // A part must be whole: an interrupted share counts as without samples.
     if (request_.shard && result_.interrupted()) result_.totals.samples_done = 0;
   }
 
@@ -154,7 +154,7 @@ class Rendering {
   film::ChannelValues values_;
   std::optional<render::Legibility> legibility_;
   std::optional<render::Checkpoint> checkpoint_;
-  bool failure_is_known_ = false;  // of the checkpoint
+  bool failure_is_known_ = false;  // the checkpoint's failure was reported
   uint32_t first_hit_flags_ = 0;
   StageTimes output_times_;
   Result result_;

@@ -1,4 +1,5 @@
-// One way from a request to a picture, for every program: checks the request, renders it and warns of doubts.
+// The way from a request to a picture, the same for every program: checks the request, renders it and warns
+// of doubts.
 #pragma once
 
 #include <memory>
@@ -10,7 +11,7 @@
 
 namespace eyeray::engine::session {
 
-// The state that requests share: the way of making executors, and the device, which stays open between
+// The state that requests share: the options for making executors, and the device, which stays open between
 // requests.
 class Session {
  public:
@@ -20,9 +21,9 @@ class Session {
   // May be changed between requests.
   executors::ExecutorOptions& options() { return options_; }
 
-  // Renders `scene` to `output`. Error (bad_input) before anything is written where they do not go together
-  // (session::check), or where the output would replace a file that the scene reads. Else as make_executor,
-  // render_rows, Checkpoint and the output's functions throw.
+  // Renders `scene` to `output`. Error (bad_input), before anything is written, if scene and request do not
+  // fit together (session::check), or if the output would replace a file that the scene reads. Also throws
+  // the errors of make_executor, render_rows, Checkpoint and the output's functions.
   Result render(const Scene& scene, const Request& request, Output& output);
 
  private:
