@@ -11,12 +11,12 @@
 namespace eyeray::engine::raster {
 namespace {
 
-// The largest distance, in pixels, of a tessellation from its surface where it is nearest to the eye.
+// The wanted distance, in pixels, of a tessellation from its surface at the point nearest to the eye.
 constexpr double aim = 0.02;
-// A shape about the eye is taken to be no nearer than this share of its size.
+// The least distance assumed between the eye and a shape around it, as a share of the shape's size.
 constexpr double least_share = 0.02;
 
-// True if `form` is drawn, which the coarsest tessellation shows.
+// True if `form` can be drawn: tries the coarsest tessellation.
 bool is_drawn(const ShapeForm& form) {
   if (std::holds_alternative<PlaneForm>(form)) return true;
   return tessellate(form, Mat4(1.0), 1e300).has_value();
@@ -98,19 +98,19 @@ void DrawList::for_each(const Visit& visit) const {
 void DrawList::add(const Shape& shape, const Mat4& map, uint64_t id, const Visit& visit) const {
   if (!draws(id)) return;
   const ShapeForm form = shape.form();
-  if (const auto* plane = std::get_if<PlaneForm>(&form)) {  // which no group may have
+  if (const auto* plane = std::get_if<PlaneForm>(&form)) {  // planes are not allowed in groups
     view_.cut(view_.plane(plane->point, plane->normal), {.id = uint32_t(id)}, visit);
     return;
   }
 
-  // Tessellate it as finely as it is seen.
+  // Tessellate the shape as finely as the view needs.
   const std::optional<Ball> around = ball_around(shape.bounds(), map);
   double nearest = 0;
   ScreenTriangle like{.id = uint32_t(id), .reach = reach_of(around, view_)};
   if (around) {
     const Vec3 center = view_.to_camera(around->center);
     if (!view_.may_see(center, around->radius)) return;
-    // About the eye, it is near where the ball is.
+    // A shape around the eye is assumed to be near the surface of its ball.
     const double inside = 0.3 * std::fabs(around->radius - glm::length(center));
     nearest = std::max({center.z - around->radius, inside, least_share * around->radius});
   }

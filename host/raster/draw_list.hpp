@@ -1,5 +1,5 @@
-// All of a scene that can be drawn, as triangles on a picture, made anew each time they are gone through: a
-// scene of many instances would not fit in memory as triangles.
+// The primitives of a scene that can be drawn, as triangles on a picture. Each traversal makes the triangles
+// anew: those of a scene with many instances would not fit in memory.
 #pragma once
 
 #include <functional>
@@ -14,10 +14,10 @@ namespace eyeray::engine::raster {
 
 class DrawList {
  public:
-  // Both must outlive it.
+  // Scene and view must outlive the list.
   DrawList(const Scene& scene, const View& view);
 
-  // In the order of their ids.
+  // Visits all triangles, in the order of their ids.
   void for_each(const std::function<void(const ScreenTriangle&)>& visit) const;
 
   // True if a primitive is drawn wherever it is seen.
@@ -34,14 +34,15 @@ class DrawList {
   void leave_out(const Instance& instance, uint64_t id);
   void add(const Shape& shape, const Mat4& map, uint64_t id, const Visit& visit) const;
   void add(const Instance& instance, const Mat4& map, uint64_t id, const Visit& visit) const;
-  // Calls shape(Shape, map, id) and instance(Instance, map, id) for all that the scene shows.
+  // Calls shape(Shape, map, id) for each shape that the scene shows, and instance(Instance, map, id) for each
+  // instance.
   template <typename OfShape, typename OfInstance>
   void walk(const OfShape& shape, const OfInstance& instance) const;
 
   const Scene& scene_;
   const View& view_;
   std::map<std::string, uint64_t> not_drawn_;
-  std::map<uint64_t, uint64_t> left_out_;  // the first id of a run of those that are not drawn, and its end
+  std::map<uint64_t, uint64_t> left_out_;  // runs of ids that are not drawn: the first id, and the end
 };
 
 }  // namespace eyeray::engine::raster

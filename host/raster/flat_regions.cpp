@@ -55,7 +55,8 @@ void add_region(const std::vector<std::vector<Vec3>>& outlines, std::vector<Vec3
     return;
   }
 
-  // Between neighbouring corners, from left to right, the edges lie above each other and do not cross.
+  // Cut the area into vertical slabs at the corners. Within a slab the edges lie above each other and do not
+  // cross.
   const auto [across, up] = axes;
   std::vector<Edge> edges;
   std::vector<double> ends;

@@ -9,9 +9,9 @@
 
 namespace eyeray::engine::raster {
 
-// Appends triangles to `points` and `triangles` of the area within an odd number of `outlines`, which neither
-// cross nor touch each other, all in a plane of space. A convex outline alone becomes a fan, any other slabs
-// between its corners. Corners stay as they are.
+// Appends triangles of the area within an odd number of `outlines` to `points` and `triangles`. The outlines
+// lie in one plane of space, and neither cross nor touch each other. A single convex outline becomes a fan;
+// other outlines become slabs between their corners. Corners keep their positions.
 void add_region(const std::vector<std::vector<Vec3>>& outlines, std::vector<Vec3>& points,
                 std::vector<std::array<uint32_t, 3>>& triangles);
 

@@ -12,7 +12,7 @@ namespace eyeray::engine::raster {
 // The nearest primitive at a pixel's centre, by rays or by the rasteriser.
 struct Seen {
   bool anything = false;
-  bool in_list = true;  // one that is drawn
+  bool in_list = true;  // whether the primitive is one that is drawn
   uint32_t id = 0;
   double nearness = 0;
 };
@@ -20,10 +20,10 @@ struct Seen {
 struct Judgement {
   enum { equal, hidden, explained, unexplained } verdict;
   compare::RasterCause cause = compare::RasterCause::edge;
-  bool blames_ray = true;  // of the unexplained: the ray, else the rasteriser
+  bool blames_ray = true;  // for an unexplained pixel: whether the ray is wrong, or else the rasteriser
 };
 
-// `triangles`: all that may be within their slack of the centre.
+// `triangles`: all triangles that may be within their slack of the centre.
 Judgement judge(const Seen& traced, const Seen& drawn, const Vec2& center,
                 std::span<const ScreenTriangle> triangles, const View& view, const Exactness& exactness);
 

@@ -16,7 +16,7 @@ std::array<double, 4> bernstein(double t) {
 }  // namespace
 
 Tessellation tessellate_patch(const std::array<Vec3, 16>& net, double tolerance) {
-  // The second derivatives are no longer than the longest vector of their own nets.
+  // A second derivative is nowhere longer than the longest vector of its own control net.
   const auto p = [&](size_t row, size_t column) { return net[4 * row + column]; };
   double along_row = 0, along_column = 0, mixed = 0;
   for (size_t i = 0; i < 4; ++i) {

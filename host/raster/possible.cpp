@@ -19,7 +19,7 @@ double distance_to_edge(const Vec2& point, const Vec2& from, const Vec2& to) {
   return glm::length(point - from - share * along);
 }
 
-// On which side of the line from a to b.
+// The sign shows on which side of the line from a to b the point lies.
 double side(const Vec2& point, const Vec2& a, const Vec2& b) {
   return cross(b - a, point - a);
 }
@@ -31,8 +31,8 @@ bool contains(const ScreenTriangle& triangle, const Vec2& point) {
   return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
 }
 
-// The error of a driver's floats in the plane through a sliver: its slope is a quotient of differences
-// between products as long as the triangle, and of its area.
+// The error of a driver's floats in the plane through a sliver. The plane's slope is a quotient: differences
+// between products of the size of the triangle's length, divided by its area.
 double plane_error(const ScreenTriangle& triangle, double range) {
   const Vec2 u(triangle.at[1] - triangle.at[0]), v(triangle.at[2] - triangle.at[0]), w = v - u;
   const double square = std::max({glm::dot(u, u), glm::dot(v, v), glm::dot(w, w)});
@@ -66,7 +66,7 @@ Range nearness_about(const ScreenTriangle& triangle, const Vec2& point, double r
   return {std::clamp(middle - reach, least, most), std::clamp(middle + reach, least, most)};
 }
 
-// The sheets that triangles make: each triangle's number in turn, joined where they share an edge.
+// Groups triangles into sheets (a union-find over their numbers): triangles that share an edge are joined.
 struct Sheets {
   std::vector<size_t> parent;
   explicit Sheets(size_t count) : parent(count) { std::iota(parent.begin(), parent.end(), size_t{0}); }
@@ -77,7 +77,7 @@ struct Sheets {
   void join(size_t a, size_t b) { parent[of(a)] = of(b); }
 };
 
-// The corner of `triangle` beside the edge from a to b, where that is one of its edges.
+// The corner of `triangle` opposite the edge from a to b; empty if the triangle lacks that edge.
 std::optional<Vec2> corner_beside(const ScreenTriangle& triangle, const Vec3& a, const Vec3& b) {
   for (size_t i = 0; i < 3; ++i) {
     const Vec3 &from = triangle.at[i], &to = triangle.at[(i + 1) % 3];
@@ -100,7 +100,7 @@ Vec2 slack(const ScreenTriangle& triangle, const Vec2& center, const View& view,
            bool tessellated) {
   Vec2 most(exactness.snap, 0);
   const double nearest = std::max({triangle.at[0].z, triangle.at[1].z, triangle.at[2].z});
-  // The nearer, the more pixels the bound is.
+  // The bound spans the most pixels at the nearest corner.
   if (tessellated && triangle.bound > 0) most += view.shift(center.x, center.y, nearest, triangle.bound);
   most.y += exactness.depth_error * (nearest - exactness.depth_floor);
   // If a large object is close, t is only as exact as that object's coordinates.
@@ -127,7 +127,7 @@ Possible::Possible(Viewer viewer, const Vec2& center, std::span<const ScreenTria
     radii.push_back(most.x);
   }
 
-  // Sheets: a neighbour on the other side of an edge goes on where this triangle ends.
+  // Join sheets: a neighbour on the other side of an edge continues the sheet beyond this triangle.
   Sheets sheets(near.size());
   std::vector<bool> ends(near.size(), false);
   for (size_t i = 0; i < near.size(); ++i) {
@@ -162,7 +162,7 @@ Possible::Possible(Viewer viewer, const Vec2& center, std::span<const ScreenTria
     covered_ = true;
     surely_ = std::max(surely_, sheet.low);
   }
-  // Pieces that are surely behind cannot be seen.
+  // Drop the pieces that are surely behind a sheet: they cannot be seen.
   std::erase_if(pieces_, [&](const Piece& piece) { return piece.high < surely_; });
 }
 

@@ -13,26 +13,26 @@ namespace eyeray::engine::raster {
 
 // The precision with which triangles are drawn.
 struct Exactness {
-  double snap = 0;         // pixels by which a corner may be moved
-  double depth_error = 0;  // by which a drawn nearness may be wrong, as a share of the triangle's greatest …
+  double snap = 0;         // the pixels by which a corner may be moved
+  double depth_error = 0;  // the error of a drawn nearness, as a share of the triangle's greatest …
   double depth_floor = 0;  // … above this nearness
-  double t = 1e-5;         // by which a hit's t may be wrong, as a share of it: gate C's
+  double t = 1e-5;         // the relative error that a hit's t may have, as in gate C
 };
 
-// The largest displacement of a drawn triangle about a pixel's centre: in pixels, and in nearness.
+// The largest displacement of a drawn triangle near a pixel's centre: in pixels, and in nearness.
 Vec2 slack(const ScreenTriangle& triangle, const Vec2& center, const View& view, const Exactness& exactness,
            bool tessellated);
-// From a point of the picture to the triangle, in pixels; 0 within it.
+// The distance from a point of the picture to the triangle, in pixels; 0 within it.
 double distance(const ScreenTriangle& triangle, const Vec2& point);
 
-// To whom: a ray hits a triangle within its corners; a rasteriser takes its plane, where a snapped corner
-// lets it, a little farther.
+// The viewer to whom a primitive is visible. A ray hits a triangle only within its corners. A rasteriser
+// continues the triangle's plane a little beyond them, if a snapped corner allows it.
 enum class Viewer { ray, rasteriser };
 
 class Possible {
  public:
-  // `triangles`: all that may be within their slack of `center`. Without `tessellated`, their bounds count as
-  // 0.
+  // `triangles`: all triangles that may be within their slack of `center`. Without `tessellated`, their
+  // bounds count as 0.
   Possible(Viewer viewer, const Vec2& center, std::span<const ScreenTriangle> triangles, const View& view,
            const Exactness& exactness, bool tessellated);
 
@@ -48,13 +48,13 @@ class Possible {
  private:
   struct Piece {
     uint32_t id;
-    double low, high;  // its nearness about the centre
-    bool within;       // the centre is
+    double low, high;  // the range of its nearness near the centre
+    bool within;       // whether the centre is within it
   };
 
-  std::vector<Piece> pieces_;  // that may be seen
-  bool covered_ = false;       // surely, by a sheet of triangles without a border near the centre
-  double surely_ = -std::numeric_limits<double>::infinity();  // at least as near as this
+  std::vector<Piece> pieces_;  // the pieces that may be seen
+  bool covered_ = false;       // whether a sheet of triangles without a border near the centre covers it
+  double surely_ = -std::numeric_limits<double>::infinity();  // the nearest such sheet is this near
   double tolerance_ = 0;
 };
 

@@ -14,7 +14,7 @@ namespace eyeray::engine::raster {
 
 Projection::Projection(const Scene& scene, const Rect& area)
     : view_(scene.camera, scene.image.size(), area), list_(scene, view_) {
-  // Depths from 0 to 1. Floats are most precise near 0, which is the farthest point.
+  // Depths run from 0, the farthest point, to 1: floats are most precise near 0.
   double least = std::numeric_limits<double>::infinity(), most = -least;
   list_.for_each([&](const ScreenTriangle& triangle) {
     for (const Vec3& corner : triangle.at) {

@@ -13,8 +13,8 @@ namespace eyeray::engine::raster {
 
 class Projection {
  public:
-  // On the pixels `area` of the scene's picture; the scene must outlive it. Error (bad_input) for a camera
-  // that cannot be drawn.
+  // Projects the scene onto the pixels `area` of its picture; the scene must outlive the projection. Error
+  // (bad_input) for a camera that cannot be drawn.
   Projection(const Scene& scene, const Rect& area);
   Projection(const Projection&) = delete;
   Projection& operator=(const Projection&) = delete;
@@ -22,11 +22,11 @@ class Projection {
   const View& view() const { return view_; }
   const DrawList& list() const { return list_; }
   uint64_t triangles() const { return triangles_; }
-  // View's nearness of a depth. The nearness of depth 0 is the one from which all others are measured.
+  // The nearness, as in View, of a depth. Depths are measured from the nearness of depth 0.
   double nearness(float depth) const { return low_ + double(depth) * (high_ - low_); }
 
-  // Calls visit(vertices, three a triangle) for Rasterizer::batch triangles at a time. Ids are the
-  // primitives' and 1.
+  // Calls visit with the vertices, three for each triangle, of Rasterizer::batch triangles at a time. An id
+  // is the primitive's id plus 1.
   void for_each_batch(const std::function<void(std::span<const gpu::RasterVertex>)>& visit) const;
 
  private:

@@ -11,8 +11,8 @@ namespace {
 constexpr int least_sides = 8, most_sides = 1024;
 constexpr int deepest = 24;
 
-// The distance from the chord of the tip of the triangle of chord and tangents. 0 for a straight piece. The
-// chord's length if a tangent is unknown, or perpendicular to the chord or beyond.
+// The distance between the chord and the point where the tangents at its ends intersect. 0 for a straight
+// piece. The chord's length if a tangent is unknown, or perpendicular to the chord or beyond.
 double sagitta(const CurvePoint& a, const CurvePoint& b) {
   const Vec2 chord = b.at - a.at;
   const double length = glm::length(chord);
@@ -41,7 +41,7 @@ void halve(const std::function<CurvePoint(double)>& curve, double from, const Cu
   line.points.push_back(b.at);
 }
 
-// Into so many parts an arc is cut.
+// The number of parts into which an arc is cut.
 int parts(double radius, double angle, double tolerance) {
   const double share = std::clamp(1 - tolerance / radius, -1.0, 1.0);
   const double each = 2 * std::acos(share);
@@ -92,7 +92,7 @@ Tessellation sweep(const Polyline& profile, bool closes, const Polyline& section
   double widest = 0, reach = 1;
   for (const Vec2& point : section.points) reach = std::max(reach, glm::length(point));
 
-  // A ring for each point of the profile; on the axis, one point.
+  // A ring for each point of the profile: a single point if it is on the axis.
   struct Ring {
     uint32_t first;
     bool is_point;
@@ -119,7 +119,7 @@ Tessellation sweep(const Polyline& profile, bool closes, const Polyline& section
       if (c != d) result.triangles.push_back({a, c, d});
     }
   }
-  // Each step is a plane strip of the section's chords.
+  // The strip between two rings consists of plane pieces, one for each chord of the section.
   result.bound = widest * section.bound + reach * profile.bound;
   return result;
 }

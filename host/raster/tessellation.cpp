@@ -31,7 +31,8 @@ Mat4 sphere_map(const SphereForm& form) {
   return glm::translate(Mat4(1.0), form.center) * Mat4(form.axes * form.radius);
 }
 
-// A half circle about the axis, from angle `from` to `to` above its middle; on the axis, exactly there.
+// An arc of the unit circle around (0, middle), between the angles `from` and `to` above it. An end on the
+// axis is exactly on it.
 Polyline meridian(double middle, double from, double to, double tolerance) {
   Polyline line = arc({0, middle}, 1, from, to, tolerance);
   if (from == -half_turn / 2) line.points.front() = {0, middle - 1};
@@ -47,7 +48,7 @@ Tessellation ball(double tolerance) {
   return sweep(meridian(0, -half_turn / 2, half_turn / 2, tolerance / 2), false, circle(1, tolerance / 2));
 }
 
-// x² + z² = square·y² + 2·linear·y + constant between two heights.
+// The surface x² + z² = square·y² + 2·linear·y + constant between two heights.
 struct RoundQuadric {
   double square, linear, constant, bottom, top;
 
@@ -59,7 +60,8 @@ struct RoundQuadric {
   }
 };
 
-// The quadric as a surface of revolution about y. Empty if it is none, or if its clip cuts its sides.
+// The quadric as a surface of revolution about y. Empty if it is not such a surface, or if its clip cuts its
+// sides.
 std::optional<RoundQuadric> round_quadric(const QuadricForm& form) {
   const bool is_round = form.square.x == 1 && form.square.z == 1 && form.product == Vec3(0) &&
                         form.linear.x == 0 && form.linear.z == 0;
@@ -82,7 +84,7 @@ Tessellation round_body(const RoundQuadric& round, const QuadricForm& form, doub
   // An ellipsoid is the unit sphere, mapped.
   if (round.square == -1 && round.linear == 0 && round.constant == 1 && round.bottom == -1 && round.top == 1)
     return ball(tolerance);
-  // Its profile is straight, or it bends to one side throughout, by the discriminant.
+  // The discriminant shows whether the profile is straight; else it bends to one side throughout.
   const double bend = round.square * round.constant - round.linear * round.linear;
   const double size = std::fabs(round.square * round.constant) + round.linear * round.linear;
   const auto height = [&](double s) {
@@ -103,7 +105,8 @@ Tessellation round_body(const RoundQuadric& round, const QuadricForm& form, doub
   return sweep(profile, false, circle(round.widest(), tolerance / 2));
 }
 
-// (ρ, y) or (x, z) on |a|^p + |b|^p = 1 from (0, −1) or (1, 0): a quarter turn at a time, by angle.
+// A quarter of the curve |a|^p + |b|^p = 1, by angle. It begins `quarter` quarter turns after (1, 0). A
+// profile of points (ρ, y) begins at (0, −1), a section of points (x, z) at (1, 0).
 Polyline superellipse_quarter(double p, int quarter, double tolerance) {
   const auto curve = [&](double s) {
     const double angle = s * half_turn / 2;
@@ -128,11 +131,11 @@ Tessellation superellipsoid(const SuperellipsoidForm& form, double tolerance) {
                false, section);
 }
 
-// A form in object space, and the map from there.
+// A form's triangles in object space, and the map from object space.
 struct Piece {
   Tessellation tessellation;
   Mat4 map{1.0};
-  bool in_world = false;  // nothing is left to map
+  bool in_world = false;  // the triangles are in the world already: no map is applied
 };
 
 struct Tessellator {

@@ -9,11 +9,11 @@
 
 namespace eyeray::engine::raster {
 
-// In the world.
+// The triangles of a shape, in the world unless stated otherwise.
 struct Tessellation {
   std::vector<Vec3> points;
   std::vector<std::array<uint32_t, 3>> triangles;
-  double bound = 0;  // the surface is nowhere farther from the triangles than this, nor they from it
+  double bound = 0;  // the largest distance of the surface from the triangles, and of them from the surface
 };
 
 // A ball around a shape, in the world.
@@ -21,7 +21,7 @@ struct Ball {
   Vec3 center;
   double radius;
 };
-// Around a box under `map`; nothing where that has no end.
+// The ball around a box under `map`; empty for an unbounded box.
 std::optional<Ball> ball_around(const Bounds& bounds, const Mat4& map);
 
 // Tessellates `form` under `map`. The bound is about `tolerance` unless that takes more triangles than a

@@ -11,13 +11,13 @@
 namespace eyeray::engine::raster {
 namespace {
 
-// About the picture, on each side, in its own widths.
+// The margin that is kept on each side of the picture, in units of its size along that axis.
 constexpr double guard = 3;
-// Before the eye: nothing that a scene can hold is nearer.
+// The least depth that is kept: nothing that a scene can hold is nearer to the eye.
 constexpr double nearest = min_radius;
 constexpr int sides = 6;
 
-// Pixels of a width of 1 at depth 1.
+// The number of pixels of a width of 1 at depth 1.
 double perspective_focal(const PerspectiveCamera& camera, const Vec2& size) {
   double along = size.x;
   if (camera.fov_axis == FovAxis::vertical) along = size.y;
@@ -68,7 +68,7 @@ double View::t(int x, int y, double nearness) const {
   return perspective_ ? slant(x, y) / nearness : -nearness;
 }
 
-// A ray has unit length: how much farther its end is than deep.
+// The ratio of distance to depth along the ray through a pixel's centre: ray directions have unit length.
 double View::slant(int x, int y) const {
   const double across = std::hypot(x + 0.5 - middle_.x, y + 0.5 - middle_.y) / focal_;
   return std::hypot(1.0, across);
@@ -86,13 +86,13 @@ Vec2 View::shift(double x, double y, double nearness, double distance) const {
   return {focal_ * distance * std::hypot(1.0, across) / least, nearness * distance / least};
 }
 
-// A plane that bounds the drawn part of space: above 0 on its inner side.
+// A plane that bounds the drawn part of space; its product with a point is above 0 on the inner side.
 Vec4 View::side(int number) const {
   const Vec2 size(area_.width, area_.height);
   const bool along_y = number >= 2;
   const double width = std::max(along_y ? size.y : size.x, 64.0);
   const double middle = along_y ? middle_.y : middle_.x;
-  // middle ± scale · coordinate between −guard · width and size + guard · width.
+  // The planes keep middle ± scale · coordinate between −guard · width and size + guard · width.
   const double sign = along_y ? -1 : 1;
   const double turn = number % 2 == 0 ? 1 : -1;
   const double offset =
@@ -101,7 +101,7 @@ Vec4 View::side(int number) const {
   plane[along_y ? 1 : 0] = turn * sign * focal_;
   plane[perspective_ ? 2 : 3] = offset;
   if (number < 4) return plane;
-  // Side 4 keeps points before the eye. Side 5 keeps w ≥ 0: nothing beyond infinity.
+  // Side 4 keeps points in front of the eye. Side 5 keeps w ≥ 0: nothing beyond infinity.
   if (number == 4) return {0, 0, 1, perspective_ ? -nearest : 0};
   return {0, 0, 0, 1};
 }
@@ -126,7 +126,7 @@ bool View::cut_to_guard(Polygon& polygon) const {
       const size_t next = (i + 1) % polygon.count;
       if (above[i] >= 0) left.at[left.count++] = polygon.at[i];
       if ((above[i] >= 0) == (above[next] >= 0)) continue;
-      // From the same end, whichever polygon the edge is of.
+      // Interpolate from the same end in every polygon that has the edge.
       const bool turned = before(polygon.at[next], polygon.at[i]);
       const size_t from = turned ? next : i, to = turned ? i : next;
       const double share = above[from] / (above[from] - above[to]);
@@ -158,8 +158,8 @@ std::vector<Vec4> View::plane(const Vec3& point, const Vec3& normal) const {
   for (const Vec2& corner : {Vec2(left, low), Vec2(right, low), Vec2(right, high), Vec2(left, high)}) {
     const Vec2 p = corner / focal_;
     if (perspective_) {
-      // Along the direction (p, 1) the plane is height / (n · direction) away: nowhere, where that is below
-      // 0.
+      // Along the direction (p, 1) the distance to the plane is height / (n · direction). If it is below 0,
+      // the direction never reaches the plane.
       if (height == 0) return {};
       corners.push_back({p, 1.0, glm::dot(n, Vec3(p, 1.0)) / height});
     } else {

@@ -13,8 +13,9 @@
 
 namespace eyeray::engine::raster {
 
-// A triangle on the picture. Of each corner: x to the right and y down, in pixels from the area's top left,
-// so that a pixel's centre is at one half; and its nearness, which runs straight between them.
+// A triangle on the picture. Each corner has x to the right and y down, in pixels from the area's top left,
+// so that a pixel's centre is at one half. Its third coordinate is its nearness, which is linear between
+// corners.
 struct ScreenTriangle {
   std::array<Vec3, 3> at{};
   uint32_t id = 0;   // the primitive's
@@ -22,8 +23,8 @@ struct ScreenTriangle {
   double reach = 0;  // largest distance of the whole shape or mesh from the eye; 0 for planes
 };
 
-// Two units in the last place, as a share of the largest coordinate: gate C's allowance for a hit that is
-// close to something large.
+// Gate C's allowance for a hit close to something large: two units in the last place, as a share of the
+// largest coordinate.
 inline constexpr double coordinate_error = 0x1p-22;
 
 class View {
@@ -34,15 +35,15 @@ class View {
 
   const Rect& area() const { return area_; }
 
-  // A point to the right of the eye, above it, and before it.
+  // A point in the camera's space: its distances to the right of the eye, above it, and in front of it.
   Vec3 to_camera(const Vec3& world) const;
-  // A direction likewise.
+  // A direction in the camera's space.
   Vec3 turned(const Vec3& direction) const;
   // The pixel position of a point in front of the eye, w = 1, or of a direction, w = 0.
   Vec3 project(const Vec4& point) const;
 
   // Nearness is greater for nearer points: 1 / depth in perspective, −depth for parallel rays, where depth is
-  // measured along the viewing direction. Either is linear over the picture of a plane.
+  // measured along the viewing direction. Either nearness is linear over the picture of a plane.
   bool perspective() const { return perspective_; }
   // The nearness of the hit at `t` along the ray through the centre of a pixel of the area.
   double nearness(int x, int y, double t) const;
@@ -53,14 +54,14 @@ class View {
   // The number of pixels by which a point of that nearness is displaced, and the gain of its nearness, if it
   // moves by `distance` in the world; infinite if that takes it behind the eye.
   Vec2 shift(double x, double y, double nearness, double distance) const;
-  // The world's size of a pixel at a depth.
+  // The size of a pixel at a depth, in units of the world.
   double pixel_at(double depth) const { return perspective_ ? depth / focal_ : 1 / focal_; }
   // True if a ball in the camera's space may be seen.
   bool may_see(const Vec3& center, double radius) const;
 
-  // Calls visit(ScreenTriangle), `like` with other corners, for the part of a convex polygon before the eye
-  // and about the picture, some pictures wide, so that float32 can resolve all corners. A cut between two
-  // polygons that share an edge is the same number in both.
+  // Cuts a convex polygon to the part in front of the eye and near the picture: a region some pictures wide,
+  // in which float32 can resolve all corners. Calls visit(ScreenTriangle) for its triangles, which are `like`
+  // with other corners. Two polygons that share an edge get bitwise the same cut point on it.
   template <typename Visit>
   void cut(std::span<const Vec4> polygon, const ScreenTriangle& like, const Visit& visit) const {
     Polygon left(polygon);
@@ -73,8 +74,8 @@ class View {
       before = next;
     }
   }
-  // The part of the plane through `point` perpendicular to `normal` that `cut` leaves, in the form that `cut`
-  // takes. Empty if the plane is seen edge-on.
+  // The plane through `point` perpendicular to `normal`, as a polygon for `cut` that covers the region that
+  // `cut` keeps. Empty if the plane is seen edge-on.
   std::vector<Vec4> plane(const Vec3& point, const Vec3& normal) const;
 
  private:
@@ -90,8 +91,8 @@ class View {
   CameraAxes axes_;
   Rect area_;
   bool perspective_;
-  double focal_;  // pixels of a width of 1: at depth 1, or at any
-  Vec2 middle_;   // where the camera looks, from the area's top left
+  double focal_;  // pixels of a width of 1: at depth 1, or at any depth for parallel rays
+  Vec2 middle_;   // the pixel position of the viewing direction, from the area's top left
 };
 
 }  // namespace eyeray::engine::raster

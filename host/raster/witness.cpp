@@ -27,8 +27,8 @@ Witness::Witness(const Scene& scene, const Rect& area, gpu::DeviceOptions option
     throw Error(ExitCode::no_device, "the validation layer has {} complaints about drawing; the first: {}",
                 messages.size(), messages[0]);
 
-  // The rounding of corners: to the driver's grid, and to floats some pictures wide; that of planes through
-  // them: to floats at the picture's far side.
+  // Corners are rounded to the driver's grid, and to floats in a region some pictures wide. The planes
+  // through them are rounded to floats at the picture's far side.
   const double longest = std::max({area.width, area.height, 64});
   exactness_.snap = ray_error + std::sqrt(2.0) * std::ldexp(1.0, -int(device.info().limits.subpixel_bits)) +
                     32 * epsilon * longest;
@@ -46,15 +46,15 @@ Seen Witness::traced_at(const compare::Frame& frame, size_t pixel) const {
   const FirstHit& hit = frame.first_hits[pixel];
   if (hit.primitive < 0) return {};
   const auto id = uint64_t(hit.primitive);
-  // An id of no primitive is not excused as one that is not drawn.
+  // An invalid id must not count as a primitive that is not drawn, which would excuse it.
   const bool in_list = id >= scene_.primitive_count() || list().draws(id);
   const auto width = size_t(view().area().width);
   return {true, in_list, uint32_t(hit.primitive),
           view().nearness(int(pixel % width), int(pixel / width), hit.t)};
 }
 
-// Empty if a hit lies where its pixel sees it, and as far away as its t; else, in words, where its position
-// falls.
+// Checks that a hit's position lies on the ray of its pixel, at the distance t. Empty if so; else a clause
+// that names the pixel distance and the t of the position.
 std::string Witness::misplaced(const FirstHit& hit, int x, int y) const {
   const Vec3 at = view().to_camera(hit.position);
   if (!(hit.t > 0) || !std::isfinite(hit.t) || !std::isfinite(magnitude(at)))
@@ -67,7 +67,7 @@ std::string Witness::misplaced(const FirstHit& hit, int x, int y) const {
     const Vec2 room = view().shift(center.x, center.y, nearness, error);
     return distance <= room.x + ray_error && off <= room.y;
   };
-  // Only where something is large, and close, its reach is asked for, which takes time.
+  // Only now compute the object's reach, which takes time: it matters for large objects that are close.
   const double error = 2 * exactness_.t * hit.t;
   if (within(error)) return "";
   if (uint64_t(hit.primitive) < scene_.primitive_count()) {
@@ -86,7 +86,7 @@ std::vector<std::vector<ScreenTriangle>> Witness::triangles_about(const std::vec
   for (size_t i = 0; i < pixels.size(); ++i) number[pixels[i]] = int32_t(i);
   const Vec2 size(area.width, area.height);
   list().for_each([&](const ScreenTriangle& triangle) {
-    // The bound takes most pixels in one of the area's corners.
+    // The slack in pixels is largest at one of the area's corners.
     double most = 0;
     for (const Vec2& corner : {Vec2(0, 0), Vec2(size.x, 0), Vec2(0, size.y), size})
       most = std::max(most, slack(triangle, corner, view(), exactness_, true).x);
@@ -129,7 +129,7 @@ compare::RasterResult Witness::compare(const compare::Frame& frame, const std::s
     if (result.unexplained++ == 0) show(pixel, difference);
   };
 
-  // Most pixels are equal …
+  // Count the equal pixels, which most are.
   std::vector<size_t> open;
   for (size_t pixel = 0; pixel < size_t(area.pixels()); ++pixel) {
     const FirstHit& hit = frame.first_hits[pixel];
@@ -146,7 +146,7 @@ compare::RasterResult Witness::compare(const compare::Frame& frame, const std::s
       open.push_back(pixel);
   }
 
-  // … of the others the geometry decides if both may be.
+  // For each other pixel, judge whether the geometry allows both the hit and the drawn triangle.
   const std::vector<std::vector<ScreenTriangle>> about = triangles_about(open);
   for (size_t i = 0; i < open.size(); ++i) {
     const size_t pixel = open[i];

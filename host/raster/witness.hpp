@@ -19,8 +19,8 @@ namespace eyeray::engine::raster {
 class Witness {
  public:
   // Draws the pixels `area` of the scene, which must outlive it. Error (bad_input) for a camera that cannot
-  // be drawn, (no_device) where the device has no graphics queue or not enough memory, or where the
-  // validation layer had a complaint.
+  // be drawn, (no_device) where the device has no graphics queue or not enough memory, or if the validation
+  // layer reported a fault.
   Witness(const Scene& scene, const Rect& area, gpu::DeviceOptions options);
   Witness(const Witness&) = delete;
   Witness& operator=(const Witness&) = delete;
@@ -34,13 +34,13 @@ class Witness {
   Seen drawn_at(size_t pixel) const;
   Seen traced_at(const compare::Frame& frame, size_t pixel) const;
   std::string misplaced(const FirstHit& hit, int x, int y) const;
-  // For each of the pixels, which are in ascending order, the triangles that may be within their slack of its
+  // For each of `pixels`, in ascending order, the triangles that may be within their slack of the pixel's
   // centre.
   std::vector<std::vector<ScreenTriangle>> triangles_about(const std::vector<size_t>& pixels) const;
 
   const Scene& scene_;
   Projection projection_;
-  gpu::RasterPicture picture_;  // ids are the primitives' and 1
+  gpu::RasterPicture picture_;  // an id is the primitive's id plus 1
   std::string device_;
   Exactness exactness_;
 };
