@@ -32,7 +32,7 @@ struct CheckCommand {
   ExitCode run() const;
 };
 
-// Names with how many there are of each, in registry order; kinds that the scene lacks are left out.
+// The kinds in registry order, each with its number; kinds that the scene lacks are left out.
 using Counts = std::vector<std::pair<std::string, size_t>>;
 
 struct Inventory {
@@ -40,11 +40,11 @@ struct Inventory {
   Counts materials;
   Counts lights;
   size_t emitters = 0;             // surfaces that a path may choose
-  size_t light_nodes = 0;          // of the BVH by which it does
-  size_t mesh_triangles = 0;       // each mesh's, however often it is shown
+  size_t light_nodes = 0;          // nodes of the BVH by which it chooses
+  size_t mesh_triangles = 0;       // each mesh counts once, however often it is shown
   size_t bytes = 0;                // on the device, pixels not counted
   size_t named = 0;                // shapes and meshes that have their own name
-  std::vector<std::string> names;  // of the first few of them: `sphere "left eye"`
+  std::vector<std::string> names;  // the names of the first few of these: `sphere "left eye"`
 };
 
 template <typename Types>
@@ -137,8 +137,8 @@ std::string format_bounds(const Scene& scene) {
   return text;
 }
 
-// The point in front of the eye through which the plane in focus passes, perpendicular to the view. Nothing
-// where all is sharp, or where a function of the scene decides.
+// The point in front of the eye through which the plane of focus passes, perpendicular to the view. Empty if
+// everything is sharp, or if the camera's function sets the focus.
 std::optional<Vec3> focus_point(const Scene& scene) {
   const Projection& projection = *scene.camera.projection;
   if (projection.function() || projection.aperture().radius == 0) return std::nullopt;

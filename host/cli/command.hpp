@@ -1,5 +1,6 @@
-// One file a command. Each adds its subcommand to the app; when the user names it, CLI11 fills the options,
-// and the command's `run` is called and answers the exit code. Errors are thrown; main prints them.
+// The commands, each in its own file. Each adds its subcommand to the app. When the user names it, CLI11
+// fills the options, and the command's `run` is called and returns the exit code. Errors are thrown; main
+// prints them.
 #pragma once
 
 #include <array>
@@ -20,7 +21,7 @@
 #include "host/scene/scene.hpp"
 
 namespace CLI {
-class App;  // a second or more to compile: <CLI/CLI.hpp> is for the .cpp files that describe options
+class App;  // <CLI/CLI.hpp> compiles for a second or more: only .cpp files with options include it
 }
 
 namespace eyeray::engine::cli {
@@ -40,7 +41,7 @@ void add_dev(CLI::App& app, Run& run);
 void add_generate(CLI::App& app, Run& run);
 void add_shaders(CLI::App& app, Run& run);
 void add_merge(CLI::App& app, Run& run);
-// `sbatch_words`: those that stood behind --.
+// `sbatch_words`: the words after --.
 void add_slurm(CLI::App& app, Run& run, const std::vector<std::string>& sbatch_words);
 void add_new(CLI::App& app, Run& run);
 // These commands describe `app` itself, to which all commands are added before they run.
@@ -77,20 +78,20 @@ class SceneOptions {
   std::vector<std::string> defines_;
   loader::Trust trust_;
   std::string size_;
-  std::array<std::string, 6> values_;  // of options.cpp's table, --spp first
+  std::array<std::string, 6> values_;  // the values of the options in options.cpp's table, --spp first
 };
 
-// The allowed values of an option that overrides a choice in the scene (--integrator, --triangle); of others
-// none.
+// The allowed values of an option that overrides a choice in the scene (--integrator, --triangle); empty for
+// other options.
 std::vector<std::string> value_choices(std::string_view option);
 
-// "3,4" as {3, 4}; Error (bad_input) for anything else.
+// Reads "3,4" as {3, 4}; Error (bad_input) for anything else.
 std::pair<int, int> parse_pixel(const std::string& text);
 
 // --device, --shaders, --fast-math, --validate, --timeout, --tune.
 void add_executor_options(CLI::App& command, executors::ExecutorOptions& options);
 
-// "gpu,twin", none of them twice; Error (bad_input) for anything else.
+// Reads a list such as "gpu,twin", which names no backend twice; Error (bad_input) for anything else.
 std::vector<executors::Backend> parse_backends(const std::string& list);
 
 // --backend gpu|twin|reference.

@@ -44,8 +44,8 @@ std::string describe_size(const image::Image& image) {
                      image.channels() == 1 ? "" : "s");
 }
 
-// Any value may be right in data, unlike in colours. Values that are not finite count as equal where both are
-// the same.
+// Data may hold any value, unlike colours. So values that are not finite become 0 if they are the same in
+// both images, and then count as equal.
 void take_as_data(image::Image& a, image::Image& b) {
   if (!a.same_size(b)) return;
   for (size_t i = 0; i < a.sample_count(); ++i) {
@@ -82,7 +82,7 @@ Comparison compare(const CompareCommand& command, const image::Image& a, const i
   return result;
 }
 
-// A file without alpha is opaque.
+// Compares the alpha of the two files; a file without alpha counts as opaque.
 void compare_alpha(const CompareCommand& command, Comparison& result) {
   std::optional<image::Image> a = image::read_alpha(command.a), b = image::read_alpha(command.b);
   if (!a && !b) return;
@@ -98,7 +98,8 @@ void compare_alpha(const CompareCommand& command, Comparison& result) {
                     result.pixels, command.tolerance, command.max_different));
 }
 
-// Writes data, or false colour for people, from `low` to `high`, or without these over its own range.
+// Writes `map` as data, or in false colour for people: over the least to the greatest number of `range`, or
+// without `range` over the map's own values.
 void write_map(const std::string& file, const image::Image& map, std::span<const float> range = {}) {
   const image::ImageFormat format = image::image_format(file);
   if (format == image::ImageFormat::pfm || format == image::ImageFormat::exr)
@@ -143,7 +144,7 @@ void CompareCommand::write_maps(const image::Image& image_a, const image::Image&
 }
 
 ExitCode CompareCommand::run() const {
-  keep_freed_memory();  // metrics are made of planes as large as the pictures, dozens of them
+  keep_freed_memory();  // metrics allocate dozens of planes as large as the pictures
   for (const auto& [option, file] :
        {std::pair{"--diff", diff}, {"--flip", flip}, {"--exposures", exposures}}) {
     if (file.empty()) continue;
@@ -156,7 +157,7 @@ ExitCode CompareCommand::run() const {
                     option);
     }
   }
-  // --aov writes a layer of an .exr, or a file for each AOV: either of the two may be the .exr.
+  // --aov writes a layer of an .exr, or a file for each AOV: so one of the two files may be no .exr.
   if (!layer.empty() && image::image_format(a) != image::ImageFormat::exr &&
       image::image_format(b) != image::ImageFormat::exr)
     throw Error(ExitCode::bad_input, "--layer {} needs an .exr: neither {} nor {} is one", layer, a, b);

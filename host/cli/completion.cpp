@@ -1,4 +1,4 @@
-// Completions for shells. Where nothing of ours fits, shells complete the names of files.
+// Completions for shells. If eyeray has nothing to offer, shells complete the names of files.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -22,7 +22,7 @@ std::vector<std::string> names_of(const std::vector<CommandRow>& commands) {
   return names;
 }
 
-// "'render -o'|'render --output'": the options as bash's case sees them behind their command.
+// "'render -o'|'render --output'": the options after their command, as patterns of bash's `case`.
 std::string pattern(const CommandRow& command, const OptionRow& option) {
   std::vector<std::string> cases;
   for (const std::string& name : option.names) cases.push_back(shell_word(command.words + " " + name));
@@ -165,7 +165,7 @@ std::string fish_completion(const CommandRow& table) {
         text += " -r";
       text += " -d " + shell_word(brief(option.text)) + "\n";
     }
-    // A second word of a command's own, as long as none stands there.
+    // Offer a command's second words only until one of them has been typed.
     const std::vector<std::string> names = names_of(command->commands);
     if (!command->words.empty() && !names.empty())
       condition += fmt::format("; and not __fish_seen_subcommand_from {}", fmt::join(names, " "));

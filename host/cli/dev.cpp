@@ -31,7 +31,7 @@ struct DevCommand {
   bool once = false;
   bool no_page = false;
   int port = usual_port;
-  int worker_socket = -1;  // in the worker
+  int worker_socket = -1;  // the descriptor, in the worker; else -1
 
   ExitCode run();
 
@@ -57,7 +57,7 @@ void DevCommand::report_picture(const Json& done, const dev::Board& board) {
   if (const auto picture = board.picture(done.value("view", "gpu"))) {
     try {
       for (const std::string& output : outputs) image::write_image(output, picture->image);
-    } catch (const Error& error) {  // the next one may find room
+    } catch (const Error& error) {  // go on: the next picture may find room
       if (once) throw;
       print_lines(stderr, "eyeray: error: {}\n", error.what());
       return;
@@ -143,7 +143,7 @@ ExitCode DevCommand::run() {
     image::image_format(output);
     check_writable(output);
   }
-  if (!std::filesystem::exists(scene.file())) scene.load();  // throws, with the loader's own words
+  if (!std::filesystem::exists(scene.file())) scene.load();  // throws the loader's own error
 
   dev::SupervisorOptions options;
   options.worker = own_command();
@@ -166,7 +166,7 @@ void add_dev(CLI::App& app, Run& run) {
   CLI::App* const command = app.add_subcommand(
       "dev", "Render on every save of the scene or a shader, and show the picture on a page in the browser.");
   const auto options = std::make_shared<DevCommand>();
-  // A dispatch is made to take 40 ms; compiling may take its time.
+  // Dispatches are sized to take 40 ms; compiling may take much longer.
   options->executor.gpu.timeout_seconds = 2;
   options->executor.gpu.least_compile_seconds = 60;
   options->executor.gpu.validate_spirv = true;

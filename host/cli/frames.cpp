@@ -94,7 +94,7 @@ void check_video(const std::string& output) {
   try {
     if (run_process({"ffmpeg", "-version"}).code == 0) return;
   } catch (const Error&) {
-    // A program that is not there is handled like one that fails.
+    // A missing program is handled like one that fails.
   }
   throw Error(ExitCode::file_io, "--video needs ffmpeg, which is not installed: install it (Debian: ffmpeg)");
 }

@@ -10,7 +10,7 @@
 namespace eyeray::engine::cli {
 namespace {
 
-// Beyond, the spheres' TOML is larger than the loader reads.
+// The largest size factor whose TOML of spheres the loader can still read.
 constexpr int max_sphereflake_as_spheres = 6;
 
 struct SphereflakeCommand {

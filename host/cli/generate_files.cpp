@@ -21,7 +21,8 @@ namespace {
 
 constexpr std::string_view made_by = "Made by eyeray generate";
 
-// Error where `path` cannot be written, or holds somebody else's work.
+// Throws Error if `path` cannot be written, or, unless `force`, if it has a file that eyeray generate did not
+// make.
 void check_target(const fs::path& path, bool force) {
   std::string start(200, '\0');
   std::ifstream file(path, std::ios::binary);

@@ -25,19 +25,19 @@ struct Count {
 };
 
 struct Generated {
-  std::string recipe = {};         // the words after `eyeray generate` that make the same again
-  std::vector<Count> counts = {};  // of the scene file's entries
+  std::string recipe = {};         // the words after `eyeray generate` that make the same files again
+  std::vector<Count> counts = {};  // the numbers of the scene file's entries
   std::string scene = {};
   std::function<void(generate::MeshSink&)> mesh = {};  // empty: none
-  std::string mesh_keys = {};                          // of its [[mesh]], beside `file`
+  std::string mesh_keys = {};                          // the keys of its [[mesh]], except `file`
 };
 
 // Error (bad_input) for more triangles than a mesh may have.
 void check_triangles(double triangles);
 
 // Writes the mesh, then the scene, so that no scene names a missing mesh, and prints a summary. `make` is
-// called once the files are known to be writable. Error: file_io where they are not, or hold somebody else's
-// work, unless forced.
+// called once the files are known to be writable. Error (file_io) if they are not writable, or, unless
+// forced, if eyeray generate did not make them.
 void write_generated(const GenerateOutput& output, bool with_mesh, const std::function<Generated()>& make);
 
 }  // namespace eyeray::engine::cli

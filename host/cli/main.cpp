@@ -20,7 +20,8 @@ constexpr const char* footer =
     "Data goes to standard output, messages to standard error. With --json, a failure\n"
     "is JSON, too: {\"error\": ...}.";
 
-// A command of former versions, which users may still type. No list shows it.
+// Refuses `bench`, a command of former versions that users may still type, and names its successor. No list
+// shows it.
 void name_bench(CLI::App& app) {
   CLI::App* const command = app.add_subcommand("bench")->group("")->allow_extras();
   command->set_help_flag();
@@ -31,13 +32,13 @@ void name_bench(CLI::App& app) {
   });
 }
 
-// The worker of dev is another process of one command.
+// True for commands with --device, except for dev's worker: it belongs to a command that warns already.
 bool warns_of_caches(const CLI::App& command) {
   const CLI::Option* const worker = command.get_option_no_throw("--worker-socket");
   return command.get_option_no_throw("--device") && (!worker || worker->count() == 0);
 }
 
-// The words behind -- of `eyeray slurm`, which are sbatch's; they are taken off argc.
+// The words after -- of `eyeray slurm`, which are for sbatch; removes them from argc.
 std::vector<std::string> take_sbatch_words(int& argc, char** argv) {
   std::vector<std::string> words;
   if (argc < 2 || std::string_view(argv[1]) != "slurm") return words;

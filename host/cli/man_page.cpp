@@ -48,7 +48,7 @@ std::string synopsis(const CommandRow& command) {
   return text + ".RI [ OPTION ...]\n";
 }
 
-// Groups in the order in which they first come, as --help has them.
+// The options by group. Groups appear in the order of their first option, as in --help.
 std::string option_sections(const CommandRow& command) {
   std::string text = ".SH OPTIONS\n";
   for (const std::string& group : option_groups(command)) {

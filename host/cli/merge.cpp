@@ -1,4 +1,4 @@
-// eyeray merge: parts become a picture, and reports of parts of a suite one report.
+// eyeray merge: makes a picture of its parts, and one report of the reports on parts of a suite.
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
@@ -37,7 +37,7 @@ bool is_report(const std::string& file) {
   return fs::path(file).extension() == ".json";
 }
 
-// For programs that start missing parts again.
+// The faults as JSON, for programs that start missing parts again.
 Json to_json(const shards::PartFaults& faults, const shards::PartSet& set) {
   Json json{{"complete", !faults.any()}, {"shards", faults.count}, {"parts", set.parts().size()}};
   if (const shards::PartHeader* header = set.header()) {
@@ -103,7 +103,7 @@ session::Result MergeCommand::merge(shards::PartSet& set) const {
   return picture;
 }
 
-// Reports all faults, for callers that check the parts before the picture is wanted.
+// Reports all faults, for callers that only check the parts, before they want the picture.
 ExitCode MergeCommand::report_faults(const shards::PartSet& set) const {
   const shards::PartFaults& faults = set.faults();
   if (json) print_json(to_json(faults, set));

@@ -78,7 +78,7 @@ Json merged_report(const std::vector<std::string>& files) {
     if (!reports.contains(i)) faults.missing.push_back(i);
   if (faults.any()) throw Error(ExitCode::bad_input, "these reports cannot be merged: {}", faults.text());
 
-  // Scene i is the share's whose number is i modulo their count.
+  // Scene i belongs to the share with number i modulo the number of shares.
   Json scenes = Json::array();
   bool passed = true;
   for (const auto& [index, report] : reports) passed = passed && report.passed;

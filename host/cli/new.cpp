@@ -28,7 +28,8 @@ struct NewCommand {
   void write() const;
 };
 
-// All files or none: existing files stay, and a disk that is full keeps nothing.
+// Writes all files or none: an existing file is an error, and after a failure, such as a full disk, the
+// written files are removed.
 void NewCommand::write() const {
   for (const EmbeddedFile& file : project_files())
     if (const fs::path path = fs::path(folder) / file.name; fs::exists(path))

@@ -22,7 +22,7 @@ std::string spelled(const OptionRow& option) {
   return option.value.empty() ? text : text + " " + cell(option.value);
 }
 
-// A table for each group, in the order in which --help has them.
+// A table for each group, in the order of --help.
 std::string option_tables(const CommandRow& command) {
   std::string text;
   for (const std::string& group : option_groups(command)) {

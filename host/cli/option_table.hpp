@@ -1,4 +1,4 @@
-// The commands and options as registered with the command line, which --help prints. Man pages,
+// The commands and options that are registered with the command line, and that --help prints. Man pages,
 // completions and docs/options.md are made from them.
 #pragma once
 
@@ -12,8 +12,8 @@ class App;
 namespace eyeray::engine::cli {
 
 struct OptionRow {
-  std::vector<std::string> names;    // "-o", "--output"; of an argument its own, "SCENE"
-  std::string value;                 // "FILE", "SECONDS=60"; "" where it takes none
+  std::vector<std::string> names;    // "-o", "--output"; of an argument its name, "SCENE"
+  std::string value;                 // "FILE", "SECONDS=60"; "" if the option takes no value
   std::vector<std::string> choices;  // the allowed values; empty: any
   std::string text;
   std::string group;
@@ -21,7 +21,7 @@ struct OptionRow {
 };
 
 struct CommandRow {
-  std::string words;  // "generate terrain"; "" of the program itself
+  std::string words;  // "generate terrain"; "" for the program itself
   std::string text;
   std::string footer;
   std::vector<OptionRow> options;  // those that --help shows
@@ -30,12 +30,12 @@ struct CommandRow {
 
 CommandRow option_table(const CLI::App& app);
 
-// A command and all below it, itself first.
+// A command, followed by all commands below it.
 std::vector<const CommandRow*> all_commands(const CommandRow& table);
-// "terrain" of "generate terrain".
+// The last word of a command: "terrain" for "generate terrain".
 std::string last_word(const CommandRow& command);
 
-// The groups of its options, in the order in which --help has them.
+// The groups of a command's options, in the order of --help.
 std::vector<std::string> option_groups(const CommandRow& command);
 
 // "eyeray-generate-terrain.1", in roff's man macros.

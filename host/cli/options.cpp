@@ -1,5 +1,5 @@
-// Options that several commands share. What a scene may hold is the loader's to judge: an option becomes an
-// override.
+// Options that several commands share. An option becomes an override of the scene; the loader checks its
+// value.
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
@@ -24,7 +24,7 @@
 namespace eyeray::engine::cli {
 namespace {
 
-// Options that each lay one value over the scene.
+// An option that lays one value over the scene.
 struct ValueOption {
   const char* name;
   const char* value;
@@ -44,14 +44,14 @@ const reading::Key& key_of(const ValueOption& option) {
   return *std::ranges::find(loader::find_section(option.section)->keys, option.key, &reading::Key::name);
 }
 
-// "Samples a pixel: an integer from 1 to 65536.", by the key's row.
+// The option's text with the allowed values of its key: "Samples a pixel: an integer from 1 to 65536."
 std::string description_of(const ValueOption& option) {
   std::string values = describe(key_of(option));
   std::erase(values, '"');
   return fmt::format("{}: {}.", option.text, values);
 }
 
-// A file that has an embedded shader's name, but lies elsewhere, replaces nothing.
+// Warns of files that have an embedded shader's name but lie in another folder: they replace nothing.
 void warn_of_misplaced_shaders(const std::filesystem::path& folder) {
   std::error_code error;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, error)) {
@@ -70,7 +70,7 @@ void warn_of_misplaced_shaders(const std::filesystem::path& folder) {
   }
 }
 
-// The process is to have their runtime from its start.
+// Sets the sanitizers. Restarts the process, which needs their runtime from its start, unless it has it.
 void sanitize(executors::ExecutorOptions& options, const std::string& list) {
   if (list != "address" && list != "undefined" && list != "address,undefined" && list != "undefined,address")
     throw Error(ExitCode::bad_input, "--sanitize must be address, undefined or address,undefined, not '{}'",

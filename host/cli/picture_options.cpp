@@ -42,7 +42,7 @@ void PictureOptions::check_outputs() {
   for (const std::string& output : outputs) {
     if (!request.shard) image::image_format(output);
     check_writable(output);
-    // A checkpoint is removed when the picture is there.
+    // The two must differ: the checkpoint is removed when the picture is done.
     for (const std::string& file : {request.checkpoint.begin, request.checkpoint.resume}) {
       if (!file.empty() && fs::weakly_canonical(file) == fs::weakly_canonical(output))
         throw Error(ExitCode::bad_input, "{} cannot be both the picture and its checkpoint", file);
@@ -50,7 +50,7 @@ void PictureOptions::check_outputs() {
   }
 }
 
-// A part is a separate file of whole pixels of the picture.
+// Checks and completes the options of a share: a part is a separate file of whole pixels of the picture.
 void PictureOptions::check_shard() {
   if (classic)
     throw Error(
@@ -68,7 +68,7 @@ void PictureOptions::check_shard() {
 
 Scene PictureOptions::load() {
   Scene loaded = scene.load();
-  // The scene's samples are chosen for pictures in which all pixels have the same.
+  // The scene's number of samples is chosen for pictures in which all pixels have the same number.
   if (request.noise > 0 && !scene.gives_samples()) loaded.image.samples = most_samples_by_default;
   if (classic) make_classic(loaded, request);
   return loaded;

@@ -30,8 +30,8 @@ std::string place(const render::Progress& progress) {
   return parts.empty() ? "" : fmt::format("  {}", fmt::join(parts, ", "));
 }
 
-// From the longest text to the shortest. Rate and time left are those since `first`, the first report: the
-// driver may compile kernels until then.
+// Texts for the progress, from the longest to the shortest. Rate and time left count from `first`, the first
+// report: the driver may compile kernels until then.
 std::vector<std::string> describe(const render::Progress& progress, const render::Progress& first) {
   const std::string share = fmt::format("{:3.0f} %", share_of(progress) * 100);
   if (progress.samples_done == first.samples_done) return {share + place(progress), share};

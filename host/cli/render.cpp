@@ -1,4 +1,4 @@
-// eyeray render: a scene becomes picture files.
+// eyeray render: renders a scene to picture files.
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -25,9 +25,9 @@ struct RenderCommand {
   bool stats = false;
   bool quiet = false;
   bool json = false;
-  std::string frames;      // FIRST:LAST[:STEP]; empty: the one that the scene shows
-  std::string video;       // of them; empty: none
-  bool overwrite = false;  // frames that are there
+  std::string frames;      // FIRST:LAST[:STEP]; empty: only the frame that the scene shows
+  std::string video;       // of the frames; empty: none
+  bool overwrite = false;  // render frames again whose files exist
 
   ExitCode run();
 
@@ -60,7 +60,7 @@ void print_rays(const RayCounts& kinds, double seconds) {
   line("rays", kinds.total(), fmt::format(", {}", format_rate(double(kinds.total()) / seconds)));
 }
 
-// A sentence on a picture that was interrupted.
+// A sentence on the files that an interrupted picture has left.
 std::string what_was_kept(const session::Result& picture, bool aovs) {
   const std::string file = picture.checkpoint.string();
   std::string text;
@@ -139,7 +139,7 @@ session::Result RenderCommand::render(PictureOptions& wanted) {
   return result;
 }
 
-// One picture. `said`: the report on it as JSON.
+// Renders one picture. Sets `said` to the report on it, as JSON.
 ExitCode RenderCommand::run_picture(PictureOptions wanted, Json& said) {
   wanted.check_outputs();
   session::Request& request = wanted.request;
@@ -162,8 +162,8 @@ ExitCode RenderCommand::run_picture(PictureOptions wanted, Json& said) {
   return ExitCode::interrupted;
 }
 
-// The frames one after the other; as a share of N every N-th of them, whole. Those whose files are there are
-// kept as they are.
+// Renders the frames one after the other; a share of N renders every N-th frame, whole. Frames whose files
+// exist are kept, unless `overwrite`.
 ExitCode RenderCommand::run_frames() {
   std::vector<int> wanted = parse_frames(frames);
   if (const auto shard = std::exchange(options.request.shard, std::nullopt)) {

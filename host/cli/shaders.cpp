@@ -59,7 +59,7 @@ void ShadersCommand::print() const {
 }
 
 void ShadersCommand::write() const {
-  // Look before writing anything: a file that somebody has changed is not to be lost.
+  // Check all files before writing any: a file that somebody has changed must not be lost.
   std::vector<std::string> changed;
   for (const EmbeddedFile& shader : embedded_shaders()) {
     const fs::path path = fs::path(folder) / shader.name;

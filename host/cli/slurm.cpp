@@ -26,8 +26,8 @@ struct SlurmCommand {
   std::vector<std::string> render_words = {};
   int shards = 0;
   std::string folder;
-  std::string frames;  // FIRST:LAST[:STEP]; empty: the one that the scene shows
-  std::string video;   // of them; empty: none
+  std::string frames;  // FIRST:LAST[:STEP]; empty: only the frame that the scene shows
+  std::string video;   // of the frames; empty: none
   bool no_submit = false;
   bool quiet = false;
   bool json = false;
@@ -38,7 +38,7 @@ struct SlurmCommand {
   void add_outputs(slurm::Array& array, const fs::path& scene) const;
 };
 
-// The options that `render` has too, as they were given.
+// The given options that `render` has too, as words of its command line.
 std::vector<std::string> words_of_render(const CLI::App& command, const std::vector<std::string>& own) {
   std::vector<std::string> words;
   for (const CLI::Option* option : command.get_options()) {
@@ -65,7 +65,8 @@ void SlurmCommand::check_options() const {
   if (!video.empty()) check_video_name(video);
 }
 
-// Adds the array's outputs: a picture, by its last job, or frames, every N-th of them a share.
+// Adds the array's outputs: a picture, which its last job makes, or frames, of which each of N shares renders
+// every N-th.
 void SlurmCommand::add_outputs(slurm::Array& array, const fs::path& scene) const {
   std::vector<std::string> outputs = picture.outputs;
   if (outputs.empty())
@@ -94,7 +95,7 @@ void SlurmCommand::add_outputs(slurm::Array& array, const fs::path& scene) const
 }
 
 slurm::Array SlurmCommand::array_of(const std::string& scene) const {
-  // Faults of a scene are errors now, not on the nodes.
+  // Load the scene, so that its faults are reported now and not on the nodes.
   const Scene loaded = picture.scene.for_file(scene).load();
   session::crop_within(picture.request.crop, loaded.image);
 

@@ -45,9 +45,9 @@ struct VerifyCommand {
   std::vector<std::string> may_stay_unverified;
   std::string against;
   std::string update;                       // failing, force, or never: ""
-  std::optional<render::Shard> shard = {};  // of the scenes
-  std::vector<std::string> files = {};      // those that are verified
-  size_t suite_size = 0;                    // all, and …
+  std::optional<render::Shard> shard = {};  // the share of the scenes
+  std::vector<std::string> files = {};      // the scenes to verify
+  size_t suite_size = 0;                    // the number of all scenes, and …
   std::string suite = {};                   // … the text that names them and the options
 
   ExitCode run();
@@ -64,7 +64,7 @@ struct VerifyCommand {
   void check_options() const;
 };
 
-// Two folders may have a scene of one name.
+// The scene's path as one name: two folders may have scenes with the same file name.
 std::string VerifyCommand::name_in_folder(const std::string& scene) const {
   const fs::path file = fs::path(scene).lexically_normal();
   std::string name = fs::path(file).replace_extension("").relative_path().string();
@@ -78,7 +78,8 @@ fs::path VerifyCommand::folder_for(const std::string& scene) const {
   return keep.empty() ? fs::path(name + ".verify") : fs::path(keep) / name;
 }
 
-// In a folder, FOLDER/scenes-whitted.pfm.
+// The picture of --against: the .pfm that it names, or one in the folder that it names,
+// FOLDER/scenes-whitted.pfm.
 std::optional<verify::Golden> VerifyCommand::golden_of(const std::string& scene) const {
   if (against.empty()) return std::nullopt;
   const bool is_picture = fs::path(against).extension() == ".pfm";
@@ -89,7 +90,7 @@ std::optional<verify::Golden> VerifyCommand::golden_of(const std::string& scene)
                         EYERAY_VERSION};
 }
 
-// Every scene that was named, or lies in a folder that was.
+// Collects every scene that was named or lies in a named folder.
 void VerifyCommand::find_files() {
   std::vector<std::string> named{scene_options.file()};
   named.insert(named.end(), more_scenes.begin(), more_scenes.end());
@@ -106,7 +107,7 @@ void VerifyCommand::find_files() {
       throw Error(ExitCode::bad_input, "--allow-unverified {}: this is none of the scenes to verify", name);
 }
 
-// Every shard.count-th scene: neighbours in a folder are alike.
+// Keeps every shard.count-th scene: neighbours in a folder are alike.
 void VerifyCommand::keep_share() {
   ContentHash hash;
   for (const std::string& file : files) hash.add(file);
@@ -123,7 +124,7 @@ std::string VerifyCommand::report_in_json(std::span<const compare::Report> repor
   std::string text = compare::to_json(reports);
   if (!shard) return text;
   Json report = Json::parse(text);
-  // A share of no scenes has none that fails.
+  // A share without scenes has passed.
   if (reports.empty()) report["passed"] = true;
   report["shard"] = shard_of_report(*shard, suite_size, suite);
   return json_text(report) + "\n";
@@ -140,7 +141,8 @@ compare::Report VerifyCommand::report_on(const SceneOptions& scene_file) const {
                               options);
 }
 
-// One of several: that it cannot be rendered is no reason to leave out the others.
+// Reports on one of several scenes. An error goes into its report, so that the other scenes are still
+// verified.
 compare::Report VerifyCommand::report_on_one_of_many(const std::string& file) {
   try {
     return report_on(scene_options.for_file(file));
@@ -163,7 +165,7 @@ void VerifyCommand::record_allowance(const compare::Report& report) const {
   print_lines(stderr, "eyeray: recorded max_explained = {} in {}\n", share, report.scene);
 }
 
-// Writes the findings to files, beside standard output's text or JSON.
+// Writes the findings to files, in addition to the text or JSON on standard output.
 void VerifyCommand::write_reports(std::span<const compare::Report> reports) const {
   if (!junit.empty()) write_file_atomically(junit, to_junit(reports));
   if (!page_folder.empty()) {
@@ -222,7 +224,7 @@ ExitCode VerifyCommand::run() {
   for (const std::string& file : files) width = std::max(width, file.size());
   std::vector<compare::Report> reports;
   for (const std::string& file : files) {
-    // A share of a suite goes on as the suite does.
+    // A suite goes on after an error. A share of it does too, even if it has a single scene.
     reports.push_back(suite_size == 1 && fs::path(file) == fs::path(scene_options.file())
                           ? report_on(scene_options.for_file(file))
                           : report_on_one_of_many(file));
