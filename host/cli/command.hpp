@@ -21,7 +21,7 @@
 #include "host/scene/scene.hpp"
 
 namespace CLI {
-class App;  // <CLI/CLI.hpp> compiles for a second or more: only .cpp files with options include it
+class App;  // <CLI/CLI.hpp> compiles for a second or more: include it in .cpp files with options only
 }
 
 namespace eyeray::engine::cli {

@@ -44,8 +44,8 @@ std::string describe_size(const image::Image& image) {
                      image.channels() == 1 ? "" : "s");
 }
 
-// Data may hold any value, unlike colours. So values that are not finite become 0 if they are the same in
-// both images, and then count as equal.
+// Data may hold any value, unlike colours. Values that are not finite count as equal if both images have the
+// same: they are set to 0.
 void take_as_data(image::Image& a, image::Image& b) {
   if (!a.same_size(b)) return;
   for (size_t i = 0; i < a.sample_count(); ++i) {

@@ -37,7 +37,7 @@ class Board {
   };
   // Stores rows of a view's picture, from the worker: {"generation", "view", "width", "height", "row",
   // "rows", "sample", "stride", "channels"} and float32s; with "shown_as", a FalseColor. In a coarse picture
-  // (stride > 1) each pixel fills a square. Ignores a message whose sizes do not fit together.
+  // (stride > 1) each pixel fills a square. Ignores an inconsistent message.
   void put_rows(const Message& message);
   // A copy of a view's picture; empty if the view has none.
   std::optional<Picture> picture(const std::string& view) const;

@@ -20,24 +20,25 @@ namespace eyeray::engine::dev {
 // bands of rows, or else at the end of the current step.
 //
 //   {"do": "render", "revision": 7, "generation": 12, "defines": ["camera.eye=[0,1,5]"], "views": ["gpu"]}
-//     "tunables": {"shapes/sphere.glsl:WIDTH": [0.5]}, the values chosen for constants of shaders
-//     the same revision: the same files and defines, nothing is loaded or compiled anew;
-//     with "shaders_changed" the kernel of a scene without sliders is its own, which compiles in half the
-//     time, else one that does for other values too;
-//     with "previews" the twin paints "gpu" while a kernel compiles
-//   {"do": "probe", "x": 3, "y": 4}: in the last picture
+//     "tunables": {"shapes/sphere.glsl:WIDTH": [0.5]}: the values chosen for constants of shaders
+//     "revision": if it is the last one, files and defines are the same, and nothing is loaded or compiled;
+//     "shaders_changed": a scene without sliders gets a kernel for its values alone, which compiles in half
+//     the time; otherwise the kernel works for other values too;
+//     "previews": the twin paints "gpu" while a kernel compiles
+//   {"do": "probe", "x": 3, "y": 4}: probes a pixel of the last picture
 //
-// It sends, each with "event", and with the request's generation:
-//   "stage"   its present work: "load", "compile" or "render"
-//   "scene"   facts of the loaded scene: "width", "height", "samples", "files" that were read, "camera", and
-//             "scene_tunables", as below
+// It sends these messages, each with its name as "event", and with the request's generation:
+//   "stage"   the server's present work: "load", "compile" or "render"
+//   "scene"   facts of the loaded scene: "width", "height", "samples", "files" that were read, "camera",
+//             "warnings", and "scene_tunables", in the form of "tunables"
 //   "tunables"  adjustable constants of the shaders, each with "id", "owner", "name", "type", "low", "high",
 //             "written", "value"
 //   "rows"    see Board::put_rows; "preview": whether the twin made them; "processor_seconds"
-//   "done"    a view is complete, whether it is the "last": "device", "seconds", "stages", "rays",
-//             "samples", "doubts" (sentences), "files", "processor_seconds": all threads' since the request
+//   "done"    a view is complete: "view", "last" (whether no other follows), "device", "seconds", "stages",
+//             "rays", "samples", "doubts" (sentences), "files", "processor_seconds": all threads' since the
+//             request
 //   "failed"  "code", "message", "diagnostics"
-//   "probed"  the result of probe::to_json, as "findings", and its "text"; or "message" where it failed
+//   "probed"  the result of probe::to_json, as "findings", and its "text"; or "message" if the probe failed
 class RenderServer {
  public:
   struct Options {

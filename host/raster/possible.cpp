@@ -32,7 +32,7 @@ bool contains(const ScreenTriangle& triangle, const Vec2& point) {
 }
 
 // The error of a driver's floats in the plane through a sliver. The plane's slope is a quotient: differences
-// between products of the size of the triangle's length, divided by its area.
+// between products of coordinates as long as the triangle, divided by its area.
 double plane_error(const ScreenTriangle& triangle, double range) {
   const Vec2 u(triangle.at[1] - triangle.at[0]), v(triangle.at[2] - triangle.at[0]), w = v - u;
   const double square = std::max({glm::dot(u, u), glm::dot(v, v), glm::dot(w, w)});

@@ -54,7 +54,7 @@ class Possible {
 
   std::vector<Piece> pieces_;  // the pieces that may be seen
   bool covered_ = false;       // whether a sheet of triangles without a border near the centre covers it
-  double surely_ = -std::numeric_limits<double>::infinity();  // the nearest such sheet is this near
+  double surely_ = -std::numeric_limits<double>::infinity();  // the nearest such sheet is at least this near
   double tolerance_ = 0;
 };
 

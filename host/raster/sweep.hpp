@@ -20,8 +20,8 @@ struct Polyline {
 struct CurvePoint {
   Vec2 at, normal;
 };
-// Chords of the curve between parameters 0 and 1. It is halved until each piece is within `tolerance` of its
-// chord: a convex arc lies between the chord and the tangents at its ends.
+// Chords of the curve between parameters 0 and 1. The curve is halved until each piece is within `tolerance`
+// of its chord: a convex arc lies between the chord and the tangents at its ends.
 Polyline chords(const std::function<CurvePoint(double)>& curve, double tolerance);
 // A circle's arc between two angles, around `center`.
 Polyline arc(const Vec2& center, double radius, double from, double to, double tolerance);

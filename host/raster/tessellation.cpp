@@ -31,8 +31,8 @@ Mat4 sphere_map(const SphereForm& form) {
   return glm::translate(Mat4(1.0), form.center) * Mat4(form.axes * form.radius);
 }
 
-// An arc of the unit circle around (0, middle), between the angles `from` and `to` above it. An end on the
-// axis is exactly on it.
+// An arc of the unit circle around (0, middle), from angle `from` to `to` above the horizontal. Ends that
+// belong on the axis are exactly on it.
 Polyline meridian(double middle, double from, double to, double tolerance) {
   Polyline line = arc({0, middle}, 1, from, to, tolerance);
   if (from == -half_turn / 2) line.points.front() = {0, middle - 1};

@@ -60,8 +60,9 @@ class View {
   bool may_see(const Vec3& center, double radius) const;
 
   // Cuts a convex polygon to the part in front of the eye and near the picture: a region some pictures wide,
-  // in which float32 can resolve all corners. Calls visit(ScreenTriangle) for its triangles, which are `like`
-  // with other corners. Two polygons that share an edge get bitwise the same cut point on it.
+  // in which float32 can resolve all corners. Calls visit(ScreenTriangle) for the triangles of this part,
+  // which are `like` with other corners. Two polygons that share an edge get bitwise the same cut point on
+  // it.
   template <typename Visit>
   void cut(std::span<const Vec4> polygon, const ScreenTriangle& like, const Visit& visit) const {
     Polygon left(polygon);

@@ -25,7 +25,8 @@ class AdaptiveSampling {
   // Finishes the blocks that have little enough noise.
   void judge(film::Film& sums);
   bool finished() const { return left_ == 0; }
-  // Rectangles, in pixels of the band, that cover the unfinished blocks in rows [row, row + height).
+  // Rectangles, in pixels of the band, of the unfinished blocks in rows [row, row + height). judge() leaves
+  // small gaps between blocks of a row unfinished, since each rectangle is a dispatch.
   std::vector<Rect> left(int row, int height) const;
   // An estimate of the samples that all pixels together still need, at most `most` for each pixel: noise
   // falls with the square root of the number of samples.

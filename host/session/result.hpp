@@ -16,7 +16,7 @@
 namespace eyeray::engine::session {
 
 struct Result {
-  render::RenderTotals totals;  // `interrupted` is also true if first hits were
+  render::RenderTotals totals;  // `interrupted` also if the first hits were interrupted
   Rect crop;                    // the rendered area
   int samples = 0;              // requested for each pixel
   int64_t pixels = 0;           // of the crop, or of the share

@@ -100,7 +100,7 @@ class Rendering {
     result_.totals = render::render_rows(plan_.scene, executor_, options, [&](const film::Rows& rows) {
       output_times_.measure("encode", [&] { write(request_.classic ? corners.add(rows) : rows); });
     });
-    // A part must be whole: an interrupted share counts as without samples.
+    // A part must be whole: an interrupted share gives no picture.
     if (request_.shard && result_.interrupted()) result_.totals.samples_done = 0;
   }
 

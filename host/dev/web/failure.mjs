@@ -1,4 +1,4 @@
-// Errors over the picture and warnings beside it: each message with its place, which opens in the editor, and its source.
+// Errors over the picture and warnings beside it: each message with its source and its position, a link that opens the editor.
 
 const make = (tag, text) => Object.assign(document.createElement(tag), text === undefined ? {} : { textContent: text });
 
@@ -22,7 +22,7 @@ export function show_failure(place, failure) {
   place.replaceChildren(...(diagnostics.length > 0 ? diagnostics.map(item_of) : [make('p', failure.message)]));
 }
 
-// `doubts`: sentences on a picture that is not what it seems.
+// `doubts`: sentences that warn of a picture that may be wrong.
 export function show_warnings(panel, place, warnings, doubts) {
   panel.hidden = warnings.length === 0 && doubts.length === 0;
   place.replaceChildren(...warnings.map(item_of), ...doubts.map(doubt => make('p', doubt)));

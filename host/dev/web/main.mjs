@@ -1,4 +1,4 @@
-// eyeray dev's page: shows what the server's status says, and sends what is asked for.
+// eyeray dev's page: shows the server's status, and sends the user's commands.
 import { Stage } from './stage.mjs';
 import { orbited, nearer, flown } from './camera.mjs';
 import { show_failure, show_warnings } from './failure.mjs';
@@ -9,10 +9,10 @@ const $ = id => document.getElementById(id);
 const keys = { gpu: '1', twin: '2', reference: '3', difference: 'd' };
 
 let status = { pictures: {}, view: 'gpu' };
-let camera = null;         // as this page has moved it, until the server has it too; null: the server's
-let moved = -Infinity;     // when it was
+let camera = null;         // the camera as this page has moved it, until the server has it too; null: the server's camera
+let moved = -Infinity;     // when this page last moved the camera
 let mode = 'look';
-let shown_picture = '';    // view, version and exposure of what is on the stage
+let shown_picture = '';    // view, version and exposure of the picture on the stage
 let loading = false;
 
 const send = command =>
@@ -26,13 +26,13 @@ const stage = new Stage($('stage'), {
   wheel: steps => mode === 'orbit' && move_camera(nearer(camera_now(), 2 ** (-steps / 2))),
 });
 
-// Which state of a view's picture there is; nothing while there is none.
+// The version of a view's picture; undefined while there is no picture.
 function version_of(view) {
   const { gpu, reference, [view]: own } = status.pictures;
   return view === 'difference' ? gpu && reference && `${gpu}/${reference}` : own;
 }
 
-// One request at a time: the newest picture is fetched when the last one is there.
+// Fetches one picture at a time: the newest one, once the last one has arrived.
 async function refresh() {
   const version = version_of(status.view);
   const wanted = `${status.view} ${version} ${$('exposure').value}`;
@@ -74,7 +74,7 @@ function choose_pixel(at) {
   send({ probe: at });
 }
 
-// ---- Values that are moved: one request a frame at most, the newest of each ----
+// ---- Values that the user moves: at most one request a frame, with the newest of each ----
 let chosen = null;
 function choose(command) {
   if (!chosen) requestAnimationFrame(() => { send(chosen); chosen = null; });
@@ -99,7 +99,7 @@ function reset_camera() {
 // ---- The status ----
 const words = { starting: 'starting', load: 'loading', loading: 'loading', compile: 'compiling', render: 'rendering', done: 'done', failed: 'failed' };
 let probes = 0;
-let probed = null;  // the edit that the rays shown are of
+let probed = null;  // the edit to which the shown rays belong
 const report_whether_stale = () => { $('stale').hidden = probed === null || probed === status.edit; };
 function tell() {
   const name = status.scene.split('/').pop();
@@ -122,7 +122,7 @@ function tell() {
       `${(status.rays / Math.max(tracing, 1e-6) / 1e6).toPrecision(3)}\u00a0Mrays/s`;
     $('stages').textContent = [...Object.entries(status.stages).map(([name, s]) => `${name.padEnd(16)} ${ms(s)}`), '', status.device].join('\n');
   }
-  // Another page may have moved it since.
+  // Take the server's camera again: another page may have moved it.
   if (status.state === 'done' && performance.now() - moved > 1000) camera = null;
   $('reset').hidden = !('camera.eye' in (status.defines ?? {}));
   show_failure($('failure'), status.failure);
@@ -133,7 +133,7 @@ function tell() {
     probes = status.probes;
     fetch('probe').then(answer => answer.json()).then(answer => {
       probed = answer.edit;
-      stage.marked ??= [answer.x, answer.y];  // another page may have asked
+      stage.marked ??= [answer.x, answer.y];  // another page may have requested the probe
       stage.draw();
       show_probe($('probe'), answer);
       report_whether_stale();
@@ -169,7 +169,7 @@ events.onerror = () => {
   $('state').className = 'badge lost';
 };
 
-// ---- What is pressed ----
+// ---- Buttons and keys ----
 function choose_mode(name) {
   mode = name;
   $('pan').setAttribute('aria-pressed', mode === 'look');

@@ -1,4 +1,4 @@
-// The rays of one pixel, as `eyeray probe` prints them: a value once where all agree, and differences marked.
+// The rays of one pixel, as `eyeray probe` prints them: a value on which all agree appears once, and differences are marked.
 
 const make = (tag, text, name) => {
   const node = document.createElement(tag);
@@ -14,7 +14,7 @@ const text = (value, digits) => value === undefined ? '–' : [value].flat().map
 function line(value, executors) {
   const row = make('div', undefined, `line ${value.verdict ?? ''}`);
   row.append(make('span', value.name, 'name'));
-  if (!value.verdict) {  // numbers that agree are short, so that a vector fits in a line
+  if (!value.verdict) {  // shorten numbers that agree, so that a vector fits in a line
     const agreed = executors.map(name => value[name]).find(each => each !== undefined);
     row.append(Object.assign(make('span', text(agreed, digits_in_a_line)), { title: text(agreed, all_digits) }));
     return row;

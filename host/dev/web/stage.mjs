@@ -1,8 +1,8 @@
-// A picture on a canvas: zoomed, moved, and read to the single pixel.
+// A picture on a canvas: the user zooms it, moves it, and points at single pixels.
 
 export class Stage {
   // `on`: { hover([x, y] or null), click([x, y]), drag(dx, dy), wheel(steps) }; drag and wheel return whether
-  // they took the gesture, which else moves and zooms.
+  // they took the gesture; if not, it moves or zooms the picture.
   constructor(canvas, on) {
     this.canvas = canvas;
     this.on = on;
@@ -10,7 +10,7 @@ export class Stage {
     this.size = [0, 0];     // of the picture, in pixels
     this.marked = null;     // a pixel
     this.scale = 1;
-    this.x = this.y = 0;    // of the picture's corner, in CSS pixels
+    this.x = this.y = 0;    // the position of the picture's corner, in CSS pixels
     this.held = null;
     canvas.addEventListener('wheel', event => this.#wheel(event), { passive: false });
     canvas.addEventListener('pointerdown', event => this.#down(event));
@@ -39,7 +39,7 @@ export class Stage {
     this.draw();
   }
 
-  // About a place of the canvas, its middle if none is named.
+  // Zooms about the point `at` of the canvas, or about its middle.
   zoom(factor, at) {
     const box = this.canvas.getBoundingClientRect();
     const [x, y] = at ?? [box.width / 2, box.height / 2];

@@ -1,4 +1,4 @@
-// Sliders, colours and checkboxes for the constants of shaders that say so (docs/dev-loop.md).
+// Sliders, colours and checkboxes for values that shaders and the scene mark as adjustable (docs/dev-loop.md).
 
 const make = (tag, properties) => Object.assign(document.createElement(tag), properties);
 const hex = value => '#' + value.map(x => Math.round(Math.min(Math.max(x, 0), 1) * 255).toString(16).padStart(2, '0')).join('');
@@ -17,10 +17,10 @@ const in_toml = (type, value) => type === 'bool' ? String(value[0] !== 0) : type
 const from_toml = text => [JSON.parse(text)].flat().map(Number);
 
 const set_input = (type, input, value) => type === 'bool' ? input.checked = value[0] !== 0 : input.value = type === 'vec3' ? hex(value) : value[0];
-const still_mine = 1000;  // milliseconds for which a control that was moved here is not moved by what another page does
+const still_mine = 1000;  // milliseconds for which other pages do not move a control that was moved here
 
 let shown = '';
-let rows = [];  // what is on the page: { each, node, input, output, touched }
+let rows = [];  // the rows on the page: { each, node, input, output, touched }
 
 function show_value(row) {
   if (performance.now() - row.touched < still_mine) return;
@@ -46,8 +46,8 @@ function row_of(each) {
   return row;
 }
 
-// `of_shaders`, `of_scene`: what the server says there is; `chosen`, `defines`: the values that pages have chosen of them. `choose(command)` is called
-// while a control is moved.
+// `tunables`, `scene_tunables`: the tunables of shaders and scene that the server knows; `chosen`, `defines`: the values of these that pages have
+// chosen. Calls `choose(command)` while a control is moved.
 export function show_tunables(panel, place, { tunables = [], chosen = {}, scene_tunables = [], defines = {} }, choose) {
   const all = [
     ...(tunables ?? []).map(each => ({ ...each, now: chosen[each.id] ?? each.written, set: value => choose({ tunables: { [each.id]: value } }) })),
@@ -55,7 +55,7 @@ export function show_tunables(panel, place, { tunables = [], chosen = {}, scene_
                                              set: value => choose({ defines: { [each.id]: value && in_toml(each.type, value) } }) })),
   ];
   panel.hidden = all.length === 0;
-  // A control keeps its node while it is held: only other tunables make new ones.
+  // Make new nodes only for other tunables: a control that is held must keep its node.
   const key = JSON.stringify(all.map(each => [each.id, each.owner, each.name, each.type, each.low, each.high]));
   if (key !== shown) {
     shown = key;
