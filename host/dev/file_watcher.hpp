@@ -56,7 +56,7 @@ class FileWatcher {
   int fd_ = -1;
   std::map<int, Interest> interests_;  // by inotify's watch descriptor
   std::vector<std::string> endings_;
-  std::set<std::string> changed_;  // not yet taken
+  std::set<std::string> changed_;  // changed names that take_changes() has not returned yet
   double quiet_seconds_ = 0;       // to wait after the last change
   Stopwatch since_change_;
 };

@@ -104,13 +104,13 @@ class HttpServer::Loop {
     Loop& loop;
     MHD_Connection* connection;
     State state = State::asks;
-    bool suspended = false;  // by the library, while there is nothing to send
+    bool suspended = false;  // whether the library has suspended the connection: there is nothing to send
     Stopwatch watch;         // since it was accepted, or since its last event
     Request request;
     Answer answer;
     std::atomic<bool> has_answer = false;
-    std::string unsent;   // of the last event
-    uint64_t number = 0;  // of the last event
+    std::string unsent;   // the rest of the last event
+    uint64_t number = 0;  // the number of the last event
     std::jthread handler;
 
     int socket() const;

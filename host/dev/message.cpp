@@ -18,7 +18,7 @@
 namespace eyeray::engine::dev {
 namespace {
 
-using Sizes = std::array<uint32_t, 2>;  // of the text and of the bytes
+using Sizes = std::array<uint32_t, 2>;  // the sizes of the text and of the bytes
 
 constexpr size_t most_text = size_t{64} << 20;
 constexpr size_t most_bytes = size_t{1} << 30;

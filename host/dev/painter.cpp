@@ -14,7 +14,7 @@ namespace {
 // The wanted time for a band of rows: short enough for a picture that grows smoothly, and for edits, which
 // wait for the end of a band.
 constexpr double wanted_seconds = 0.04;
-constexpr int first_pixels = 4096;  // of the first band
+constexpr int first_pixels = 4096;  // the size of the first band
 constexpr int coarse_stride = 8;
 
 // Calls work(row, rows) for each band of a picture's rows, until it returns false.

@@ -21,10 +21,10 @@ namespace eyeray::engine::dev {
 struct SupervisorOptions {
   std::vector<std::string> worker;      // the command line of a RenderServer
   std::filesystem::path scene;          // watched from the start
-  std::filesystem::path shader_folder;  // likewise; empty: none
+  std::filesystem::path shader_folder;  // watched from the start; empty: none
   std::string view = "gpu";             // the view shown first
-  double timeout_seconds = 20;          // of a worker that sends nothing
-  std::optional<int> port;              // of the page; none: no page
+  double timeout_seconds = 20;          // the time-out of a worker that sends nothing
+  std::optional<int> port;              // the port of the page; none: no page
   bool once = false;                    // end with the first picture, or with its failure
 };
 
@@ -72,17 +72,17 @@ class Supervisor {
   SourceFiles::Clock::time_point began_;
   Stopwatch since_look_;  // since files were last checked without notification
 
-  int64_t revision_ = 0;         // of files and defines
-  int64_t generation_ = 0;       // of requests
-  int64_t edit_ = 0;             // of the pictures' sources: files, defines and values of shaders
-  bool busy_ = false;            // the worker has not answered the last request
-  bool heard_ = false;           // the worker has begun the last request
+  int64_t revision_ = 0;    // counts changes of files and defines
+  int64_t generation_ = 0;  // counts requests
+  int64_t edit_ = 0;        // counts changes of files, defines and values of shaders: the pictures' sources
+  bool busy_ = false;       // the worker has not answered the last request
+  bool heard_ = false;      // the worker has begun the last request
   bool shaders_changed_ = true;  // since the last picture
   WakefulStopwatch since_message_;
   std::string view_;
-  std::map<std::string, std::string> defines_;  // that the page laid over the scene
+  std::map<std::string, std::string> defines_;  // the values that the page laid over the scene
   Json tunables_ = Json::object();              // values that the page chose
-  std::optional<ExitCode> result_;              // of the last request
+  std::optional<ExitCode> result_;              // the result of the last request
   bool seen_any_ = false;                       // whether any picture was completed
   std::optional<std::pair<int, int>> probe_;    // the pixel to probe once the worker is idle
   bool probing_ = false;                        // the worker has this probe

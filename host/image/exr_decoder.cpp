@@ -52,7 +52,7 @@ class MemoryStream final : public Imf::IStream {
 
 struct Channel {
   int part;
-  std::string name;       // in its part
+  std::string name;       // the full name in its part
   std::string layer;      // "" for the picture itself
   std::string component;  // the name without the layer
 };

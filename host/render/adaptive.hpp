@@ -38,8 +38,8 @@ class AdaptiveSampling {
   const char* row_of_blocks(int y) const { return &active_[size_t(y) * size_t(columns_)]; }
 
   double target_;
-  int width_, height_;        // of the band, in pixels
-  int columns_, rows_;        // of blocks
+  int width_, height_;        // the size of the band, in pixels
+  int columns_, rows_;        // the numbers of blocks
   std::vector<char> active_;  // blocks, row by row
   int64_t left_ = 0;
 };

@@ -29,7 +29,7 @@ class Brightness {
 
  private:
   std::array<uint64_t, 2048>
-      counts_{};  // by the upper bits of a float32: exponent, and three of its fraction
+      counts_{};  // by the upper bits of a float32: its exponent, and three bits of its fraction
 };
 
 // The sum of the luminances of all pixels in rows of colours.

@@ -318,16 +318,16 @@ class Driver {
   const RowSink& sink_;
   const ShardTiles* const tiles_;
   const Rect crop_;       // the rendered area, or the stack of the tiles
-  const int64_t pixels_;  // of crop_, or of the tiles alone
+  const int64_t pixels_;  // the number of pixels in crop_, or in the tiles
   const int samples_;
   const film::Channels channels_;
   const bool has_auxiliaries_;
   const double shown_as_one_;
-  int band_rows_ = 1;  // of every band but the last, which may have fewer
+  int band_rows_ = 1;  // the rows of every band but the last, which may have fewer
 
   RenderPosition position_;
-  film::Film film_;                           // of the band
-  std::optional<AdaptiveSampling> adaptive_;  // of the band, with `noise`
+  film::Film film_;                           // the sums of the band
+  std::optional<AdaptiveSampling> adaptive_;  // the unfinished blocks of the band, with `noise`
   uint64_t samples_given_ = 0;                // samples of the rows passed to the sink
   int least_samples_;                         // the least that a pixel of these rows has
   double luminances_given_ = 0;               // the sum of the luminances in these rows

@@ -14,14 +14,14 @@ namespace eyeray::engine::render {
 class Checkpoint;  // render/checkpoint.hpp
 
 struct Progress {
-  uint64_t samples_done = 0;     // of pixels, resumed ones included
+  uint64_t samples_done = 0;     // the samples of all pixels so far, resumed ones included
   uint64_t samples_total = 0;    // with RenderOptions::noise an estimate
   uint64_t samples_resumed = 0;  // of samples_done, those that an earlier run took
   uint64_t rays = 0;             // traced by this run
   double seconds = 0;            // since this run's sampling began
-  int band = 0;                  // of `bands`, from 0
+  int band = 0;                  // the present one of `bands`, from 0
   int bands = 1;
-  int sample = 0;  // of the band's `samples` a pixel, from 0
+  int sample = 0;  // the present one of the band's `samples` a pixel, from 0
   int samples = 1;
 };
 
@@ -59,14 +59,14 @@ struct RenderTotals {
   int samples_done = 0;         // the samples that every pixel has; with RenderOptions::noise some have more
   int bands = 1;                // the number of bands
   bool interrupted = false;
-  double seconds = 0;            // of this run, of sampling alone
-  double processor_seconds = 0;  // the same, of all threads together
-  uint64_t samples_taken = 0;    // of pixels, resumed ones included
+  double seconds = 0;            // sampling in this run, nothing else
+  double processor_seconds = 0;  // the processor time of these seconds, of all threads together
+  uint64_t samples_taken = 0;    // the samples of all pixels, resumed ones included
   uint64_t samples_total = 0;    // as in Progress
   uint64_t samples_resumed = 0;
   uint64_t rays_resumed = 0;
   RayCounts ray_kinds;     // of this run, if requested
-  int most_samples = 0;    // of a pixel
+  int most_samples = 0;    // the most samples of a pixel
   uint64_t fireflies = 0;  // Brightness::fireflies of this run
   Brightness brightness;   // of this run's samples
   uint64_t clamped = 0;    // samples of this run that RenderOptions::clamp changed

@@ -18,7 +18,7 @@ struct Plan {
   const Request& request;
   const Scene& scene;
   const executors::Executor& executor;
-  Rect crop;  // of the picture
+  Rect crop;  // the rendered area of the picture
   film::Channels channels;
   bool fast_math;                   // ExecutorOptions::fast_math
   const render::ShardTiles* tiles;  // the tiles of the share; null if the whole crop is rendered

@@ -19,7 +19,7 @@ struct Result {
   render::RenderTotals totals;  // `interrupted` also if the first hits were interrupted
   Rect crop;                    // the rendered area
   int samples = 0;              // requested for each pixel
-  int64_t pixels = 0;           // of the crop, or of the share
+  int64_t pixels = 0;           // the number in the crop, or in the share
   std::optional<render::Shard> shard;
   std::string device;         // Executor::description()
   uint64_t flagged_hits = 0;  // pixels; 0 if no channel is made of first hits
