@@ -15,8 +15,8 @@
 namespace eyeray::engine::library {
 namespace {
 
-// One call's at a time. A forked child has none of its parent's threads, so a call of theirs holds nothing
-// there.
+// The engine's lock, which one call holds at a time. A forked child has none of its parent's threads, so
+// their calls hold no lock in it.
 struct Engine {
   pid_t process = ::getpid();
   std::timed_mutex mutex;
@@ -51,7 +51,7 @@ v0::ErrorKind kind_of(ExitCode code) {
   }
 }
 
-// Waits for those who came before.
+// Waits for earlier calls, and takes the lock.
 std::unique_lock<std::timed_mutex> enter(const std::atomic<bool>* stop) {
   std::unique_lock lock(engine(), std::defer_lock);
   constexpr std::chrono::milliseconds slice(10);

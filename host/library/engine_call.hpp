@@ -1,4 +1,4 @@
-// A call of the engine on behalf of a program that is not eyeray's.
+// Calls of the engine by a program that is not eyeray's.
 #pragma once
 
 #include <eyeray/eyeray.hpp>
@@ -16,8 +16,8 @@ namespace eyeray::engine::library {
 
 std::vector<v0::Diagnostic> to_public(const std::vector<Diagnostic>& diagnostics);
 
-// While one is alive this thread serves a call, whose end it must not wait for: it runs the call, or its
-// callback.
+// While an InsideCall is alive, its thread runs a call or the call's callback. So that thread must not wait
+// for the call's end.
 class InsideCall {
  public:
   InsideCall();
@@ -29,10 +29,10 @@ class InsideCall {
   bool before_;
 };
 
-// Runs `work`, alone in this process: the engine's device, signals and time-outs are the process's. Any
-// exception of the engine becomes a v0::Error; one of a user's callback goes through. `stop`, where there
-// is one, ends the wait for other calls and the work: v0::Error (cancelled). v0::Error (bad_input) inside
-// another call, as from its `progress`.
+// Runs `work`, alone in this process: the engine's device, signals and time-outs belong to the process. An
+// exception of the engine becomes a v0::Error; an exception of a user's callback goes through. `stop`, unless
+// null, ends the wait for other calls and the work: v0::Error (cancelled). Inside another call, for example
+// in its `progress`: v0::Error (bad_input).
 void call_engine(const std::function<void()>& work, const std::atomic<bool>* stop = nullptr);
 
 // Runs `work` as call_engine does, and returns its result.

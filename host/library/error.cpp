@@ -7,7 +7,7 @@
 
 namespace eyeray::inline v0 {
 
-// Copies of an exception must not throw: they share.
+// Copies of an exception must not throw, so they share the diagnostics.
 Error::Error(ErrorKind kind, const std::string& what, std::vector<Diagnostic> diagnostics)
     : std::runtime_error(what),
       kind_(kind),

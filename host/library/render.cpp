@@ -44,7 +44,7 @@ class Planes final : public session::Output {
  private:
   v0::Picture::Data& picture_;
   Rect crop_;
-  std::vector<int> rows_;  // of each plane, that are there
+  std::vector<int> rows_;  // the number of rows that each plane has so far
 };
 
 session::Request request_of(const v0::RenderOptions& options) {
@@ -93,7 +93,7 @@ Picture Renderer::render(const Scene& scene, const RenderOptions& options) {
     if (error.kind() != ErrorKind::cancelled) throw;
     picture->complete = false;
   }
-  // Rows of bands are no picture.
+  // Without a finished sample there are only some rows, which are no picture.
   if (picture->samples_done == 0) picture->color = {}, picture->aovs.clear();
   return Picture(std::move(picture));
 }

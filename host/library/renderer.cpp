@@ -1,4 +1,4 @@
-// The renderer of the library, and the state its calls share.
+// The renderer of the library, and the state that its calls share.
 #include "host/library/renderer.hpp"
 
 #include <unistd.h>
@@ -36,7 +36,7 @@ void open_device(v0::Renderer::Data& renderer, const executors::GpuOptions& opti
                 "first picture, or use the backend twin");
   if (renderer.device) return;
   std::shared_ptr<executors::OpenDevice> opened = executors::open_device(options);
-  // A forked child cannot close it either: it is left to the end of the process.
+  // A forked child cannot close the device either, which stays open until the child ends.
   renderer.device = {opened.get(), [opened, opener = ::getpid()](executors::OpenDevice*) mutable {
                        if (opener != ::getpid()) new std::shared_ptr(std::move(opened));
                      }};
@@ -104,12 +104,12 @@ Renderer::Renderer(const RendererOptions& options) : data_(std::make_unique<Data
 }
 
 Renderer::~Renderer() {
-  // Closing the device calls the driver, which is one call's at a time.
+  // Closing the device calls the driver, which may serve only one call at a time.
   if (!data_ || !data_->device) return;
   try {
     engine::library::call_engine([this] { data_.reset(); });
   } catch (const Error&) {
-    static_cast<void>(data_.release());  // inside a call, which may be using it
+    static_cast<void>(data_.release());  // we are inside a call, which may be using the device
   }
 }
 Renderer::Renderer(Renderer&&) noexcept = default;

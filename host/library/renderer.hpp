@@ -20,7 +20,7 @@ struct Cancellation::Data {
 
 struct Renderer::Data {
   RendererOptions options;
-  std::shared_ptr<engine::executors::OpenDevice> device = nullptr;  // once the backend gpu was used
+  std::shared_ptr<engine::executors::OpenDevice> device = nullptr;  // null until the backend gpu is used
   bool warned_of_caches = false;
 };
 
@@ -36,7 +36,7 @@ executors::ExecutorOptions executor_options(v0::Renderer::Data& renderer, bool g
 // The callback for render::RenderOptions: calls `progress`, and requests `cancellation` if it returns false.
 std::function<void(const render::Progress&)> progress_of(
     const std::function<bool(const v0::Progress&)>& progress, const v0::Cancellation& cancellation);
-// Runs `work` as call_engine does. A device that was lost on the way is not used again.
+// Runs `work` as call_engine does. A device that is lost during the call is not used again.
 void call_renderer(v0::Renderer::Data& renderer, const v0::Cancellation& cancellation,
                    const std::function<void()>& work);
 

@@ -16,7 +16,7 @@ struct Scene::Data {
   engine::Scene scene;
   std::vector<Diagnostic> warnings;
 
-  // Checks a scene that was read as the program does.
+  // Checks a scene that has been read, as the program checks it.
   static Scene checked(engine::Scene scene);
 };
 
@@ -24,7 +24,7 @@ struct Scene::Data {
 
 namespace eyeray::engine::library {
 
-// v0::Error as v0::Scene::parse.
+// Throws the same v0::Error as v0::Scene::parse.
 v0::Scene parse(std::string_view toml, std::string_view name, const v0::SceneOptions& options,
                 const loader::MemoryFiles& files);
 

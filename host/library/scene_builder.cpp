@@ -1,5 +1,5 @@
-// Scenes built in code: text, as a file would hold it, and meshes as the bytes of .ply files, so that there
-// is one reader, which trusts neither.
+// Scenes built in code become the text of a scene file, and meshes become the bytes of .ply files. So there
+// is one reader for all scenes, which trusts neither text nor bytes.
 #include <eyeray/eyeray.hpp>
 
 #include <array>

@@ -1,4 +1,5 @@
-// Values and tables as TOML: strings escaped, numbers as short as they can be read back the same.
+// Values and tables as TOML: strings are escaped, and numbers have the shortest text that is read back
+// the same.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -42,8 +43,8 @@ std::string lines(const v0::Table& table) {
 
 namespace eyeray::inline v0 {
 
-// to_chars writes the shortest text that is read back the same. A text without point and exponent is read as
-// an integer, which every key that wants a number takes, and keys that want an integer take from 3.0.
+// to_chars writes the shortest text that is read back the same. A text without point and exponent, such
+// as "3" for 3.0, is read as an integer, which keys for numbers accept as well as keys for integers.
 std::string Value::of_floating(double value) {
   if (std::isnan(value)) return "nan";
   if (std::isinf(value)) return value > 0 ? "inf" : "-inf";

@@ -8,9 +8,9 @@
 
 namespace eyeray::engine::library {
 
-// A key, quoted where it has to be.
+// A key as TOML, quoted if it must be.
 std::string key_text(std::string_view key);
-// "key = value", a line each.
+// The table's entries, each as a line "key = value".
 std::string lines(const v0::Table& table);
 
 }  // namespace eyeray::engine::library

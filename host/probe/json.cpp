@@ -1,4 +1,4 @@
-// The tree for programs.
+// The ray tree as JSON, for programs.
 #include <nlohmann/json.hpp>
 
 #include "host/core/escaped_text.hpp"

@@ -71,7 +71,7 @@ class Judge {
     return reference_.empty() || !line.values[reference_[0]] ? nullptr : &*line.values[reference_[0]];
   }
 
-  // True if some of the executors have the ray, and others have not.
+  // True if some of the executors have the ray, and others lack it.
   bool misses(const Ray& ray) const {
     return !incomplete_ && std::ranges::find(ray.traced, false) != ray.traced.end();
   }
@@ -96,8 +96,8 @@ class Judge {
     return line ? reference(*line) : nullptr;
   }
 
-  // The tolerance of a coordinate along this ray and at its origin: compare::t_tolerance. Rays start up to
-  // eight times as far off a surface as its position is uncertain (geometry/ray.glsl).
+  // The tolerance of a coordinate along this ray and at its origin: compare::t_tolerance. A ray starts
+  // off its surface by up to eight times the uncertainty of the surface's position (geometry/ray.glsl).
   double coordinate_tolerance(const Ray& ray) const {
     double reach = 0, t_scale = 0;
     for (const char* point : {"origin", "position", "first_hit_position"})
@@ -130,7 +130,7 @@ class Judge {
   }
 
   // True if the hit of this ray, or of one before it, is another primitive somewhere around the pixel. There
-  // all values run like a square root, and may lie as far beyond the range around the pixel as it is wide.
+  // all values vary like a square root, and may lie beyond the range around the pixel by that range's width.
   bool at_rim(const Ray& ray) const {
     for (const Ray* at = &ray; at->kind != RayKind::pixel; at = &overlay_.rays()[at->parent]) {
       const Line* const primitive = find_line(*at, "primitive");
@@ -140,8 +140,8 @@ class Judge {
     return false;
   }
 
-  // True if executor i's value is neither the reference's within tolerance nor, if `around`, within tolerance
-  // of the reference's range around the pixel.
+  // True if executor i's value is beyond tolerance of the reference's value and, if `around`, also beyond
+  // tolerance of the reference's range around the pixel.
   bool beyond(const Ray& ray, const Line& line, size_t i, bool around) const {
     const ProbedValue* const other = reference(line);
     if (!other || !line.values[i]) return false;

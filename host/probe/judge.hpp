@@ -13,7 +13,7 @@ namespace eyeray::engine::probe {
 // The meaning of a value, by its name. `scale`: the reference's FirstHit::t_scale, for the judge alone.
 enum class Meaning { point, distance, direction, uv, color, scale, other };
 Meaning meaning_of(std::string_view name);
-// Begins the names of values from the kernel of first hits, which the pixel has besides.
+// The prefix of names of values from the kernel of first hits, which the pixel has in addition to its own.
 inline constexpr std::string_view first_hit_prefix = "first_hit_";
 
 // Sets every verdict and every difference; points are relative to the eye. `add_around`, called if anything

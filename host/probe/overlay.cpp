@@ -7,7 +7,7 @@
 namespace eyeray::engine::probe {
 namespace {
 
-// The number of earlier occurrences: among equal ones, the n-th is matched with the n-th.
+// Counts how often each key has occurred: of elements with equal keys, the n-th is matched with the n-th.
 template <typename Key>
 class Occurrences {
  public:
@@ -62,8 +62,8 @@ Overlay::Overlay(size_t executors) : executors_(executors) {
 }
 
 void Overlay::add(size_t executor, const RayTree& tree) {
-  std::vector<size_t> places;                    // of the tree's rays, in rays_
-  std::vector<std::vector<size_t>> line_places;  // of their values, in lines
+  std::vector<size_t> places;                    // the index in rays_ of each ray of the tree
+  std::vector<std::vector<size_t>> line_places;  // the index in Ray::lines of each of their values
   Occurrences<SiblingKey> occurrences;
   for (const ProbedRay& ray : tree.rays) {
     size_t place = 0;

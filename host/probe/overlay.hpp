@@ -1,5 +1,5 @@
-// The ray trees of one sample by several executors, laid over each other. A ray is known by its way through
-// the tree and a value by its name, whatever the order in which they came.
+// The ray trees of one sample by several executors, laid over each other. The order in
+// which they were recorded does not matter: rays are matched by their way through the tree, values by names.
 #pragma once
 
 #include <array>
@@ -13,14 +13,14 @@
 
 namespace eyeray::engine::probe {
 
-// Why values, or which of the executors have a ray, are as they are: `explained` is as in verify, the
-// reference itself is as far apart within a few thousandths of a pixel.
+// The judgement of a line's values, or of which executors have a ray. `explained`, as in verify: the
+// reference itself differs by as much within a few thousandths of a pixel.
 enum class Verdict { agrees, explained, differs };
 
 // The range of the reference's values around the pixel.
 struct Range {
   std::array<double, 4> low, high;
-  std::vector<double> whole;  // of whole numbers and truths, each that occurs
+  std::vector<double> whole;  // for whole numbers and truths: each value that occurs
 
   explicit Range(const ProbedValue& value);
   void include(const ProbedValue& value);
@@ -37,13 +37,13 @@ struct Line {
 struct Ray {
   RayKind kind;
   uint32_t number;           // see ProbedRay
-  size_t parent;             // in Overlay::rays
+  size_t parent;             // its index in Overlay::rays
   size_t place;              // how many of the parent's lines come before it
   std::vector<bool> traced;  // by each executor
   std::vector<size_t> children = {};
   std::vector<Line> lines = {};
-  bool missed_around = false;         // whether the reference has no such ray somewhere around the pixel …
-  bool traced_around = false;         // … and whether it has
+  bool missed_around = false;         // whether the reference lacks the ray at some point around the pixel
+  bool traced_around = false;         // whether the reference has the ray at some point around the pixel
   Verdict verdict = Verdict::agrees;  // of `traced`
   std::string difference = {};
 };
@@ -61,8 +61,8 @@ class Overlay {
   std::vector<Ray>& rays() { return rays_; }
   const std::vector<Ray>& rays() const { return rays_; }
 
-  // Calls ray(i) and line(i, k) for everything, in the order of a ray's life: its lines with its shadow rays
-  // among them, then the rays it leads to.
+  // Calls ray(i) for each ray and line(i, k) for each line, in the order of a ray's life: its lines with its
+  // shadow rays among them, then the rays that it leads to.
   template <typename OnRay, typename OnLine>
   void in_order(const OnRay& ray, const OnLine& line, size_t from = 0) const {
     ray(from);
@@ -74,7 +74,7 @@ class Overlay {
     }
     for (; next < below.size(); ++next) in_order(ray, line, below[next]);
   }
-  // The number of rays that lead to it; 0 for the camera ray.
+  // The number of rays that lead to `ray`; 0 for the camera ray.
   int depth(size_t ray) const;
 
  private:

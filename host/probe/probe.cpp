@@ -91,7 +91,7 @@ class Pixel {
     return sample;
   }
 
-  // By the rules of verify, of the colours alone.
+  // The first sample whose colours differ by the rules of verify; 0 if none does.
   uint32_t first_that_differs() {
     for (uint32_t index = 0; scene_.image.samples > 1 && index < uint32_t(scene_.image.samples); ++index) {
       std::optional<Vec3> exact, reference;

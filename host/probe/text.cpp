@@ -1,4 +1,4 @@
-// The tree for people: a line a value, an executor a column.
+// The ray tree as text for people: a line for each value, a column for each executor.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ std::string numbers(const ProbedValue& value, const Vec3& origin) {
 
 struct Row {
   std::string label;
-  std::vector<std::string> cells;  // none: of a ray
+  std::vector<std::string> cells;  // none in the row of a ray
   Verdict verdict = Verdict::agrees;
   std::string remark = {};
   bool first = false;  // the first difference
@@ -94,7 +94,7 @@ class Table {
            (verdict == Verdict::explained ? " (explained)" : "");
   }
 
-  // Names in it may come from files.
+  // Adds a row. It becomes printable, because names in it may come from files.
   void add_row(Row row) {
     row.label = log_line(row.label);
     row.remark = log_line(row.remark);

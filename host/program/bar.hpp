@@ -15,7 +15,7 @@ class Bar {
   // Null where standard error is no terminal that can draw over a line.
   static std::shared_ptr<Bar> on_terminal();
   ~Bar();
-  // The first of `texts` that fits, behind a bar where there is room for one.
+  // Draws the first of `texts` that fits, behind a bar if there is room for one.
   void draw(std::span<const std::string> texts, double share);
 
  private:
@@ -25,9 +25,9 @@ class Bar {
 // The texts of the progress line while kernels compile, from the longest to the shortest.
 std::span<const std::string> compiling_texts();
 
-// Shows on a terminal that kernels compile, by the same line, for commands that report no progress;
-// `and_then` is added to it. The line is wiped away when the returned pointer goes: before anything else is
-// printed.
+// Shows on a terminal that kernels compile, on the progress line, for commands that report no progress.
+// `and_then` is added to the line. Before anything else is printed, the returned pointer must be released,
+// which wipes the line away.
 std::shared_ptr<void> show_compiling(std::string_view and_then = "");
 
 }  // namespace eyeray::engine::program

@@ -65,7 +65,7 @@ class HelpFormatter final : public CLI::Formatter {
     label("REQUIRED", "");
     label("SUBCOMMAND", "COMMAND");
   }
-  // Without the value that a flag stands for, which CLI11 puts in braces.
+  // The option's name without the value that a flag stands for, which CLI11 adds in braces.
   std::string make_option_name(const CLI::Option* option, bool is_positional) const override {
     std::string name = CLI::Formatter::make_option_name(option, is_positional);
     for (size_t open; (open = name.find('{')) != std::string::npos;)

@@ -64,7 +64,7 @@ int run_reported(const Reporter& report, int argc, char** argv,
     report({ExitCode::file_io, "cannot make or read {}: {}", error.path1().string(), error.code().message()});
     return int(ExitCode::file_io);
   } catch (const std::system_error& error) {
-    // fmt does not name the stream.
+    // fmt's error does not name the stream.
     if (std::ferror(stdout))
       report({ExitCode::file_io, "cannot write to standard output: {}", error.code().message()});
     else
@@ -76,8 +76,8 @@ int run_reported(const Reporter& report, int argc, char** argv,
   }
 }
 
-// True under --sanitize address. AddressSanitizer reports a fault when it happens; nothing is left for the
-// exit.
+// True under --sanitize address. AddressSanitizer reports a fault when it happens, so nothing is left to
+// report at exit.
 bool sanitizer_is_preloaded() {
   const char* const preloaded = std::getenv("LD_PRELOAD");
   return preloaded && std::string_view(preloaded).find("asan") != std::string_view::npos;

@@ -6,7 +6,7 @@
 
 namespace eyeray::engine::program {
 
-// Runs a program's command line, which answers the exit code. Turns every way in which it can fail into words
+// Runs a program's command line, which returns the exit code. Turns every way in which it can fail into words
 // on standard error and an exit code; under --json into JSON on standard output, too. To be called first: it
 // may start the program anew (huge_pages.hpp).
 int run_main(int argc, char** argv, const std::string& name,

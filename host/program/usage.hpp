@@ -10,8 +10,8 @@ namespace eyeray::engine::program {
 // The output of --help and --version.
 void describe(CLI::App& app, const std::string& name, const std::string& text, const std::string& footer);
 
-// The exit code where the command line has its answer already: --help, --version. Error (bad_input) for a
-// mistake, with the name that was probably meant.
+// Parses a command line. Returns the exit code if --help or --version has answered it already. Error
+// (bad_input) for a mistake, with the name that was probably meant.
 std::optional<int> parse(CLI::App& app, int argc, char** argv);
 
 // The command that was named, down to its own subcommand; the app itself when there was none.

@@ -26,7 +26,7 @@ constexpr int most_pixels_of_side = 65536;
   throw Error(ExitCode::file_io, "it is damaged: {}", what);
 }
 
-// Parses a text and returns read(json). Error (file_io) where this program has not written it.
+// Parses a text and returns read(json). Error (file_io) if this program did not write it.
 template <typename Read>
 auto read_json(const std::string& text, const char* what, const Read& read) {
   try {

@@ -9,19 +9,19 @@
 //   16       4       CRC-32 of all above
 //   20       n       PartHeader as JSON
 //            4       CRC-32 of these n bytes
-//            …       the planes: the picture, then an AOV each. Of each the shard's tiles in order
-//                    (render/tiling.hpp), and of each tile
-//                      its pixels, row by row, as many float32 each as the plane has channels;
-//                      4 bytes: CRC-32 of the plane so far, begun with that of the header and of the plane's
-//                      number
+//            …       the planes: the picture, then each AOV. A plane has the shard's tiles in order
+//                    (render/tiling.hpp). A tile has
+//                      its pixels, row by row, each with one float32 for each channel of the plane;
+//                      4 bytes: CRC-32 of the plane so far, which starts from the CRC-32 of the header and
+//                      of the plane's number
 //            4       m
 //            m       PartTotals as JSON
 //            4       CRC-32 of m and of these m bytes
 //
-// No byte stands outside of a sum, and a sum detects every flipped bit and every run of damage of up to 32.
+// Checksums cover every byte. They detect every flipped bit, and every run of damage of up to 32 bits.
 //
-// Pixels are the picture's own, the means of their samples in float32. All samples of a pixel are taken by
-// one shard, in the order in which one machine takes them, so that nothing is left to be added up.
+// Pixels are those of the picture: the means of their samples in float32. One shard takes all samples of a
+// pixel, in the order in which one machine takes them, so that nothing is left to be added up.
 #pragma once
 
 #include <optional>
@@ -38,12 +38,12 @@
 
 namespace eyeray::engine::shards {
 
-// Known before the first sample.
+// The facts of a part that are known before its first sample.
 struct PartHeader {
   render::Shard shard;
-  std::string scene;  // its file, as it was named
-  Rect area;          // of the picture, that all parts together are
-  int samples = 1;    // a pixel
+  std::string scene;  // the scene's file, as it was named
+  Rect area;          // the area of the picture that all parts together cover
+  int samples = 1;    // per pixel
   image::Tone tone;
   double clamp = 0;           // RenderOptions::clamp
   bool random_paths = false;  // whether bright samples may be fireflies
@@ -57,7 +57,7 @@ struct PartHeader {
   int channels(size_t plane) const { return plane == 0 ? 3 : aovs[plane - 1]->components; }
 };
 
-// Known after the last.
+// The facts of a part that are known after its last sample.
 struct PartTotals {
   uint64_t rays = 0;
   uint64_t flagged_pixels = 0;
@@ -68,14 +68,14 @@ struct PartTotals {
   std::optional<RayCounts> ray_kinds;      // where they were asked for
   double seconds = 0;                      // of sampling
   double processor_seconds = 0;            // the same, of all threads
-  std::vector<film::LegendTally> legends;  // one an AOV, empty of those that have none
+  std::vector<film::LegendTally> legends;  // one for each AOV, empty if it has no legend
 
   // Adds the totals of another part. Kinds of rays are known only if both know them.
   void add(const PartTotals& other);
 };
 
-// Conversions to the file's text, and back. For any other text the latter throws Error (file_io), whose words
-// name the fault.
+// Conversions to the file's text, and back. The conversions back throw Error (file_io), which names the
+// fault, for any other text.
 std::string to_text(const PartHeader& header);
 PartHeader header_of(const std::string& text);
 std::string to_text(const PartTotals& totals);
@@ -91,7 +91,7 @@ uint32_t plane_checksum(uint32_t header_checksum, size_t plane);
 
 // "3/64": counted from 1, as people do.
 std::string shard_text(const render::Shard& shard);
-// Parses that text; Error (bad_input) if it is no share.
+// Parses that text; Error (bad_input) if it names no shard.
 render::Shard parse_shard(const std::string& text);
 
 }  // namespace eyeray::engine::shards

@@ -37,7 +37,7 @@ uint32_t sum_of(std::string_view bytes) {
 }  // namespace
 
 PartReader::PartReader(std::filesystem::path file) : file_(std::move(file)) {
-  // Not to wait for a writer, where that is a pipe.
+  // O_NONBLOCK: if the file is a pipe, open() must not wait for a writer.
   descriptor_ = ::open(file_.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (descriptor_ < 0) refuse_for(errno);
   try {
@@ -79,7 +79,7 @@ void PartReader::read_header() {
   if (::fstat(descriptor_, &status) != 0) refuse_for(errno);
   if (!S_ISREG(status.st_mode)) refuse("it is not a regular file");
   bytes_ = uint64_t(status.st_size);
-  // The `size` bytes at `offset`; refuses a file that ends before.
+  // The `size` bytes at `offset`; refuses a file that ends earlier.
   const auto text_at = [&](uint64_t offset, uint64_t size) {
     if (offset > bytes_ || size > bytes_ - offset) refuse("it is damaged: it ends too early");
     std::string text(size, '\0');
@@ -138,7 +138,7 @@ void PartReader::read_tile(size_t number, std::vector<float>& pixels) {
   Plane& plane = planes_[number];
   CHECK_LT(plane.tile, tile_pixels_.size());
   const size_t values = size_t(tile_pixels_[plane.tile]) * size_t(header_.channels(number));
-  pixels.resize(values + 1);  // the last: the checksum
+  pixels.resize(values + 1);  // the last one receives the checksum
   const auto bytes = std::as_writable_bytes(std::span(pixels));
   read_at(plane.end, bytes);
   plane.end += bytes.size();

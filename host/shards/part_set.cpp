@@ -39,7 +39,7 @@ std::string ranges(const std::vector<int>& indices, int count) {
   return fmt::format("{}", fmt::join(texts, ", "));
 }
 
-// All files are open at once: as many as the system lets a process have.
+// Raises this process's limit on open files as far as the system allows, since all files are open at once.
 void allow_open_files() {
   rlimit limit{};
   if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
@@ -124,7 +124,8 @@ PartSet::PartSet(const std::vector<std::filesystem::path>& files) {
   }
 }
 
-// Keeps the picture of most parts; among equally frequent ones, the one that was named first.
+// Keeps the parts of the picture that most parts belong to; of equally frequent pictures, the one that was
+// named first.
 void PartSet::keep_most_frequent(std::vector<PartReader> read) {
   std::vector<std::string> pictures;
   for (const PartReader& part : read) pictures.push_back(picture_of(part.header()));
@@ -161,9 +162,9 @@ void PartSet::merge(const PlaneSink& sink) {
   const Rect area = wanted_->area;
   const render::Tiling tiling(area.width, area.height, wanted_->shard.count);
   std::vector<float> pixels;
-  // OpenEXR's blocks of 16 rows are two of tiles, and there is one for each core.
+  // Merge a block of OpenEXR for each core, of up to 8. A block's 16 rows are two rows of tiles.
   const int together = 2 * std::clamp(int(std::thread::hardware_concurrency()), 1, 8) * tiling.columns();
-  // One for each number of channels: memory that is new costs more than the work with it.
+  // One image for each number of channels, used again and again: new memory costs more than the work with it.
   std::map<int, image::Image> images;
   for (int first = 0; first < tiling.count(); first += together) {
     const int end = std::min(first + together, tiling.count());

@@ -1,4 +1,4 @@
-// Parts that are to make one picture: whether they do, and the picture.
+// Checks whether parts make one picture, and merges them.
 #pragma once
 
 #include <functional>
@@ -11,20 +11,21 @@ namespace eyeray::engine::shards {
 
 // The reasons why files do not make one picture: sentences that name the files.
 struct PartFaults {
-  std::vector<std::string> damaged;  // or no parts at all, or not there
-  std::vector<std::string> foreign;  // of another picture than most are
+  std::vector<std::string> damaged;  // also files that are no parts, or do not exist
+  std::vector<std::string> foreign;  // parts of another picture than most parts are
   std::vector<std::string> doubled;
   std::vector<int> missing;  // indices of shards, of `count`
   int count = 0;
 
   bool any() const { return !damaged.empty() || !foreign.empty() || !doubled.empty() || !missing.empty(); }
-  // The first few of each, in one sentence.
+  // The first few files of each fault, in one sentence.
   std::string text() const;
-  // Error (file_io) where files are damaged, Error (bad_input) for the other faults; nothing without any.
+  // Throws Error (file_io) if files are damaged, Error (bad_input) for other faults. Returns if there are
+  // none.
   void refuse() const;
 };
 
-// Is given the next rows of a plane, from the top down.
+// Receives the next rows of a plane, from the top down.
 using PlaneSink = std::function<void(size_t plane, const image::Image& rows)>;
 
 class PartSet {
@@ -40,8 +41,8 @@ class PartSet {
   // The totals of all parts.
   PartTotals totals() const;
 
-  // The picture, some rows of all planes at a time: no more is held. Only without faults, and once. Error
-  // (file_io) when a file is no longer as it was, Error (interrupted).
+  // Passes the picture to `sink`. Only some rows of all planes are in memory at a time. May be called once,
+  // and only without faults. Error (file_io) if a file has changed, Error (interrupted).
   void merge(const PlaneSink& sink);
 
  private:

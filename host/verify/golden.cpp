@@ -34,7 +34,7 @@ std::string commit_at(const fs::path& picture) {
   }
 }
 
-// Everything that a picture is made of, by the names that people read.
+// Everything that decides a picture, under names that people can read.
 Json origin(const Golden& golden, const Scene& scene, const compare::Report& report) {
   return {{"scene", report.scene},
           {"scene hash", hash_of_files(scene.files)},
@@ -47,7 +47,7 @@ Json origin(const Golden& golden, const Scene& scene, const compare::Report& rep
           {"eyeray", golden.version}};
 }
 
-// The entries that have changed.
+// The entries of origin() that have changed since the golden picture was stored.
 std::vector<std::string> changes(const Golden& golden, const Json& now) {
   const fs::path file = sidecar(golden.picture);
   if (!fs::exists(file)) return {"unknown, as it has no " + file.filename().string()};
@@ -91,7 +91,7 @@ compare::GoldenResult compare_with_golden(const Golden& golden, const Scene& sce
                                       picture.width(), picture.height(), report.width, report.height);
     return result;
   }
-  // A golden picture has colours alone: all else is the frame's.
+  // A golden picture has only colours; everything else is taken from the frame.
   compare::Frame stored = frame;
   stored.color = part_of(std::move(picture), report.area);
   compare::ReferenceComparison comparison =

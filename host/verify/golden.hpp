@@ -14,7 +14,7 @@ namespace eyeray::engine::verify {
 
 enum class Update {
   never,
-  failing,  // pictures that are missing, or from which the scene's differs
+  failing,  // pictures that are missing, or that differ from the scene's picture
   all,
 };
 
@@ -24,16 +24,16 @@ struct Golden {
   std::string version;  // of eyeray
 };
 
-// Gate G: the first frame's colours against the golden picture's, as gate B has it: where they differ, the
-// golden picture must be within the reference's range around that pixel. Error (file_io) for a picture that
-// is there and cannot be read.
+// Gate G compares the first frame's colours with the golden picture's, by the rules of gate B: where they
+// differ, the golden picture must be within the reference's range around that pixel. Error (file_io) if the
+// picture exists but cannot be read.
 compare::GoldenResult compare_with_golden(const Golden& golden, const Scene& scene,
                                           const compare::Frame& frame, const compare::Reference& reference,
                                           const compare::Tolerances& tolerances,
                                           const compare::Report& report);
 
-// Stores the frame as the golden picture where that is asked for and nothing but gate G fails; an all-black
-// one is refused. Sets the outcome in the report's golden result. Error (file_io) when the files cannot be
+// Stores the frame as the golden picture if that is requested and no gate but G fails. An all-black frame is
+// refused. Sets the outcome in the report's golden result. Error (file_io) when the files cannot be
 // written.
 void bless(const Golden& golden, const Scene& scene, const compare::Frame& frame, compare::Report& report);
 

@@ -1,4 +1,4 @@
-// The reference around a pixel, as gates B and C ask for it.
+// The reference around a pixel, for gates B and C.
 #pragma once
 
 #include "host/compare/explain.hpp"
@@ -8,10 +8,11 @@
 
 namespace eyeray::engine::verify {
 
-// `renderer` is that of `scene`; both must outlive the result.
+// `renderer` renders `scene`; both must outlive the result.
 compare::Reference neighbours(const Scene& scene, const reference::Renderer& renderer);
 
-// The same of single samples, for gate D. `twin` must outlive it too; null: nobody knows the shaders' paths.
+// The reference around single samples of a pixel, for gate D. `twin` must outlive the result too. If it is
+// null, the shaders' paths are unknown.
 compare::PathReference path_neighbours(const Scene& scene, const reference::Renderer& renderer,
                                        const executors::Twin* twin);
 

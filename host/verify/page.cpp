@@ -21,7 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr size_t most_pixels = 500;  // of which all values are in the page
+constexpr size_t most_pixels = 500;  // limit on the pixels of which the page has all values
 
 std::string data_url(const image::Image& image) {
   return "data:image/png;base64," + base64(image::encode_png(image));
@@ -126,7 +126,8 @@ std::string Page::html(const std::string& summary) const {
   std::string data = fmt::format("{{\"summary\":{},\"scenes\":[", json_text(Json(summary)));
   for (size_t i = 0; i < scenes_.size(); ++i) data += (i == 0 ? "" : ",") + scenes_[i];
   data += "]}";
-  // Neither a script's end nor "<!--<script>", which hides that end: < stands in JSON's strings alone.
+  // Escape each <, which JSON has only in strings: the data must not contain a script's end, nor
+  // "<!--<script>", which hides that end.
   for (size_t at = 0; (at = data.find('<', at)) != std::string::npos;) data.replace(at, 1, "\\u003c");
 
   std::string page(page_files()[0].text);

@@ -11,14 +11,14 @@ namespace eyeray::engine::verify {
 
 class Page {
  public:
-  // A scene that was verified: the frames of the report's participants, the reference's last, and the
-  // outcomes of all but that.
+  // Adds a scene that was verified: the frames of the report's participants, of which the reference's is
+  // last, and the outcomes of all frames but the last.
   void add(const compare::Report& report, std::span<const compare::Frame> frames,
            std::span<const std::vector<compare::PixelOutcome>> outcomes);
-  // One that could not be.
+  // Adds a scene that could not be verified.
   void add(const compare::Report& report);
 
-  // `summary`: the line that sums all of them up.
+  // `summary`: the line that sums up all scenes.
   std::string html(const std::string& summary) const;
 
  private:

@@ -14,12 +14,13 @@ namespace eyeray::engine::verify {
 namespace {
 
 constexpr uint32_t seeds = 64;
-// At a corner few roundings lead the way that float32 takes: one in a hundred, or fewer. So few photons as
-// these are searched for by that many seeds more; of more the gate fails soon.
+// At a corner, one rounding in a hundred or fewer leads the way that float32 takes. If at most
+// `most_searched` photons are left unexplained, the search goes on up to the seed `more_seeds`; with more,
+// the gate fails soon.
 constexpr uint32_t more_seeds = 4096;
 constexpr size_t most_searched = 16;
 
-// A photon that float32 sends elsewhere.
+// A photon that arrives elsewhere in float32 than in the reference.
 struct Apart {
   uint32_t number;
   PhotonWay twin, reference;
@@ -80,7 +81,7 @@ JudgedPhotons judge_photons(const Scene& scene,
     std::vector<uint32_t>& left_out = judged.left_out.by_sample.emplace_back();
     for (const Apart& photon : apart) left_out.push_back(photon.number);
 
-    // Query the reference for each, until the gate has failed.
+    // Explain each photon by the reference, until the gate has failed.
     if (!tally.passes()) continue;
     const auto explain = [&](uint32_t first_seed, uint32_t last_seed) {
       std::vector<char> known(apart.size());

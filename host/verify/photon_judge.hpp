@@ -1,4 +1,4 @@
-// Photons of float32 beside the reference's: gate D, before any is gathered.
+// Gate D for photons, before any is gathered: compares those of float32 with the reference's.
 #pragma once
 
 #include <functional>
@@ -14,9 +14,10 @@ struct JudgedPhotons {
   compare::PhotonTally tally;
 };
 
-// The photons of all samples of the scene that take another path than the reference's, or the same path to
-// other points: each lights a disk of pixels. The reference must explain each, by photons of its own rounded
-// as float32 may round them. `renderer` is the scene's, and `ways(index)` are the twin's photons of a sample.
+// Finds, in all samples of the scene, the photons that take another path than the reference's, or the same
+// path to other points. Each lights a disk of pixels. The reference must explain each by its own photons,
+// rounded as float32 may round them. `renderer`: that of the scene. `ways(index)`: the twin's photons of a
+// sample.
 JudgedPhotons judge_photons(const Scene& scene,
                             const std::function<std::vector<PhotonWay>(uint32_t index)>& ways,
                             const reference::Renderer& renderer);

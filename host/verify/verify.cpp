@@ -18,7 +18,7 @@ namespace {
 // Limit on the kept samples of all pixels, so that those of one executor fit into some 400 MB.
 constexpr size_t most_kept = size_t{1} << 24;
 
-// Keeps the first samples of each pixel, as Frame::samples has them.
+// Keeps the first samples of each pixel, in the order of Frame::samples.
 auto sample_keeper(const Rect& area, int samples, std::vector<compare::TracedSample>& kept) {
   const size_t pixels = size_t(area.pixels()),
                each = std::clamp(most_kept / pixels, size_t{1}, size_t(samples));
@@ -35,7 +35,7 @@ auto sample_keeper(const Rect& area, int samples, std::vector<compare::TracedSam
   };
 }
 
-// Renders by one executor, which becomes a participant of the report.
+// Renders the scene by one executor, which becomes a participant of the report.
 compare::Frame render_frame(executors::Backend backend, executors::Executor& executor, const Scene& scene,
                             const Options& options, std::function<void(const render::Progress&)> progress,
                             compare::Report& report) {
@@ -64,7 +64,7 @@ compare::Frame render_frame(executors::Backend backend, executors::Executor& exe
   return frame;
 }
 
-// Gate A: every executor of the shaders with the first of them.
+// Gate A: compares every executor of the shaders with the first of them.
 void compare_backends(std::span<const compare::Frame> frames, const Options& options,
                       compare::Report& report) {
   for (size_t i = 1; i < options.backends.size(); ++i) {
@@ -73,8 +73,8 @@ void compare_backends(std::span<const compare::Frame> frames, const Options& opt
   }
 }
 
-// Gates B and C: every executor of the shaders with the reference, whose frame is the last. Returns each
-// one's outcomes, pixel by pixel.
+// Gates B and C: compares every executor of the shaders with the reference, whose frame is the last. Returns
+// each executor's outcomes, pixel by pixel.
 std::vector<std::vector<compare::PixelOutcome>> compare_each_with_reference(
     std::span<const compare::Frame> frames, const compare::Reference& reference,
     const compare::PathReference* paths, const compare::Tolerances& tolerances, const Options& options,
@@ -83,7 +83,7 @@ std::vector<std::vector<compare::PixelOutcome>> compare_each_with_reference(
   std::vector<std::vector<compare::PixelOutcome>> outcomes(options.backends.size());
   for (size_t i = 0; i < options.backends.size(); ++i) {
     const std::string& value = report.participants[i].name;
-    // A picture that equals the first executor's bit by bit compares as that does.
+    // A picture that equals the first executor's bit by bit has the same result.
     if (i > 0 && report.exact[i - 1].comparison.passes(0)) {
       report.against_reference.push_back(report.against_reference[0]);
       report.against_reference.back().value = value;
@@ -126,7 +126,7 @@ std::optional<raster::Witness> draw(const Scene& scene, const Rect& area, const 
                                              executors::device_options(options.executor.gpu, false));
 }
 
-// Gate R: every executor, the reference too.
+// Gate R: compares every executor, and the reference too, with the drawn triangles.
 void compare_with_drawn(const raster::Witness& drawn, std::span<const compare::Frame> frames,
                         compare::Report& report) {
   for (size_t i = 0; i < frames.size(); ++i) {
@@ -155,7 +155,7 @@ compare::Report verify_scene(const Subject& subject, const Options& options) {
   // Scenes that cannot be drawn are reported before anything is rendered.
   const std::optional<raster::Witness> drawn = draw(scene, report.area, options);
 
-  // Render, the reference last.
+  // Render by each executor, last by the reference.
   std::vector<compare::Frame> frames;
   std::unique_ptr<executors::Twin> twin;
   executors::ExecutorOptions how = options.executor;

@@ -19,7 +19,7 @@ namespace eyeray::engine::verify {
 struct Options {
   std::vector<executors::Backend> backends{
       executors::Backend::gpu, executors::Backend::twin};  // compared with the reference, in this order
-  executors::ExecutorOptions executor;                     // of all of them
+  executors::ExecutorOptions executor;                     // the options of all backends
   Rect crop;                                               // the compared area; empty: the whole picture
   std::optional<double> max_explained;                     // instead of the scene's
   int64_t ulp = 0;                                         // the bound of gate A
@@ -39,15 +39,15 @@ struct Subject {
   std::string file;             // Report::scene
   std::string written_options;  // Report::options
   std::filesystem::path
-      evidence;              // the folder where pictures are left when a gate fails (evidence.hpp), if any …
-  bool keep_always = false;  // … or when none does, too
+      evidence;  // the folder for pictures of a scene that fails a gate (evidence.hpp); empty: none
+  bool keep_always = false;        // whether `evidence` gets the pictures even if no gate fails
   std::optional<Golden> golden{};  // the golden picture of gate G
 };
 
 // Renders the scene by each backend and at last by the reference. Gate A compares each backend with the
-// first, gates B and C compare each with the reference, gate G the first with a golden picture. Gate R, where
-// it is asked for, compares each and the reference with the device's rasteriser. The report states which of
-// them pass. Error (interrupted) after Ctrl-C, Error (file_io) when the evidence cannot be written, and the
+// first, gates B and C compare each with the reference, gate G the first with a golden picture. Gate R, if
+// requested, compares each backend and the reference with the device's rasteriser. The report states which
+// gates pass. Error (interrupted) after Ctrl-C, Error (file_io) when the evidence cannot be written, and the
 // errors of make_executor and render.
 compare::Report verify_scene(const Subject& subject, const Options& options);
 
