@@ -21,7 +21,7 @@ struct Box {
     upper = glm::max(upper, box.upper);
   }
   Box intersection(const Box& box) const { return {glm::max(lower, box.lower), glm::min(upper, box.upper)}; }
-  // Half the surface.
+  // Half the box's surface area.
   double area() const {
     const glm::dvec3 size(upper - lower);
     return size.x * size.y + size.y * size.z + size.z * size.x;

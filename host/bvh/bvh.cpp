@@ -19,15 +19,15 @@ constexpr float item_cost = 1.0f;
 // At this depth Embree makes leaves of all remaining items; ours may go a little deeper.
 constexpr unsigned deepest = 56;
 
-// Embree calculates with the bits of an item's number as if they were a fourth coordinate. As denormals,
-// which numbers would be, they double the time that a build takes: so they are written as floats from 1 on.
+// Embree calculates with the bits of an item's number as if they were a fourth coordinate. Plain
+// numbers would be denormals, which double the time of a build. So numbers are written as floats from 1 on.
 constexpr uint32_t number_zero = 0x3f800000;
 uint32_t number_of(const RTCBuildPrimitive& item) {
   return item.primID - number_zero;
 }
 
-// A BVH as Embree has it made. A node counts the nodes and the entries in Bvh::order that it and all below it
-// become.
+// A node of the BVH that Embree builds by our callbacks. It counts the nodes and the entries in Bvh::order
+// that it and all nodes below it become.
 struct BuildNode {
   bool leaf;
   uint32_t nodes;
@@ -39,7 +39,7 @@ struct BuildInner : BuildNode {
 };
 struct BuildLeaf : BuildNode {
   uint32_t count;
-  uint32_t all[most_in_leaf];  // sorted, so that lone ones are last
+  uint32_t all[most_in_leaf];  // sorted, so that lone items are last
 };
 
 Box to_box(const RTCBounds& b) {
@@ -66,7 +66,7 @@ void set_child_bounds(void* node, const RTCBounds** bounds, unsigned, void*) {
   for (int i = 0; i < 2; ++i) static_cast<BuildInner*>(node)->bounds[i] = to_box(*bounds[i]);
 }
 
-// Called when the children are whole.
+// Called when the children are complete.
 void set_children(void* node, void** children, unsigned, void*) {
   auto* inner = static_cast<BuildInner*>(node);
   inner->nodes = 1;
@@ -100,8 +100,8 @@ void split_item(const RTCBuildPrimitive* item, unsigned axis, float position, RT
   Box high = box;
   low.upper[int(axis)] = position;
   high.lower[int(axis)] = position;
-  // No slices of a few roundings: Embree may put such a one on the other side than it expected. An assertion
-  // fails if that side is then empty (RenderKit/embree#489; Debian's 3.13 has it).
+  // Avoid slices as thin as a few roundings: Embree may put one on the other side than it expected. An
+  // assertion fails if the expected side is then empty (RenderKit/embree#489; Debian's 3.13 has it).
   const float start = box.lower[int(axis)], end = box.upper[int(axis)];
   const float thin = 0x1p-20f * std::max(std::fabs(start), std::fabs(end));
   if (position - start <= thin) {
@@ -130,7 +130,7 @@ struct Releaser {
 using Device = std::unique_ptr<RTCDeviceTy, Releaser<rtcReleaseDevice>>;
 using EmbreeBvh = std::unique_ptr<RTCBVHTy, Releaser<rtcReleaseBVH>>;
 
-// Embree's BVH as ours. Since every subtree knows its size, its halves are done in parallel.
+// Converts Embree's BVH to ours. Since every subtree knows its size, its halves are converted in parallel.
 class Flattener {
  public:
   Flattener(std::span<const Box> boxes, const BuildInner* root) : boxes_(boxes) {
@@ -147,7 +147,7 @@ class Flattener {
  private:
   static constexpr uint32_t worth_a_task = 4096;
 
-  // Puts nodes at `node_at` and on, and items likewise. The child's box is left to the caller. Returns the
+  // Writes nodes from `node_at` on, and items from `item_at` on. The caller sets the child's box. Returns the
   // depth in nodes.
   int flatten(const BuildNode* node, uint32_t node_at, uint32_t item_at, Child& child) {
     if (node->leaf) {
@@ -176,7 +176,7 @@ class Flattener {
     return 1 + std::max(depths[0], depths[1]);
   }
 
-  // The first `shared` items together, each other one at a node.
+  // Puts the first `shared` items into one leaf, and makes a node for each other item.
   int flatten_leaf(std::span<const uint32_t> items, uint32_t shared, uint32_t node_at, uint32_t item_at,
                    Child& child) {
     if (items.size() == shared) {
@@ -204,9 +204,9 @@ class Flattener {
   Bvh bvh_;
 };
 
-// The items from which Embree builds, and which it sorts.
+// The items that Embree sorts and builds a BVH from.
 struct BuildItems {
-  RawVector<RTCBuildPrimitive> all;  // and room for the items that splits add
+  RawVector<RTCBuildPrimitive> all;  // the items, and room for those that splits add
   size_t count;
 };
 

@@ -19,7 +19,7 @@ enum class ChildType : uint8_t { node, leaf, lone_item };
 
 struct Child {
   Box box;
-  uint32_t index = 0;  // of the node; of a leaf's first entry in Bvh::order; or of the item
+  uint32_t index = 0;  // that of the node, of the leaf's first entry in Bvh::order, or of the item
   uint8_t count = 0;   // of a leaf's items, 1 … most_in_leaf
   ChildType type = ChildType::node;
 };
@@ -32,21 +32,21 @@ struct Bvh {
   Box box;
   RawVector<Node> nodes;      // depth first: the root first, a node's left half, then its right; never empty
   RawVector<uint32_t> order;  // items as leaves hold them, depth first; with splits, some more than once
-  int depth = 0;              // of nodes
+  int depth = 0;              // in nodes
 };
 
 struct BvhOptions {
-  // Items from here on are in no leaf with others, nor in Bvh::order.
+  // The first lone item. Lone items share no leaf with other items, and are not in Bvh::order.
   uint32_t first_lone = std::numeric_limits<uint32_t>::max();
-  // Cuts items at a plane where that makes better boxes (spatial splits): slower to build, faster to trace
-  // where items are long and thin.
+  // Cuts items at a plane where that makes better boxes (spatial splits). Building is slower; tracing is
+  // faster if items are long and thin.
   bool split = false;
   // Returns the two parts of an item's box: below and above `position` on `axis`.
   std::function<std::pair<Box, Box>(uint32_t item, int axis, float position)> cut;
 };
 
-// Items are indices of `boxes`; those whose boxes are not finite are left out, of which at least two must be.
-// Parallel, and yet the same BVH every time.
+// Items are indices of `boxes`. Items without a finite box are left out; at least two items must have one.
+// The build is parallel, and yet gives the same BVH every time.
 Bvh build_bvh(std::span<const Box> boxes, const BvhOptions& options = {});
 
 }  // namespace eyeray::engine::bvh

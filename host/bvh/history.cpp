@@ -7,7 +7,7 @@ namespace {
 
 // A refitted BVH is kept while it costs rays no more than this times its cost when it was built.
 constexpr double most_growth = 1.2;
-// Below, a build takes no time.
+// With fewer items, a build takes no time, so BVHs are not refitted.
 constexpr size_t least_items = 1024;
 
 bool all_finite(const Bvh& bvh, std::span<const Box> boxes) {
@@ -35,7 +35,7 @@ double sah_cost(const Bvh& bvh) {
 }
 
 void refit(Bvh& bvh, std::span<const Box> boxes) {
-  // Nodes stand before those below them.
+  // Each node precedes the nodes below it.
   const auto box_of = [&](const Child& child) {
     if (child.type == ChildType::lone_item) return boxes[child.index];
     Box box;

@@ -1,5 +1,5 @@
-// BVHs of scenes that come one after the other, the frames of an animation. Where items have only moved, a
-// BVH is refitted: it keeps its nodes, whose boxes are made anew, which takes a fraction of a build.
+// BVHs of scenes that come one after the other, the frames of an animation. If items have only moved, a BVH
+// is refitted: it keeps its nodes and gets new boxes. This takes a fraction of a build's time.
 #pragma once
 
 #include <cstddef>
@@ -12,24 +12,24 @@ namespace eyeray::engine::bvh {
 // The surface area heuristic's cost of a ray that hits the root: nodes visited, and items tested.
 double sah_cost(const Bvh& bvh);
 
-// Makes the boxes of all nodes anew. Items must be those of its build, which did not split any.
+// Computes the boxes of all nodes anew. The items must be those of the build of `bvh`, which split none.
 void refit(Bvh& bvh, std::span<const Box> boxes);
 
-// Not for several threads at once.
+// For one thread at a time.
 class BvhHistory {
  public:
-  // The BVHs that follow are another scene's.
+  // Begins another scene, to which the following calls of build() belong.
   void begin_scene() { next_ = 0; }
-  // Returns a BVH like build_bvh. Instead, the previous scene's BVH in this position is refitted if it has
-  // the same items and then costs rays little more than when it was built.
+  // Returns a BVH as build_bvh does, or the previous scene's BVH in this position, refitted. The latter is
+  // returned if it has the same items and, refitted, costs rays little more than when it was built.
   Bvh build(std::span<const Box> boxes, const BvhOptions& options);
 
  private:
   struct Kept {
     Bvh bvh;
-    double cost;    // when it was built
-    size_t items;   // of all boxes
-    size_t finite;  // of them
+    double cost;    // sah_cost() when it was built
+    size_t items;   // the number of boxes
+    size_t finite;  // the number of finite boxes
     uint32_t lone;  // BvhOptions::first_lone
   };
   std::vector<Kept> kept_;  // in the order of build() in a scene

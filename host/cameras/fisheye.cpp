@@ -46,7 +46,7 @@ constexpr Key keys[] = {
 
 class Fisheye final : public Projection {
  public:
-  // `wider`: the factor by which more is in view than `values` set, within the same circle.
+  // `wider`: the factor by which the angle in view exceeds that of `values`, within the same circle.
   explicit Fisheye(const FisheyeCamera& values, double wider = 1) : values_(values), wider_(wider) {}
 
   uint32_t kind() const override { return shader::CAMERA_fisheye; }
@@ -81,13 +81,13 @@ class Fisheye final : public Projection {
  private:
   double rim() const { return values_.fov_degrees * std::numbers::pi / 360; }
 
-  // In pixels.
+  // The length in pixels that the field of view spans.
   double diameter(const Vec2& size) const {
     const double lengths[] = {size.x, size.y, std::min(size.x, size.y), std::hypot(size.x, size.y)};
     return lengths[size_t(values_.fov_axis)];
   }
 
-  // Between the ray at `place` and the way the camera looks.
+  // The angle between the ray at `place` and the camera's axis.
   double angle(const Vec2& place, const Vec2& size) const {
     return wider_ * glm::length(place) * (size.x / 2) * (glm::radians(values_.fov_degrees) / diameter(size));
   }

@@ -45,7 +45,7 @@ constexpr Key keys[] = {
     reading::parameters_key,
 };
 
-// Beyond these float32 cannot compute.
+// Limits of the direction's squared length and of the origin, beyond which float32 cannot compute.
 constexpr double least_squared = 1e-30, most_squared = 1e30, farthest = 1e12;
 
 class FormulaProjection final : public Projection {
@@ -78,7 +78,7 @@ class FormulaProjection final : public Projection {
   std::vector<CameraFact> facts(const Vec2&) const override { return {{"function", formula_->title(), {}}}; }
 
  private:
-  // In the camera's axes.
+  // The formula's ray, in the camera's axes.
   struct Own {
     Vec3 direction, origin;
 

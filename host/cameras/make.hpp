@@ -1,4 +1,4 @@
-// Projections made in code, by tests; a scene file's go through their CameraType.
+// Projections made in code, by tests. Those of scene files are made by their CameraType.
 #pragma once
 
 #include "host/scene/camera.hpp"
@@ -10,7 +10,7 @@ std::shared_ptr<const Projection> make_projection(const OrthographicCamera& valu
 std::shared_ptr<const Projection> make_projection(const FisheyeCamera& values);
 std::shared_ptr<const Projection> make_projection(const PanoramaCamera& values);
 std::shared_ptr<const Projection> make_projection(const CylindricalCamera& values);
-// `formula`: a camera's.
+// `formula`: the function of a camera.
 std::shared_ptr<const Projection> make_projection(std::shared_ptr<const formula::Formula> formula);
 
 }  // namespace eyeray::engine::cameras

@@ -142,7 +142,7 @@ class Perspective final : public Projection {
     return std::tan(values_.fov_degrees * std::numbers::pi / 360) * size.x / measured;
   }
 
-  // tan(α/2) for the horizontal field of view α; the reference's.
+  // tan(α/2) for the horizontal field of view α. The reference uses it.
   double horizontal_tangent(const Vec2& size) const {
     const double tangent = std::tan(values_.fov_degrees * std::numbers::pi / 360.0);
     switch (values_.fov_axis) {

@@ -4,7 +4,7 @@
 
 namespace eyeray::engine::cameras {
 
-// Each camera's .cpp defines its own; one that is missing is a link error that bears its name.
+// Each camera's .cpp defines its CameraType. A missing one is a link error that has its name.
 #define X(name, ...) extern const CameraType name##_type;
 CAMERAS(X)
 #undef X

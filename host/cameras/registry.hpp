@@ -10,11 +10,11 @@
 
 namespace eyeray::engine::cameras {
 
-// The words that each kind declares its keys with, and reads them.
+// The types with which each kind declares and reads its keys.
 using reading::Key, reading::KeyType, reading::TableReader;
 
 struct CameraType {
-  std::string_view name;  // `type` in a [camera] table, and its .glsl
+  std::string_view name;  // the value of `type` in a [camera] table, and the name of its .glsl
   std::string_view manual;
   std::span<const Key> keys;                                       // beside `type`, `eye`, `target` and `up`
   std::shared_ptr<const Projection> (*parse)(TableReader& table);  // null after an error, which is reported

@@ -13,7 +13,8 @@ namespace eyeray::engine::generate {
 
 class BatchText {
  public:
-  // `table` such as "sphere"; `common`, the lines that hold for every shape; `keys` have a value for each.
+  // `table`: for example "sphere". `common`: the lines that hold for every shape. `keys`: the keys of which
+  // every shape has its own value.
   BatchText(std::string_view table, std::string common, const std::vector<std::string_view>& keys);
 
   // A shape: a value for each key, which is a number, a point, a list of points or a name.

@@ -13,7 +13,7 @@ std::string point(const Vec3& p) {
   return fmt::format("[{}, {}, {}]", p.x, p.y, p.z);
 }
 
-// Without the noise that a product leaves behind the last digit.
+// The product as TOML, rounded to ten digits, which removes the noise behind its last digit.
 std::string share(double weight, const Vec3& color) {
   if (weight == 0) return "0";
   return fmt::format("[{:.10g}, {:.10g}, {:.10g}]", weight * color.x, weight * color.y, weight * color.z);

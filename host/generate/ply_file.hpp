@@ -10,7 +10,7 @@
 namespace eyeray::engine::generate {
 
 // Float32 positions and normals, 24 bytes a vertex, and 13 bytes a triangle. The file
-// appears with commit(). Error: file_io where the disk does not take it, interrupted after Ctrl-C.
+// appears with commit(). Error: file_io if it cannot be written, interrupted after Ctrl-C.
 class PlyFile final : public MeshSink {
  public:
   // `comment` stands in the header, on one line.
@@ -19,7 +19,7 @@ class PlyFile final : public MeshSink {
   void begin(uint64_t vertices, uint64_t triangles) override;
   void vertex(const Vec3& position, const Vec3& normal) override;
   void triangle(uint32_t a, uint32_t b, uint32_t c) override;
-  // Everything that begin() promised must have come.
+  // Call it after all vertices and triangles that begin() announced.
   void commit();
 
   uint64_t vertices() const { return vertices_; }

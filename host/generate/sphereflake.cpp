@@ -11,7 +11,7 @@
 namespace eyeray::engine::generate {
 namespace {
 
-// The nine directions in which children stand, their parent's own being +z.
+// The directions from a sphere to its nine children, if the sphere's own direction is +z.
 std::array<Vec3, 9> child_directions() {
   const double cos15 = (std::sqrt(6.0) + std::sqrt(2.0)) / 4, sin15 = (std::sqrt(6.0) - std::sqrt(2.0)) / 4;
   const Vec3 first[3] = {Vec3(1, 1, 2) / std::sqrt(6.0), {cos15, sin15, 0}, {sin15, cos15, 0}};

@@ -9,7 +9,7 @@
 
 namespace eyeray::engine::generate {
 
-// Beyond this size factor no mesh of it has a permitted number of triangles.
+// The largest size factor. Above it, every mesh of a sphereflake has more triangles than permitted.
 inline constexpr int max_sphereflake = 8;
 
 struct Ball {
@@ -20,8 +20,8 @@ struct Ball {
 // (9ⁿ⁺¹ − 1) / 8: 10, 91, 820, 7381, 66430, … for n = 1, 2, …
 uint64_t sphereflake_count(int size_factor);
 
-// Every sphere, parents before children, depth first. By square roots alone, hence the same to the last bit
-// on every machine.
+// Every sphere, parents before children, depth first. Calculated with square roots alone, hence the same to
+// the last bit on every machine.
 void for_each_ball(int size_factor, const std::function<void(const Ball&)>& visit);
 
 // The TOML of camera, lights, floor and materials, the last of which is "ball".
@@ -30,8 +30,8 @@ std::string sphereflake_stage();
 // The spheres as TOML: one [[sphere]] with a batch, in the fewest digits that are exact.
 std::string sphereflake_spheres(int size_factor);
 
-// The spheres as one mesh: octahedra whose edges are divided into `divisions`, pushed out to the sphere; that
-// is 8 · divisions² triangles each.
+// The spheres as one mesh: octahedra whose edges are divided into `divisions`, pushed out to the sphere:
+// 8 · divisions² triangles for each sphere.
 void sphereflake_mesh(int size_factor, int divisions, MeshSink& sink);
 
 // The divisions with which the mesh comes nearest to `triangles`, at least 1.

@@ -9,7 +9,7 @@ namespace eyeray::engine::generate {
 
 namespace {
 
-// In shares of the picture's width and height.
+// An area light. Its centre and half size are shares of the picture's width and height.
 struct AreaLight {
   Vec2 center, half_size;
   Vec3 radiance;
@@ -22,7 +22,8 @@ constexpr AreaLight area_lights[] = {
     {{0.5, 0.52}, {0.13, 0.012}, {0.9, 1.05, 1.4}},  // a window's gap, low in front
 };
 
-// 1 within, and half of it at the rim, over the last tenth of the half size.
+// The coverage of a light: 1 within and 0 outside. It falls from 0.9 to 1.1 half sizes, and is 1/2 at the
+// rim.
 double cover(double distance, double half_size) {
   return std::clamp((half_size - distance) / (0.2 * half_size) + 0.5, 0.0, 1.0);
 }

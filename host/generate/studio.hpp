@@ -1,4 +1,4 @@
-// The light of a photographer's studio, as a picture of all directions: something to light a scene by.
+// The light of a photographer's studio as a picture of all directions, which can light a scene.
 #pragma once
 
 #include "host/image/image.hpp"

@@ -11,7 +11,7 @@
 namespace eyeray::engine::generate {
 namespace {
 
-constexpr double reach = 5;        // half a side of the square
+constexpr double reach = 5;        // half the side of the square
 constexpr double height = 1.4;     // of the first octave
 constexpr double frequency = 0.3;  // of the first octave, in lattice cells a unit of length
 constexpr int rows_at_once = 64;
@@ -19,7 +19,7 @@ constexpr int rows_at_once = 64;
 // Rows of heights, made in parallel.
 class Rows {
  public:
-  // `count` rows from `first` on, and one more on either side: the normals of these need them.
+  // The rows from `first` on, `count` of them, and one more on either side, which their normals need.
   Rows(const TerrainOptions& options, int first, int count)
       : grid_(options.grid), first_(first - 1), heights_(size_t(count + 2)) {
     parallel_for(0, count + 2, [&](int i) {

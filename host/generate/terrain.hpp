@@ -23,7 +23,7 @@ double terrain_height(const TerrainOptions& options, const Vec2& p);
 // (grid + 1)² vertices with smooth normals, row by row; 2 · grid² triangles. Needs memory for a few rows.
 void terrain_mesh(const TerrainOptions& options, MeshSink& sink);
 
-// The grid whose triangles come nearest to so many, at least 1.
+// The grid, at least 1, whose number of triangles is nearest to `triangles`.
 int terrain_grid(uint64_t triangles);
 
 // The TOML of camera, sun, sky and the material "ground".

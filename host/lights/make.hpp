@@ -1,4 +1,4 @@
-// Lights built in code, by tests; a scene file's go through their LightType.
+// Lights built in code, by tests. Those of scene files are made by their LightType.
 #pragma once
 
 #include "host/scene/light.hpp"

@@ -4,7 +4,7 @@
 
 namespace eyeray::engine::lights {
 
-// Each light's .cpp defines its own; one that is missing is a link error that bears its name.
+// Each light's .cpp defines its LightType. A missing one is a link error that has its name.
 #define X(name, number) extern const LightType name##_type;
 LIGHTS(X)
 #undef X

@@ -10,11 +10,11 @@
 
 namespace eyeray::engine::lights {
 
-// The words that each kind declares its keys with, and reads them.
+// The types with which each kind declares and reads its keys.
 using reading::Key, reading::KeyType, reading::TableReader;
 
 struct LightType {
-  std::string_view name;  // `type` in a [[light]] table, and its .glsl
+  std::string_view name;  // the value of `type` in a [[light]] table, and the name of its .glsl
   std::string_view manual;
   std::span<const Key> keys;                            // beside `type` and `intensity`
   std::unique_ptr<Light> (*parse)(TableReader& table);  // null after an error, which is reported to the table

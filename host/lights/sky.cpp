@@ -11,7 +11,7 @@ namespace eyeray::engine::lights {
 
 namespace {
 
-// In km, and per km.
+// Lengths in km, and coefficients per km.
 constexpr double ground_radius = 6360, top_radius = 6460, eye_height = 0.2;
 constexpr Vec3 rayleigh(0.005802, 0.013558, 0.033100), ozone(0.000650, 0.001881, 0.000085);
 constexpr double mie_scattering = 0.003996, mie_extinction = 0.004440, mie_forward = 0.8;
@@ -34,8 +34,8 @@ Medium medium_at(double radius) {
   return {air * rayleigh, dust * mie_scattering, air * rayleigh + dust * mie_extinction + layer * ozone};
 }
 
-// Distance to a sphere along a ray from `radius` whose direction has that cosine with up: from within the
-// sphere, or to its near side. Below 0 if the ray misses the sphere.
+// Distances along a ray from `radius` whose direction has that cosine with up: from within the top sphere to
+// it, and to the near side of the ground. The latter is below 0 if the ray misses the ground.
 double to_top(double radius, double cosine) {
   return -radius * cosine +
          std::sqrt(std::max(0.0, radius * radius * (cosine * cosine - 1) + top_radius * top_radius));
@@ -45,7 +45,7 @@ double to_ground(double radius, double cosine) {
   return root < 0 || cosine >= 0 ? -1 : -radius * cosine - std::sqrt(root);
 }
 
-// A function of two numbers in [0, 1], tabled at even steps and bilinear between.
+// A function of two numbers in [0, 1], tabulated at even steps and interpolated bilinearly.
 class Table {
  public:
   template <typename Function>
@@ -114,7 +114,7 @@ class Atmosphere {
   }
 
   // The light gathered by a ray from `radius`: `source(medium, radius, sun's cosine, sunlight)` per length,
-  // and the ground's light. `d`, `to_sun`: unit, y up. `steps` grow with the distance.
+  // and the ground's light. `d`, `to_sun`: unit, y up. The `steps` grow longer with the distance.
   template <typename Source>
   Vec3 gather(double radius, const Vec3& d, const Vec3& to_sun, int steps, bool with_ground,
               const Source& source) const {
@@ -140,7 +140,7 @@ class Atmosphere {
     return light;
   }
 
-  // Light that was scattered twice and more, the same from everywhere, for a sun of irradiance 1.
+  // Light that was scattered twice or more, for a sun of irradiance 1. It is the same from all directions.
   Vec3 scattered(double radius, double cosine) const {
     return multiple_
                ? (*multiple_)(0.5 + 0.5 * cosine, (radius - ground_radius) / (top_radius - ground_radius))
@@ -174,7 +174,7 @@ class Atmosphere {
   Vec3 radiance(const Vec3& d, const Vec3& to_sun) const {
     const double cosine = glm::dot(d, to_sun), g = mie_forward;
     const double air = 3 / (16 * M_PI) * (1 + cosine * cosine);
-    // Cornette and Shanks.
+    // The phase function of Cornette and Shanks.
     const double dust = 3 / (8 * M_PI) * (1 - g * g) * (1 + cosine * cosine) /
                         ((2 + g * g) * std::pow(1 + g * g - 2 * g * cosine, 1.5));
     return gather(ground_radius + eye_height, d, to_sun, 40, true,
@@ -196,7 +196,8 @@ Sky make_sky(const SkySettings& settings) {
   Atmosphere atmosphere(settings.ground);
   atmosphere.add_multiple_scattering();
 
-  // The sun stands over the middle of the map, which is turned: left and right of it are the same.
+  // The sun stands over the middle of the map, so the map's left and right halves mirror each other. The map
+  // is then turned towards the sun.
   const double up = settings.to_sun.y;
   const Vec3 to_sun(0, up, -std::sqrt(std::max(0.0, 1 - up * up)));
   image::Image map(width, height, 3);

@@ -12,9 +12,10 @@
 namespace eyeray::engine::lights {
 
 struct SkySettings {
-  Vec3 to_sun{0, 1, 0};  // unit; also below the horizon
+  Vec3 to_sun{0, 1, 0};  // unit; may point below the horizon
   Vec3 ground{0.3};      // its albedo
-  Vec3 scale{1};  // beyond the atmosphere, irradiance perpendicular to the sun is that of intensity `scale`
+  // Beyond the atmosphere, a surface perpendicular to the sun has the irradiance of intensity `scale`.
+  Vec3 scale{1};
 };
 
 struct Sky {
@@ -22,7 +23,7 @@ struct Sky {
   std::optional<DirectionalLight> sun;  // none below the horizon
 };
 
-// A tenth of a second or two.
+// Takes one or two tenths of a second.
 Sky make_sky(const SkySettings& settings);
 
 }  // namespace eyeray::engine::lights

@@ -4,7 +4,7 @@
 
 namespace eyeray::engine::lights {
 
-// One less the cosine, also of small angles.
+// 1 − cos(angle), accurate also for small angles.
 inline double versine(double angle) {
   return 2 * std::sin(angle / 2) * std::sin(angle / 2);
 }

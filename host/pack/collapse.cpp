@@ -31,9 +31,9 @@ uint32_t make_leaf(uint32_t first, uint32_t count) {
 // The best cover of a part of the binary BVH by at most i = 1 … width children of one node.
 template <uint32_t width>
 struct Cover {
-  std::array<float, width + 1> cost{};    // by i; [0] is not used
-  std::array<uint8_t, width + 1> left{};  // of i, how many go to the left half; 0: as with i − 1
-  uint8_t within = 0;    // as one child that is a node: how many of its children go to the left half
+  std::array<float, width + 1> cost{};    // for i children; [0] is unused
+  std::array<uint8_t, width + 1> left{};  // how many of i cover the left half; 0: as for i − 1
+  uint8_t within = 0;    // as one child that is a node: how many of its children cover the left half
   uint32_t leaf = NONE;  // the one leaf that holds all of it, where there can be one
   bool whole = false;    // whether that leaf is better than a node
 };
@@ -113,7 +113,7 @@ class Collapser {
     return both;
   }
 
-  // The leaf of both, where their slots adjoin and are few.
+  // One leaf for both, if their slots adjoin and are few enough; else NONE.
   static uint32_t joined(uint32_t a, uint32_t b) {
     if (first_slot(a) > first_slot(b)) std::swap(a, b);
     const uint32_t together = count(a) + count(b);
@@ -122,8 +122,8 @@ class Collapser {
                : NONE;
   }
 
-  // Finds the covers of the nodes from `first` to before `end`: a node and all nodes below it, or none. A
-  // node stands before its left half, and the left half before the right one.
+  // Finds the covers of the nodes `first` … `end` − 1, which are a node and all nodes below it, or none. A
+  // node precedes its left half, and the left half precedes the right one.
   void find_covers(uint32_t first, uint32_t end) {
     if (end - first <= worth_a_task) {
       for (uint32_t node = end; node-- > first;) covers_[node] = cover_node(node);
@@ -145,7 +145,7 @@ class Collapser {
     uint32_t count = 0;
   };
 
-  // The children that stand for `child`, at most `most`.
+  // Appends the children that cover `child`, at most `most` of them.
   void gather(const shader::uvec4& child, uint32_t most, Children& children) const {
     if (!is_leaf(child.w)) {
       const Cover<width>& cover = covers_[child.w];
@@ -159,7 +159,7 @@ class Collapser {
     children.list[children.count++] = child;
   }
 
-  // The collapsed node `to` becomes the binary node `from`.
+  // Makes the collapsed node `to` from the binary node `from`.
   void fill(uint32_t to, uint32_t from) {
     Children children;
     gather(nodes_[2 * from], covers_[from].within, children);
@@ -185,7 +185,7 @@ class Collapser {
     }
   }
 
-  // A leaf of too many becomes a node of two.
+  // Turns a leaf with too many slots into the node `to` with two leaves.
   void halve(uint32_t to, shader::uvec4 leaf) {
     const uint32_t all = leaf.w;
     leaf.w = make_leaf(first_slot(all), most_in_leaf);
@@ -194,7 +194,7 @@ class Collapser {
     bvh4_nodes_[width * to + 1] = leaf;
   }
 
-  // With a node's first child, the deepest, all others wait.
+  // The size in the worst case: of every node the deepest child is visited first, while the others wait.
   uint32_t stack_size() const {
     std::vector<uint32_t> below(bvh4_nodes_.size() / width);
     for (size_t node = below.size(); node-- > 0;) {
@@ -212,7 +212,7 @@ class Collapser {
 
   std::span<const shader::uvec4> nodes_;
   const shader::Bvh& bvh_;
-  RawVector<Cover<width>> covers_;  // by binary node
+  RawVector<Cover<width>> covers_;  // one for each binary node
   RawVector<shader::uvec4> bvh4_nodes_;
 };
 

@@ -13,7 +13,7 @@ double most_of(const Vec3& v) {
   return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
 }
 
-// A record's kind, a, b and c.
+// Fills in a record's kind, a, b and c.
 class Fields {
  public:
   Fields(const records::Packer& packer, shader::Emitter& record) : packer_(packer), record_(record) {}

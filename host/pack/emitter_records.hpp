@@ -1,4 +1,4 @@
-// From the lights that a path may choose from to their records.
+// Packs the lights that a path may choose from as records.
 #pragma once
 
 #include "host/records/packer.hpp"

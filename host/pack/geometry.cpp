@@ -19,14 +19,14 @@
 namespace eyeray::engine::pack {
 namespace {
 
-// Up to here testing everything is as fast as a BVH: primitives, and the iterations of their own loops. Rays
-// of paths take different ways through a BVH, so more tests pay, in pictures whose samples repay their
-// compilation.
+// Up to this many tests, testing everything is as fast as a BVH. Primitives count, and the iterations of
+// their loops. Rays of paths take different ways through a BVH, so more tests pay for them, if a picture has
+// enough samples to repay the compilation of the tests.
 constexpr size_t few_tests = 24;
 constexpr size_t few_tests_of_paths = 40;
 constexpr int64_t least_samples_of_paths = 1 << 22;
-// A box that takes this part of the scene's own is hit by nearly every ray that hits the scene. To test its
-// contents straight away is cheaper than steps that lead there, while such primitives are few.
+// Nearly every ray that hits the scene hits a box of at least this share of the surface area of the scene's
+// box. While few primitives have such boxes, to test them straight away is cheaper than the steps to them.
 constexpr double most_of_scene = 0.5;
 constexpr size_t most_in_linear_list = 4;
 
@@ -67,9 +67,9 @@ class GeometryPacker {
  private:
   // A mesh or a group that instances show, with its own BVH.
   struct Blas {
-    Vec3 origin;  // that its records are relative to
+    Vec3 origin;  // the point that its records are relative to
     BlasRecords items;
-    float map_growth = 1;  // as PackedScene's, of its shapes
+    float map_growth = 1;  // PackedScene::map_growth for its shapes
     bvh::Box box = {};     // around all
     bvh::Bvh bvh = {};
   };
@@ -118,7 +118,7 @@ class GeometryPacker {
     packed_.second_uv = packed_.second_uv || !mesh.second_uv.empty();
   }
 
-  // The triangles of an instance, in the space that it leads into.
+  // The triangles of an instance, under its transform and relative to `origin`.
   MeshRecords triangle_records(const Instance& instance, const Vec3& origin, uint32_t first_id) {
     const Mesh& mesh = scene_.meshes[size_t(instance.mesh)];
     note_attributes(mesh);
@@ -169,7 +169,7 @@ class GeometryPacker {
     }
   }
 
-  // All of a group, relative to the centre of its bounds.
+  // The shapes and meshes of a group, relative to the centre of its bounds.
   Blas group_blas(const Group& group) {
     const Vec3 centre = middle(bounds(group, scene_.meshes));
     const float growth = std::exchange(packed_.map_growth, 1.0f);
@@ -189,10 +189,10 @@ class GeometryPacker {
     return int(blases_.size()) - 1;
   }
 
-  // `material` and `depth_or_triangle`: as the record's.
+  // `material` and `depth_or_triangle`: as in shader::Instance.
   void add_instance(const Mat4& transform, uint32_t space, uint32_t first_id, uint32_t material,
                     uint32_t depth_or_triangle) {
-    // World positions are relative to the eye, those in the space to the centre of the space's bounds.
+    // World positions are relative to the eye, positions in the space to the centre of the space's bounds.
     const Affine map(transform);
     const Mat3 inverse = glm::inverse(map.linear);
     const Vec3 to_world_offset = map.point(blases_[space].origin) - scene_.camera.eye;
@@ -209,9 +209,9 @@ class GeometryPacker {
     packed_.instances.push_back(record);
   }
 
-  // Takes note that shapes of a kind are made of a material. Returns the optical depth of each: a
-  // shape weakens a shadow ray once, a mesh or patch half at each crossing, for a closed body is left as it
-  // was entered.
+  // Takes note that shapes of a kind are made of a material. Returns the optical depth of each. A
+  // shape weakens a shadow ray once. A mesh or patch has half the depth at each crossing, because a ray that
+  // enters a closed body leaves it as well.
   uint32_t use_material(uint32_t kind, uint32_t material, bool at_each_crossing) {
     const uint32_t optical_depth = packed_.materials[material].optical_depth;
     packed_.uses.emplace(kind, material);
@@ -219,8 +219,8 @@ class GeometryPacker {
     return at_each_crossing && optical_depth < OPTICAL_DEPTH_OPAQUE ? optical_depth / 2 : optical_depth;
   }
 
-  // A floor under many small shapes, for example: it stays in the linear list, whose boxes are then coded
-  // more finely, and whose leaves may be of one kind.
+  // Moves primitives with a large box to the linear list, for example a floor under many small shapes. The
+  // boxes of the BVH are then coded more finely, and its leaves may be of one kind.
   void unbind_largest() {
     bvh::Box all;
     for (const bvh::Box& box : world_.boxes)
@@ -280,8 +280,9 @@ class GeometryPacker {
   }
 
   // A ray is mapped into an instance with errors that grow with its coordinates, wherever the BVH's own
-  // origin is. Seen from the world they are |linear| · |inverse| times as large: 3 at most where axes are
-  // stretched and then turned, more under shears. So they are in a shape's own space, but from its centre.
+  // origin is. Seen from the world, the errors are |linear| · |inverse| times as large: at most 3 times if
+  // axes are stretched and then turned, more under shears. A shape's own space has such errors too, but they
+  // grow with the distance from its centre.
   static void make_room_for_maps(float growth, bool instances, shader::Bvh& bvh) {
     constexpr float harmless = 3;  // the growth that the boxes have room for without this
     if (!instances && growth <= harmless) return;
@@ -290,8 +291,8 @@ class GeometryPacker {
     bvh.extent += glm::abs(bvh.origin);
   }
 
-  // The largest growth by a map: of the world's own shapes, and of shapes that instances transform to world
-  // space.
+  // The largest growth of errors by a map: those of the world's own shapes, and those of the shapes that
+  // instances transform to world space.
   float world_growth() const {
     float growth = packed_.map_growth;
     for (const shader::Instance& instance : packed_.instances)
@@ -304,7 +305,8 @@ class GeometryPacker {
     return growth;
   }
 
-  // Slots of the world: by kind, those in no BVH, then the others, as its leaves hold them.
+  // Lays out the world's slots: first the items in no BVH, by kind, then the others in the order of the BVH's
+  // leaves.
   void lay_out_world() {
     std::vector<std::vector<uint32_t>> linear(shader::SHAPE_KINDS);
     for (uint32_t item = 0; item < world_.size(); ++item) {
@@ -344,7 +346,7 @@ class GeometryPacker {
     if (packed_.has_bvh && !bvh.nodes.empty()) {
       add_bvh(bvh, first_slot, items.size(), packed_);
     } else {
-      // A single one is a leaf at the root.
+      // A single primitive is a leaf at the root.
       shader::Bvh& record = packed_.bvhs.emplace_back();
       record.root = LEAF | first_slot << 3;
       record.first_slot = first_slot;
@@ -372,7 +374,7 @@ class GeometryPacker {
   records::Packer& packer_;
   records::PackedScene& packed_;
   const PrimitiveIds ids_{scene_};
-  std::vector<uint32_t> uses_;  // by mesh
+  std::vector<uint32_t> uses_;  // for each mesh
   BlasRecords world_;
   std::vector<Blas> blases_;  // by the BVH of instances, less one
   bvh::Bvh world_bvh_;

@@ -9,11 +9,11 @@
 
 namespace eyeray::engine::pack {
 
-// Around the record of a triangle.
+// The box around the record of a triangle.
 bvh::Box triangle_box(const shader::Primitive& triangle);
 
 // Makes a record of each triangle of a mesh when it is asked for, so that those of a big mesh need not be
-// kept twice. The mesh must stay.
+// in memory twice. The mesh must outlive it.
 class MeshRecords {
  public:
   // The triangles of `mesh` under `map`, with `origin` as the origin: positions are rounded after it was
@@ -35,8 +35,8 @@ class MeshRecords {
   Affine map_;
   Vec3 origin_;
   bool mirrored_;
-  shader::Primitive first_;      // the common part, and the first's id and corners
-  uint32_t corner_records_ = 0;  // vec4 a triangle among the vertices
+  shader::Primitive first_;      // the fields common to all, and the first triangle's id and corners
+  uint32_t corner_records_ = 0;  // vec4s that a triangle has among the vertices
 };
 
 }  // namespace eyeray::engine::pack

@@ -25,7 +25,7 @@ struct Grid {
     }
   }
   double plane(int axis, double code) const { return double(origin[axis]) + code * double(step[axis]); }
-  // The greatest code whose plane is not above x, and the least whose plane is not below.
+  // The greatest code whose plane is not above x, and the least code whose plane is not below x.
   uint32_t code_below(int axis, float x) const {
     double code =
         std::clamp(std::floor((double(x) - double(origin[axis])) / double(step[axis])), 0.0, largest_code);
@@ -56,7 +56,8 @@ bool quantising_is_harmless(const bvh::Bvh& bvh) {
   const auto area = [](const glm::dvec3& size) {
     return size.x * size.y + size.y * size.z + size.z * size.x;
   };
-  // Exact, and coded: two planes, each off by half a step in the mean.
+  // Areas of the exact and of the coded boxes. On average a coded plane is off by half a step, so a box is
+  // larger by a step.
   const auto sum = parallel_sum(0, int(bvh.nodes.size()), [&](int i) {
     glm::dvec2 areas(0);
     for (const bvh::Child& child : bvh.nodes[size_t(i)].children) {

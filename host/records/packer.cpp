@@ -74,7 +74,7 @@ void Packer::write_texels() {
   if (images_.empty()) return;
   scene.texels.reserve(scene.texel_count);
 
-  // The tables of the two colour spaces stand before the first image.
+  // The tables of the two colour spaces precede the first image.
   for (const bool srgb : {true, false})
     for (int code = 0; code < 256; ++code) {
       const double value = srgb ? image::linear_from_srgb(code / 255.0) : code / 255.0;

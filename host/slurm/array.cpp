@@ -19,9 +19,9 @@ namespace fs = std::filesystem;
 namespace eyeray::engine::slurm {
 namespace {
 
-// A scheduler that is busy answers late.
+// Seconds to wait for a command of Slurm, since a busy scheduler answers late.
 constexpr double patience = 120;
-// Tasks of one array: the most by Slurm's default (MaxArraySize).
+// The most tasks of one array by Slurm's default (MaxArraySize).
 constexpr int most_tasks = 1000;
 
 // The output of a Slurm command, as lines. Error (file_io) with its message if it fails.
@@ -44,7 +44,7 @@ std::vector<std::string> ask(const std::vector<std::string>& words) {
   return lines;
 }
 
-// Empty, too, where a site keeps no accounts.
+// The failures of the jobs, from Slurm's accounts. Empty, too, if a site keeps no accounts.
 std::vector<std::string> failures_of(const std::string& job_name) try {
   return ask({"sacct", "--name=" + job_name, "--allocations", "--noheader", "--parsable2",
               "--delimiter= ", "--starttime=now-7days", "--state=BF,CA,DL,F,NF,OOM,TO",
@@ -74,7 +74,7 @@ void find_missing_parts(const Array& array, ArrayState& state) {
     state.faults.insert(state.faults.end(), faults->begin(), faults->end());
 }
 
-// The number of the job.
+// Submits a job, and returns its number.
 std::string submit(const Array& array, const std::string& output, std::vector<std::string> last) {
   // In --output a percent sign begins one of Slurm's fields.
   std::string pattern;
@@ -85,14 +85,14 @@ std::string submit(const Array& array, const std::string& output, std::vector<st
   words.push_back("--job-name=" + array.job_name);
   words.insert(words.end(), last.begin(), last.end());
   const std::vector<std::string> answer = ask(words);
-  // "17", or "17;cluster".
+  // The answer is "17", or "17;cluster".
   return answer.empty() ? "" : answer[0].substr(0, answer[0].find(';'));
 }
 
 }  // namespace
 
 void prepare(Array& array) {
-  // One name, however it is written; it may begin like an option.
+  // Make the path absolute, so that a folder has one name, and a relative name may begin like an option.
   array.folder = (fs::absolute(array.folder) / "").lexically_normal().parent_path();
   const std::string folder = array.folder.string();
   if (folder.find('\\') != std::string::npos)

@@ -11,7 +11,7 @@ extern const double glass_numbers[(glass_slices + 1) * glass_side * glass_side];
 
 namespace {
 
-// Between four entries: number(entry) is the value of each.
+// Interpolates between four entries; number(entry) is the value of an entry.
 template <typename Entry, typename Number>
 double between(std::span<const Entry> table, int side, double cosine, double roughness,
                const Number& number) {

@@ -1,12 +1,12 @@
-// A scene, and who looks on, as the twin's shader functions see them: plain data and plain functions, so that
-// another compiler may have made the other side (executors/twin_module.hpp).
+// A scene, and the spectator of its rays, as the twin's shader functions see them. Both are plain data and
+// plain functions, so that another compiler may have made the other side (executors/twin_module.hpp).
 #pragma once
 
 #include "host/records/records.hpp"
 
 namespace eyeray::engine::twin {
 
-// Functions of the scene, by number; each is given `scene`.
+// The scene's formulas, by number. Each function is given `scene`.
 struct FormulaView {
   const void* scene;
   float (*value)(const void* scene, uint32_t number, const shader::vec3& p);
@@ -50,7 +50,7 @@ struct SceneView {
   const shader::LightNode* light_nodes;
   const uint32_t* emitter_media;
   const shader::vec4* albedos;
-  uint32_t albedo_count;  // those of lobes that the scene lacks are not there
+  uint32_t albedo_count;  // albedos of lobes that the scene lacks are left out
   bool has_bvh, quantised_nodes, panes, interfaces;
   // The photons of the current sample, set by the code that traces them.
   const shader::PhotonPass* photon_pass;

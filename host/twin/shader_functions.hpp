@@ -57,11 +57,11 @@ class Binding {
 [[maybe_unused]] const Instance& load_instance(uint i) {
   return bound_scene->instances[i];
 }
-// The formula's number if it is found that way, else none.
+// The formula's number if its surface is found in this way, else NONE.
 [[maybe_unused]] uint if_bounded(uint number, bool bounded) {
   return bound_scene->formulas.by_bounds(bound_scene->formulas.scene, number) == bounded ? number : NONE;
 }
-// Each ray that hits asks for one, and a pixel may have rays without end.
+// Checks for interruption: each ray that hits loads a material, and a pixel may have endless rays.
 [[maybe_unused]] const Material& load_material(uint i) {
   bound_scene->stop_if_interrupted();
   return bound_scene->materials[i];
@@ -116,7 +116,7 @@ class Binding {
   return true;
 }
 
-// PROBE, where somebody looks.
+// PROBE, if there is a spectator.
 template <typename T>
 void show(const char* name, uint line, const T& shown) {
   double numbers[4] = {};
@@ -184,7 +184,7 @@ void show(const char* name, uint line, const T& shown) {
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
 #pragma GCC diagnostic ignored "-Wunused-parameter"
-// The targets of a dispatch stand before the dispatch.
+// Functions that a dispatch calls must precede it.
 // clang-format off
 #include "shapes/implicit/search.glsl"
 #define FORMULA_NAME(part) stepped_##part

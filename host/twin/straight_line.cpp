@@ -19,14 +19,14 @@ using expression::Op;
 using expression::Step;
 using expression::StraightLine;
 
-// A number or a truth; which of them it is the step knows.
+// A number or a truth. The step knows which of them it is.
 template <typename Number, typename Truth>
 struct Value {
   Number number;
   Truth truth;
 };
 
-// The step by the functions prefix_…; constants and inputs are the caller's.
+// Executes a step by the functions prefix_…; the caller sets constants and inputs.
 // clang-format off
 #define STEP(prefix, step, x, y, z, result)                                                \
   switch ((step).op) {                                                                     \
@@ -59,7 +59,7 @@ struct Value {
   }
 // clang-format on
 
-// The values of all steps so far, with room for more; a thread's own, for it is asked for millions of times.
+// Room for the values of `count` steps. Each thread keeps its own, because it is needed millions of times.
 template <typename T>
 std::vector<T>& values(size_t count) {
   thread_local std::vector<T> all;

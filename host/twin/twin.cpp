@@ -31,7 +31,7 @@ shader::QueryHit query(const SceneView& scene, const shader::QueryRay& ray, bool
 
 }  // namespace
 
-// By this name executors/twin_module.cpp finds it in a shared object of the user's shaders.
+// executors/twin_module.cpp finds it by this name in a shared object of the user's shaders.
 extern "C" [[gnu::visibility("default")]] const Functions eyeray_twin;
 const Functions eyeray_twin{sample, auxiliary, first_hit, photon, query};
 

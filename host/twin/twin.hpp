@@ -12,7 +12,7 @@ namespace eyeray::engine::twin {
 // The twin of eyeray's own shaders.
 extern "C" const Functions eyeray_twin;
 
-// These must not outlive the scene or the recorder.
+// The results must not outlive the scene or the recorder.
 SceneView view_of(const records::PackedScene& scene);
 Spectator spectator_for(RayRecorder& recorder);
 // Records only the decisions of random paths: each `event` that is PROBEd.
