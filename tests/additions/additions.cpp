@@ -1,6 +1,6 @@
-// Follows every docs/adding-a….md in a copy of the tree: adds the kind by the very blocks of the page,
-// builds, renders and verifies its scene. So a page cannot rot, and a kind is as the page states: two files
-// and a row.
+// Follows every docs/adding-a….md in a copy of the tree: adds the page's kind with the page's own blocks,
+// builds the program, and renders and verifies the page's scene. So no page goes stale, and each kind takes
+// as the page states two files and a row.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -50,7 +50,7 @@ std::vector<Page> read_pages() {
   return pages;
 }
 
-// The text with a row behind the last of its first list: of a macro's lines, or of an array.
+// The text with `row` added at the end of its first list, which is a macro's lines or an array.
 std::string with_row(const std::string& text, const std::string& row) {
   static const std::regex macro(R"(\n  (X|R)\([^\n]*\)(?=\n(?! )))"), array(R"(\n\};\n)");
   std::smatch last;
@@ -60,8 +60,8 @@ std::string with_row(const std::string& text, const std::string& row) {
   return last.prefix().str() + "\n" + row + "};\n" + last.suffix().str();
 }
 
-// A copy of the program's sources, with the additions of the pages. It lies beside its build as the tree
-// does, so that ccache has all files that the pages do not change.
+// A copy of the program's sources, with the additions of the pages. Its build lies beside it, as the real
+// tree's build does, so that ccache has all files that the pages do not change.
 class Tree {
  public:
   Tree() {
@@ -143,7 +143,7 @@ TEST_CASE("each page on adding a kind is true: two files and a row, and its scen
   CHECK_MESSAGE(seen.code == 0, seen.err);
   for (const char* aov : {"height", "clipped"}) CHECK(fs::exists(tree / fmt::format("seen.{}.pfm", aov)));
 
-  // A half that is missing is an error that bears its name.
+  // If a kind's shader or C++ file is missing, the build fails with an error that names it.
   for (const Page& page : pages) {
     for (const Block& half : page.code) {
       CAPTURE(half.path);

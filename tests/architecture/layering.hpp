@@ -14,7 +14,7 @@ namespace eyeray::engine::test {
 // The layers and libraries that a layer links.
 using Links = std::set<std::string>;
 
-// A program's folder under host/, which is no library.
+// The folder of each program under host/, which is not a library.
 inline const std::map<std::string, std::string> command_lines = {{"eyeray", "cli"},
                                                                  {"eyeray-bench", "bench_cli"}};
 

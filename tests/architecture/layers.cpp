@@ -13,8 +13,8 @@ namespace {
 
 const std::map<std::string, Links> all_layers = read_layers();
 
-// The shader files that a layer may include: the records have the ABI, the registries' rows are the host's
-// too, and the twin has everything.
+// The shader files that a layer may include. `records` includes the ABI, layers with a registry include its
+// rows, and the twin includes everything.
 const std::map<std::string, std::regex> visible_shaders = {
     {"records", std::regex(R"(shaders/(records\.h|[a-z]+/rows\.h))")},
     {"shapes", std::regex(R"(shaders/shapes/rows\.h)")},
@@ -32,7 +32,7 @@ struct Library {
   std::regex headers;
   std::set<std::string> layers;
   std::set<std::string>
-      public_in;  // of them, those whose headers may include it: layers that see these see it too
+      public_in;  // the layers whose headers may include it: layers that include those headers see it too
 };
 const Library libraries[] = {
     {std::regex(R"((volk|vulkan|glslang|spirv-tools|spirv)([/.].*))"),
@@ -109,7 +109,7 @@ TEST_CASE("libraries stay in their layers, and out of headers that others see") 
 }
 
 TEST_CASE("the layers' headers with TOML or Vulkan in them are private") {
-  // A header is tainted by such a library, or by another tainted header.
+  // A header is tainted if it includes such a library or another tainted header.
   const std::vector<SourceFile> files = layer_files();
   std::map<std::string, std::string> tainted;
   for (const char* library : {R"((volk|vulkan|glslang)[/.].*)", R"(toml\+\+/.*)"}) {

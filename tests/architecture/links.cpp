@@ -10,7 +10,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// The symbols of ours that a library defines, and those that it leaves to others.
+// The symbols of eyeray::engine that a library defines, and those that it takes from other libraries.
 struct Symbols {
   std::set<std::string> defined, undefined;
 };

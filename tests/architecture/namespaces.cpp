@@ -10,9 +10,9 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// Their words are everyone's.
+// The layers that may put names directly into eyeray::engine.
 const std::set<std::string> of_everyone = {"core", "scene"};
-// The shaders' own names, in C++.
+// The layers that may open eyeray::engine::shader.
 const std::set<std::string> speaks_shader = {"records", "twin"};
 
 // A line of a namespace's body, which clang-format leaves at the margin.
@@ -114,10 +114,10 @@ TEST_CASE("no two files define a type of one name in one namespace") {
 }
 
 TEST_CASE("forward declarations do not reach where includes may not") {
-  // Types that a layer gets from those above it, without knowing their definition.
+  // Types that a layer only declares, because a layer above it defines them: layer, type.
   const std::set<std::pair<std::string, std::string>> handed_down = {{"scene", "Packer"}};
 
-  // Headers, by the types that they define.
+  // The headers that define each type.
   const std::vector<SourceFile> files = layer_files();
   static const std::regex definition(R"(^\s*(?:class|struct) (\w+)(?: final)?(?: :.*)? \{.*$)");
   std::map<std::string, std::set<std::string>> owners;

@@ -55,7 +55,7 @@ const std::map<std::string, Names> headers_of = [] {
   return headers;
 }();
 
-// "std::string" of "std::string::npos", wherever a line contains such a name.
+// The names of std, fmt and glm in a line: "std::string" from "std::string::npos".
 Names names_in(const std::string& line) {
   Names names;
   for (const char* space : {"std::", "fmt::", "glm::"}) {

@@ -8,7 +8,7 @@
 using namespace eyeray::engine::test;
 
 TEST_CASE("text for people is printed by print_lines, and JSON is made by json_text") {
-  // A whole text may be printed as it is: some function has made it for its target.
+  // A whole text may be printed by the format "{}" alone: some function has made the text for its target.
   const std::regex prints(R"(\bfmt::print\(|\bstd::(f?puts|f?printf)\(|\bstd::(cout|cerr)\b)");
   const std::regex prints_whole(R"re(\bfmt::print\((stderr, )?"\{\}(\\n)?",)re");
   const std::regex makes_json(R"(\.dump\()");

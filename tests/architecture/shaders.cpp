@@ -51,8 +51,8 @@ TEST_CASE("nothing is left to the driver's built-in functions but abs, floor, sq
       R"(transpose|determinant|outerProduct|matrixCompMult|bitCount|bitfieldExtract|findLSB|findMSB|umulExtended|dFdx|dFdy|)"
       R"(texture|packHalf\w+|packUnorm\w+|packSnorm\w+|unpack\w+)\s*\()");
   CHECK(find_code(loose, [](const SourceFile& file) { return !self_test(file); }) == "");
-  // Lanes talk to each other, and paths and photons enter themselves in lists, in the entries that are
-  // about it.
+  // Only these shaders may use atomics, by which paths and photons enter themselves in lists, or subgroup
+  // operations, by which lanes exchange values.
   const auto no_list = [](const SourceFile& file) {
     return file.path != "shaders/kernels/wavefront.comp.glsl" &&
            file.path != "shaders/kernels/photons.comp.glsl";

@@ -97,8 +97,7 @@ material = "m"
 )",
                                           groups),
                               "groups");
-    // The meshes as the loader would put them: one of the scene's own, one in the group, in which there are
-    // two.
+    // Adds instances of a mesh as the loader would: one in the scene itself, and two in the group.
     scene.meshes.push_back(octasphere(4));
     const auto at = [](double x, double y) {
       return Mat4({0.3, 0, 0, 0}, {0, 0.3, 0, 0}, {0, 0, 0.3, 0}, {x, y, 0, 1});
@@ -167,7 +166,7 @@ TEST_CASE("rays leave surfaces outward, and shadow rays end at the light") {
       CHECK(glm::distance(ray.o + ray.t_max * ray.d, Vec3(5.0)) < 1e-12);
     }
 
-    // Nothing stands in the way of a convex body's own rays.
+    // A convex body never blocks the rays that leave it.
     const Embree embree(scene);
     for (const Batch& batch : {shadow, bounce_batch(from, 0)}) {
       std::vector<QueryHit> hits(batch.rays.size());

@@ -44,7 +44,7 @@ std::string script_of(const std::string& rest) {
   return cycles_scene(parse_scene(cycles_stage + rest, "scene.toml"), 320, 240);
 }
 
-// The error for a scene that has no likeness in Blender.
+// The error for a scene that Blender has no equivalent of.
 std::string refused(const std::string& rest) {
   try {
     script_of(rest);

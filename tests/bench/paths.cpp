@@ -20,7 +20,7 @@ Spread fixed_spread(double value) {
   return {value, value, value};
 }
 
-// A renderer whose error is `noise` / samples^steepness, and that takes `cost` a sample.
+// A renderer whose error is `noise` / samples^steepness, and that takes `cost` seconds a sample.
 PathSeries series_named(const char* name, double noise, double steepness, double cost) {
   PathSeries result{name, "a device", {}};
   for (const int samples : {4, 16, 64})
@@ -59,17 +59,19 @@ TEST_CASE("slopes, and what an equal error costs") {
   // Cycles' error at 64 samples is ours at 16, which cost 16 · 0.25 s.
   CHECK(report.series[2].levels[2].error == doctest::Approx(report.series[0].levels[1].error));
   CHECK(report.series[0].processor_until(report.series[2].levels[2].error) == doctest::Approx(4));
-  // Between levels, before them and beyond.
+  // Sample counts between the levels, below the lowest and above the highest.
   for (const int samples : {1, 2, 8, 32, 256})
     CHECK(report.series[0].processor_until(8 * std::pow(samples, -1.5)) == doctest::Approx(0.25 * samples));
 }
 
 TEST_CASE("the error left after a time, and two renderers at an equal time") {
   const PathReport report = sample_path_report();
-  // 8 / samples^1.5 at 0.25 s a sample: between levels, at them, before them and beyond.
+  // The error is 8 / samples^1.5 at 0.25 s a sample: at and between the levels, below the lowest and above
+  // the highest.
   for (const int samples : {1, 2, 4, 8, 32, 64, 256})
     CHECK(report.series[0].error_after(0.25 * samples) == doctest::Approx(8 * std::pow(samples, -1.5)));
-  // The first takes 16 s in all, the other 32 s: by then that has taken 32 samples of 8 / 32.
+  // Our series takes 16 s in all, the other 32 s. After 16 s the other has taken 32 samples, and its error is
+  // 8 / 32.
   const EqualTime equal = at_equal_time(report.series[2], report.series[0]);
   CHECK(equal.processor == doctest::Approx(16));
   CHECK(equal.ratio == doctest::Approx(std::sqrt((8.0 / 32) / (8 * std::pow(64, -1.5)))));
@@ -150,7 +152,7 @@ TEST_CASE("Student's distribution, by tables; and Welch's test") {
   const WelchTest test = welch(first, second);
   CHECK(test.t == doctest::Approx(3 / std::sqrt(2.0)));
   CHECK(test.freedom == doctest::Approx(4 / (1.0 / 18 + (25.0 / 9) / 3)));
-  // Without any noise nothing but being the same is the same.
+  // Without noise, only equal means count as the same.
   CHECK(welch({0.5, 0, 4}, {0.5, 0, 4}).p == 1);
   CHECK(welch({0.5, 0, 4}, {0.6, 0, 4}).p == 0);
 }

@@ -1,5 +1,5 @@
-// Each kind of camera beside POV-Ray's, where that is installed: the same scene, of flat colours, as both see
-// it.
+// Compares each kind of camera with POV-Ray's, where POV-Ray is installed: both render the same scene of flat
+// colours.
 #include <cmath>
 
 #include "benchmarks/bench/programs.hpp"
@@ -94,7 +94,7 @@ TEST_CASE("cameras see what POV-Ray's see") {
     MESSAGE("POV-Ray is not installed");
     return;
   }
-  // All but pixels on an edge.
+  // All pixels agree except those on an edge.
   CHECK(apart_from_povray("eye = [0.2, 0.1, 0.3]\ntarget = [0.5, 0.3, -2]\nfov = 80", 160, 120).share < 0.5);
   CHECK(apart_from_povray("type = \"orthographic\"\neye = [0, 0.1, 9]\nsize = 4", 160, 120).share < 0.5);
   CHECK(apart_from_povray("type = \"fisheye\"\neye = [0.2, 0.1, 0.3]\ntarget = [0.5, 0.3, -2]\nfov = 230",

@@ -79,7 +79,7 @@ TEST_CASE("rays are raced beside Embree, plotted by a script, and compared with 
       for (const auto& timing : batch.at("timings")) {
         CHECK(timing.at("rays_per_second") > 1000);
         CHECK(timing.at("seconds").at("min") <= timing.at("seconds").at("max"));
-        // Rays to edges may go either way.
+        // A ray towards an edge may hit either side.
         CHECK(timing.at("differing").get<double>() <= 0.01 * batch.at("rays").get<double>());
       }
     }
@@ -265,7 +265,7 @@ TEST_CASE("each way to trace incoherent rays races by itself; an unknown one is 
   REQUIRE(builds.size() == 3);
   CHECK(builds.at(1).at("contender") == "gpu cooperative");
   CHECK(builds.at(2).at("contender") == "gpu lanes");
-  // The BVH4 is counted with the BVH that it was made of.
+  // The BVH4's bytes include those of the BVH that it was made of.
   CHECK(builds.at(1).at("bytes") > builds.at(2).at("bytes"));
 
   const ProcessResult refused = race("wider");

@@ -5,7 +5,7 @@
 namespace eyeray::engine::classics {
 namespace {
 
-// In float32, as renderers keep it.
+// The mesh as OBJ text. Its numbers are float32, as renderers keep them.
 std::string as_obj(const Mesh& mesh) {
   std::string text;
   for (const Vec3& p : mesh.positions)

@@ -19,22 +19,22 @@ namespace eyeray::engine::classics {
 
 using namespace generate;
 
-// A scene that is its name and its size factor.
+// A scene that its name and a size factor determine.
 struct Classic {
   std::string_view name;
-  int size_factor;              // that of the published statistics
-  uint64_t (*shapes)(int);      // how many it has, but for a mesh
-  std::string (*scene)(int);    // TOML of all but the mesh
+  int size_factor;              // the factor of the published statistics
+  uint64_t (*shapes)(int);      // their number, without the mesh
+  std::string (*scene)(int);    // TOML of everything but the mesh
   Mesh (*mesh)(int) = nullptr;  // without normals where it is flat
   std::string_view mesh_material = "";
 };
 
 extern const Classic tetra_classic, tree_classic, rings_classic, gears_classic, mount_classic, teapot_classic;
 std::span<const Classic> all_classics();
-// Writes scene.toml, and its mesh as mesh.obj.
+// Writes the scene as scene.toml, and its mesh as mesh.obj.
 void write(const Classic& classic, int size_factor, const std::filesystem::path& folder);
 
-// (cos, sin).
+// (cos, sin) of the angle.
 inline Vec2 unit_circle(double degrees) {
   const double angle = degrees * std::numbers::pi / 180;
   return {std::cos(angle), std::sin(angle)};
@@ -48,7 +48,7 @@ struct Branch {
   double radius;
   double tip_radius;
 };
-// All 2ⁿ⁺¹ − 1, parents before children, depth first.
+// Visits all 2ⁿ⁺¹ − 1 branches, parents before children, depth first.
 void for_each_branch(int size_factor, const std::function<void(const Branch&)>& visit);
 
 // ---- rings: pyramids of six rings that interlock, of cylinders and spheres ----
@@ -59,36 +59,37 @@ struct Rod {
   int ring;  // 0 … 5
 };
 inline constexpr double rod_radius = 0.07412;
-// All 5 n (n + 1) (2 n + 1), from the front layer backwards.
+// Visits all 5 n (n + 1) (2 n + 1) rods, from the front layer backwards.
 void for_each_rod(int size_factor, const std::function<void(const Rod&)>& visit);
 
 // ---- gears: a block of gears that mesh, some of glass ----
 struct Gear {
-  Vec3 center;  // of its top
+  Vec3 center;  // of the gear's top face
   double radius;
   double thickness;
   Vec3 color;
   bool glass;
   std::string material;  // its name; gears of one surface share it
-  // Counter-clockwise from above at the top, clockwise at the bottom, which has the same corners below.
+  // Corners of the top face, counter-clockwise from above; the bottom face has the same corners below,
+  // clockwise.
   std::array<Vec3, 144> top, bottom;
 };
-// All n³, layer below layer.
+// Visits all n³ gears, layer below layer.
 void for_each_gear(int size_factor, const std::function<void(const Gear&)>& visit);
 
 // ---- mount: a fractal mountain below four balls of glass ----
-// The seed of a grid point's height, for i, j from 0 to 2ⁿ. It repeats itself: that belongs to the scene.
+// The seed of a grid point's height, for i, j from 0 to 2ⁿ. Seeds repeat: that is part of the scene.
 uint32_t mount_seed(int size_factor, int i, int j);
 // A normally distributed number by the polar method, from the package's generator started with `seed`.
 double mount_gauss(uint32_t seed);
-// Heights of the (2ⁿ + 1)² grid points, row j after row j; the corners, at ±1, lie at 0. By midpoint
-// displacement.
+// Heights of the (2ⁿ + 1)² grid points by midpoint displacement, row after row in order of j. The corners, at
+// ±1, have height 0.
 std::vector<double> mount_heights(int size_factor);
 
 // ---- teapot: Newell's, of 32 Bézier patches cut into triangles, on a chessboard ----
-// 16 control points: rows along s, and in a row along t.
+// 16 control points: s grows from row to row, and t within a row.
 using BezierPatch = std::array<std::array<Vec3, 4>, 4>;
-// All 32: rim, body, handle, spout, lid, bottom.
+// All 32 patches: rim, body, handle, spout, lid, bottom.
 std::vector<BezierPatch> teapot_patches();
 // The surface itself: 32 [[bezier]] in one table.
 std::string teapot_bezier();

@@ -1,4 +1,4 @@
-// Haines' databases by his sampling send out as many rays as he published (the package's Readme.txt, 3.14).
+// With Haines' sampling, his databases take as many rays as he published (the package's Readme.txt, 3.14).
 #include <algorithm>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -17,7 +17,7 @@ struct Published {
   std::string_view classic;
   int size_factor;
   int64_t eye_hits, reflected, refracted, shadow;
-  bool quick = true;  // else only with EYERAY_FULL_TESTS=1
+  bool quick = true;  // false: tested only with EYERAY_FULL_TESTS=1
 };
 
 // docs/experiments/ray-counts.md explains the differences.
@@ -31,7 +31,7 @@ const Published published[] = {
     {"teapot", 12, 161120, 225248, 0, 407656},
 };
 
-// Within half a per cent; 0 exactly.
+// True if the counts agree within half a per cent; a count of 0 must be exact.
 bool agrees(int64_t ours, int64_t theirs) {
   return 200 * std::abs(ours - theirs) <= theirs;
 }
@@ -61,7 +61,7 @@ TEST_CASE("the classics send out the published numbers of rays" * doctest::test_
     const auto count = [&](const char* kind) { return kinds.at(kind).get<int64_t>(); };
     CHECK(agrees(count("eye_hits"), each.eye_hits));
     CHECK(agrees(count("reflected"), each.reflected));
-    // His count takes in the rays that total reflection keeps back.
+    // His count of refracted rays includes those that are totally reflected.
     CHECK(agrees(count("refracted") + count("total_reflections"), each.refracted));
     CHECK(agrees(count("shadow"), each.shadow));
     CHECK(report.at("rays") == count("eye") + count("reflected") + count("refracted") + count("shadow"));

@@ -44,8 +44,8 @@ Gear gear_at(int n, int x, int y, int z) {
   return gear;
 }
 
-// Its glass scatters a fifth of the light in its colour and lets four fifths through, at each surface. A
-// dielectric does not scatter: it takes on the colour by absorption instead, from one face to the other.
+// The package's glass scatters a fifth of the light in its colour and lets four fifths through, at each
+// surface. A dielectric does not scatter, so absorption between the two faces gives it the colour instead.
 std::string glass(const Gear& gear) {
   Vec3 absorption;
   for (int i = 0; i < 3; ++i)

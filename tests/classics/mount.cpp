@@ -6,12 +6,12 @@
 namespace eyeray::engine::classics {
 namespace {
 
-// √(2^(1/3) − 1): displacements for the fractal dimension 2.2.
+// √(2^(1/3) − 1): scales displacements so that the fractal dimension is 2.2.
 constexpr double roughness = 0.5098245285339583;
 // The root of two as rounded in the package.
 constexpr double root_of_two = 1.4142136;
 
-// The square of `cells` a side whose first grid point is (i, j).
+// Adds the triangles of the square of `cells` cells a side whose first grid point is (i, j).
 void add_triangles(Mesh& mesh, int grid, int cells, int i, int j) {
   if (cells > 1) {
     const int half = cells / 2;
@@ -32,8 +32,8 @@ std::string scene(int) {
   const Vec3 middle{-0.8, 0.8, 1};
   const double height = radius * std::sqrt(1.5), s = std::sqrt(3.0) / 2;
   const Vec3 foot = Vec3(2, -2, -1) * (height / 3);
-  // Glass of which a tenth scatters and a tenth mirrors: a dielectric leaves that to Fresnel's equations. A
-  // shadow ray keeps 0.9 at each of the two crossings.
+  // The package's glass scatters a tenth of the light and mirrors a tenth; a dielectric follows Fresnel's
+  // equations instead. A shadow ray keeps 0.9 at each of the two crossings.
   std::string text =
       classic_stage({.eye = {-1.6, 1.6, 1.7}, .target = {0, 0, 0}, .lights = {{-100, -100, 100}}}) +
       classic_material({.name = "rock", .color = {0.5, 0.45, 0.35}}) +
@@ -96,7 +96,7 @@ std::vector<double> mount_heights(int size_factor) {
   return heights;
 }
 
-// 2 · 4ⁿ triangles, a quarter of the square after the other.
+// 2 · 4ⁿ triangles, one quarter of the square after another.
 static Mesh mesh(int size_factor) {
   Mesh mesh;
   const int grid = 1 << size_factor;

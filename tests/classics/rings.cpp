@@ -6,10 +6,10 @@
 namespace eyeray::engine::classics {
 namespace {
 
-// 1 / sin 22.5°: from one layer of rings to the next.
+// Distance from one layer of rings to the next, 1 / sin 22.5°.
 const double layer = std::sqrt(4 + 2 * std::sqrt(2.0));
 
-// The corners of the rings, five each: one lies, five stand around it.
+// The corners of the six rings, five for each ring. One ring lies flat, and five stand around it.
 std::array<Vec3, 30> corners() {
   std::array<Vec3, 30> all;
   for (size_t j = 0; j < 5; ++j) {
@@ -46,7 +46,8 @@ std::string scene(int size_factor) {
   }
 
   const double y = layer * (size_factor + 1);
-  const double reach = 1.01 * (y + layer) * (std::sqrt(2.0) - 1);  // the whole picture, and a little
+  const double reach =
+      1.01 * (y + layer) * (std::sqrt(2.0) - 1);  // spans the whole picture and a little more
   text += classic_square("wall", {{{reach - 1, y, reach + 0.5},
                                    {-reach - 1, y, reach + 0.5},
                                    {-reach - 1, y, -reach + 0.5},

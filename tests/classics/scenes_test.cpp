@@ -1,5 +1,5 @@
-// The databases as their descriptions have them: counts, positions, heights, and the pixels on which points
-// fall.
+// Tests the databases against their descriptions: counts, positions, heights, and the pixels that show
+// certain points.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -23,7 +23,7 @@ Scene scene_of(const Classic& classic, int size_factor) {
   return parse_scene(classic.scene(size_factor), std::string(classic.name));
 }
 
-// A point falls on a pixel, to a hundredth of one.
+// Checks that a point projects to the expected position in the picture, within a hundredth of a pixel.
 void check_pixel(const Scene& scene, const Vec3& point, const Vec2& expected) {
   CAPTURE(point.x);
   const Vec2 p = pixel(scene, point);
@@ -42,7 +42,7 @@ TEST_CASE("the teapot's 32 patches are shapes whose corners and edges' middles a
   const Scene scene = parse_scene(teapot_classic.scene(1) + teapot_bezier(), "teapot");
   CHECK(scene.shapes.size() == 2 + 32);
   const Mesh mesh = teapot_classic.mesh(2);
-  // From outside, along the mesh's normals, each of its points is hit where it is.
+  // A ray from outside, along the normal at each vertex of the mesh, hits the Bézier patches at that vertex.
   int met = 0;
   for (size_t i = 0; i < mesh.positions.size(); ++i) {
     const Ray ray{mesh.positions[i] + mesh.normals[i] * 0.01, -mesh.normals[i]};
@@ -107,7 +107,7 @@ TEST_CASE("tree has 2^(n+1) - 1 branches, each shorter and thinner than the one 
   CHECK(all[0].foot == Vec3(0.0));
   CHECK(all[0].tip == Vec3(0, 0, 1));
   CHECK(all[0].radius == 0.15);
-  // Leaning by 40° towards the former y turned by 90°, to −x.
+  // The first child leans by 40° towards its y axis, which the turn by 90° has taken to −x.
   CHECK(glm::distance(all[1].tip, Vec3(0.65 * 0.6427876096865394, 0, 1 + 0.65 * 0.766044443118978)) < 1e-15);
   CHECK(glm::distance(all[8].tip, {-0.226621, 0.190158, 1.634415}) < 1e-6);
   CHECK(all[8].radius == doctest::Approx(0.15 * 0.67));
@@ -131,7 +131,8 @@ TEST_CASE("rings has 5n(n+1)(2n+1) rods, in closed rings of five") {
             doctest::Approx(2 * std::sin(M_PI / 5) / (1 + rod_radius)).epsilon(1e-14));
     }
   }
-  // The first stands in the middle of the first layer; the points of the last layer's far corner are known.
+  // The first ring stands in the middle of the first layer; the points of the last layer's far corner are
+  // known.
   std::vector<Rod> all;
   for_each_rod(7, [&](const Rod& rod) { all.push_back(rod); });
   CHECK(glm::distance(all[0].from, Vec3(1 / (1 + rod_radius), 2.613125929752753, 0)) < 1e-14);
@@ -223,7 +224,7 @@ TEST_CASE("mount has 2 * 4^n triangles that look up, and four balls") {
     CHECK(up);
     CHECK(area == doctest::Approx(4));
   }
-  // Quarters of quarters of squares follow each other.
+  // Triangles come quarter by quarter, recursively.
   const Mesh mesh = mount_classic.mesh(2);
   CHECK(mesh.triangles[0] == std::array<uint32_t, 3>{0, 1, 6});
   CHECK(mesh.triangles[1] == std::array<uint32_t, 3>{6, 5, 0});
@@ -257,7 +258,7 @@ TEST_CASE("teapot has 64n^2 - 8n triangles, from n = 6 on with all normals on th
       empty += n == Vec3(0.0);
       for (const uint32_t corner : triangle) inward += glm::dot(mesh.normals[corner], n) <= 0;
     }
-    CHECK(empty == (size_factor == 1 ? 4 : 0));  // the spout's end is flat there
+    CHECK(empty == (size_factor == 1 ? 4 : 0));  // the spout's end is flat at that factor
     CHECK((inward > 0) == (size_factor < 6));    // coarse patches turn by more than a right angle
     for (const Vec3& n : mesh.normals) CHECK(glm::length(n) == doctest::Approx(1).epsilon(1e-12));
   }
@@ -267,7 +268,7 @@ TEST_CASE("teapot has 64n^2 - 8n triangles, from n = 6 on with all normals on th
   CHECK(patches[16][0] ==
         std::array<Vec3, 4>{{{1.7, 0, 1.425}, {1.7, -0.66, 1.425}, {1.7, -0.66, 0.6}, {1.7, 0, 0.6}}});
   CHECK(glm::distance(patches[20][1][1], Vec3(0.8, -0.45, 3.15)) <
-        1e-15);  // Newell's bulge for once, not 0.56
+        1e-15);  // here Newell's own bulge, not 0.56
   CHECK(patches[21][1][0] == Vec3(0, -0.8, 3.15));
   CHECK(patches[29][3][0] == Vec3(0, 1.5, 0.15));
 

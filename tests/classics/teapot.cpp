@@ -38,7 +38,7 @@ void add_vertex(const BezierPatch& patch, double s, double t, Mesh& mesh) {
                                     : glm::normalize(glm::cross(along_t, along_s)));
 }
 
-// The squares whose colour is that of odd or of even sums.
+// The chessboard's squares (s, t) whose sum s + t is odd, or those whose sum is even.
 std::string squares(int size_factor, bool odd, std::string_view material) {
   BatchText triangles("triangle", fmt::format("material = \"{}\"\n", material), {"vertices"});
   const auto corner = [&](int s, int t) {

@@ -1,4 +1,4 @@
-// Newell's numbers.
+// The control points of Newell's teapot.
 #include "classics.hpp"
 
 namespace eyeray::engine::classics {
@@ -7,10 +7,11 @@ namespace {
 struct Ring {
   double radius;
   double z;
-  double bulge = 0.56;  // how far a quarter's inner control points lie out, of its radius
+  double bulge = 0.56;  // offset of a quarter's inner control points, as a share of the radius
 };
 
-// A surface of four quarters about z; `side` ±1 is the way that a quarter runs.
+// Adds a surface of revolution about z, of four quarters; `side` ±1 is the direction in which the quarters go
+// round.
 void turn(std::vector<BezierPatch>& patches, double side, const std::array<Ring, 4>& rings) {
   for (int quarter = 0; quarter < 4; ++quarter) {
     BezierPatch patch;
@@ -25,14 +26,14 @@ void turn(std::vector<BezierPatch>& patches, double side, const std::array<Ring,
   }
 }
 
-// Across a tube, from one side of it to the other.
+// A section across a tube, from one side of the tube to the other.
 struct Section {
   double from_x, from_z;
   double to_x, to_z;
   double reach;  // in y
 };
 
-// Its two halves, from section to section.
+// Adds the two halves of a tube that goes from section to section.
 void tube(std::vector<BezierPatch>& patches, const Section* sections) {
   BezierPatch left, right;
   for (size_t row = 0; row < 4; ++row) {

@@ -3,13 +3,14 @@
 namespace eyeray::engine::classics {
 namespace {
 
-// A map of space, first `linear`, then moved.
+// A map of space: applies `linear`, then moves by `offset`.
 struct Map {
   glm::dmat3 linear{1.0};
   Vec3 offset{0.0};
 };
 
-// Shrinks, leans by turning y towards z, turns x towards y, and stands on the tip.
+// The map of a child onto its parent's tip: shrinks, leans by turning y towards z, turns x towards y, and
+// moves to the tip.
 Map onto_tip(double scale, double turn_degrees, double lean_degrees) {
   const Vec2 turn = unit_circle(turn_degrees), lean = unit_circle(lean_degrees);
   const glm::dmat3 about_x(Vec3(1, 0, 0), Vec3(0, lean.x, lean.y), Vec3(0, -lean.y, lean.x));

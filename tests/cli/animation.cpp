@@ -121,7 +121,8 @@ TEST_CASE("errors in frames are reported before anything is rendered") {
 
 TEST_CASE("--video gives ffmpeg the frames in order, and its file appears when it is whole") {
   const MovingFolder folder;
-  // A stand-in for ffmpeg: keeps its list, and writes its last argument's file. It fails if BROKEN is set.
+  // A stand-in for ffmpeg: copies the list of frames to `list`, and writes the file that its last argument
+  // names. It fails if BROKEN is set.
   const std::string bin = folder / "bin";
   mkdir(bin.c_str(), 0755);
   write_text(bin + "/ffmpeg", R"(#!/bin/sh

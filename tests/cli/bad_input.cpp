@@ -1,4 +1,4 @@
-// The world's faults: each has its words and its exit code, and leaves nothing behind.
+// Faults of input and of the machine: each has its message and its exit code, and leaves no file behind.
 #include <nlohmann/json.hpp>
 
 #include "host/image/image_file.hpp"
@@ -59,7 +59,7 @@ material = "matte"
   CHECK(result.err.find("error: this loop has more than 1000 iterations, or a number of them that depends on "
                         "p; so no interval can be computed for it: declare a `lipschitz`\n"
                         "    while (x > 1.0) x *= 0.5;") != std::string::npos);
-  // With a constant nothing need be derived.
+  // With a Lipschitz constant, no interval is needed.
   replace_in_file(folder.scene(), "max = [1, 1, 1]", "max = [1, 1, 1]\nlipschitz = 1");
   CHECK(run_eyeray({"check", folder.scene()}).code == 0);
 }
@@ -163,7 +163,7 @@ TEST_CASE("a render does not overwrite files that it reads, by whatever name") {
     CHECK(result.err.find("would be overwritten, but the scene reads it") != std::string::npos);
     CHECK(kept() == before);
   }
-  // The name that is taken by default is no better.
+  // The default name of the picture is refused likewise: it is the scene's.
   const ProcessResult result =
       run_process({"sh", "-c", "cd \"$0\" && exec \"$1\" render scene.png --backend reference",
                    folder / "way", std::filesystem::absolute(eyeray_binary()).string()});
@@ -200,7 +200,7 @@ TEST_CASE("without a Vulkan driver or loader nothing is rendered, and what to in
     CHECK(render.err.find("apt install") != std::string::npos);
     CHECK(render.err.find("with --backend twin") != std::string::npos);
     CHECK(run_eyeray({"devices"}, environment).code == 3);
-    // The CPU backends need neither.
+    // The CPU backends need neither a driver nor a loader.
     CHECK(run_eyeray({"render", folder.scene(), "--backend", "twin", "-o", folder / "twin.png"}, environment)
               .code == 0);
     std::filesystem::remove(folder / "twin.png");

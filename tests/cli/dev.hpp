@@ -24,7 +24,7 @@ class Dev {
     seen_ = process_.err().find(text, seen_) + text.size();
     return true;
   }
-  // Its worker, its only child; 0 when there is none.
+  // The process id of its worker, which is its only child; 0 if there is none.
   pid_t worker() const {
     const std::string pid = std::to_string(process_.pid());
     std::istringstream children(read_text("/proc/" + pid + "/task/" + pid + "/children"));

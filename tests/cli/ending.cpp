@@ -1,4 +1,4 @@
-// Tests of eyeray's end if its streams, its files, its time or its device end before it.
+// Tests the exit of eyeray if a stream, a file, its time or its device fails first.
 #include <fmt/format.h>
 
 #include <csignal>
@@ -19,7 +19,7 @@ ProcessResult run_line(const SceneFolder& folder, const std::string& line) {
       {{"EYERAY", eyeray_binary()}, {"SCENE", folder.scene()}}, 120);
 }
 
-// A render that is a matter of hours, once it keeps a checkpoint of more than its start.
+// A render that takes hours. The constructor returns once the render has written a checkpoint.
 class LongRender : public Process {
  public:
   explicit LongRender(const SceneFolder& folder, const Environment& environment = {})
@@ -70,7 +70,8 @@ TEST_CASE("a limit on the size of files is an error of the file, and leaves noth
   CHECK(result.code == 4);
   CHECK(result.err.find("File too large") != std::string::npos);
   CHECK(folder.names() == std::set<std::string>{"scene.toml"});
-  // Mesa 25 has its memory in a file, too. Only the greatest limit leaves room for all of it.
+  // Mesa 25 keeps its memory in a file too, to which the limit applies. Only the greatest limit leaves room
+  // for all of it.
   for (const int kib : {600, 2500, 5000, 7000, 100000}) {
     CAPTURE(kib);
     const ProcessResult limited =
@@ -99,8 +100,8 @@ TEST_CASE("each signal that ends a render keeps its checkpoint, and shows in the
 }
 
 TEST_CASE("a pixel whose rays have no end ends by one signal, and keeps the checkpoint") {
-  // Four walls of glass in the second of two rows, a band each: each ray splits at each face, 64 times in a
-  // row.
+  // The picture has two rows, and each is a band. The second shows four walls of glass: each ray splits at
+  // each face, up to depth 64.
   std::string scene =
       "[image]\nwidth = 32768\nheight = 2\nsamples = 16\n"
       "[camera]\ntype = \"orthographic\"\neye = [0, 0, 9]\ntarget = [0, 0, 0]\nsize = 1\n"
@@ -189,12 +190,12 @@ TEST_CASE("checking a scene holds its images once") {
   const ProcessResult result = run_line(folder, "ulimit -v 160000; $EYERAY check big.toml");
   CAPTURE(result.err);
   CHECK(result.code == 0);
-  CHECK(result.out.find("6711") != std::string::npos);  // its bytes, among those of the scene
+  CHECK(result.out.find("6711") != std::string::npos);  // the image's bytes, as part of the scene's
 }
 
 TEST_CASE("a limit on memory is a message and exit code 3") {
   const SceneFolder folder;
-  // Less than drivers get by with, and less than a picture's sums.
+  // Less memory than drivers need, and less than a picture's sums need.
   for (const std::string options : {"", "--backend twin -s 16000x8000 --band-memory 8192"}) {
     const ProcessResult result =
         run_line(folder, "ulimit -v 600000; $EYERAY render $SCENE -o a.pfm " + options);

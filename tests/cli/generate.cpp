@@ -28,7 +28,7 @@ TEST_CASE("a generated sphereflake is a scene, the same every time") {
   // It overwrites files that it made itself.
   CHECK(run_eyeray({"generate", "sphereflake", "-o", scene}).code == 0);
   CHECK(read_text(scene) == text);
-  // By its first name too.
+  // It overwrites them under the model's first name too.
   CHECK(run_eyeray({"generate", "balls", "-o", scene}).code == 0);
   CHECK(read_text(scene) == text);
   CHECK(folder.names() == std::set<std::string>{"balls.toml"});

@@ -84,7 +84,7 @@ TEST_CASE("a picture that fails, or is black, becomes no golden picture") {
   CHECK(black.out.find("it was not updated: the picture is black") != std::string::npos);
   CHECK(!std::filesystem::exists(golden));
 
-  // A damaged one is an error of the file, and stays.
+  // A damaged golden picture is a file error, and is left as it is.
   write_text(golden, "PF\n16 12\n");
   CHECK(verify({"--update"}).code == 4);
   CHECK(read_text(golden) == "PF\n16 12\n");

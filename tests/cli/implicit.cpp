@@ -23,8 +23,8 @@ class FormulaFolder : public SceneFolder {
 };
 
 const std::string ball = "float f(vec3 p) { return distance(p, vec3(0.0, 1.0, 0.0)) - 0.9; }\n";
-// Whose loop ends nowhere but beside the plane x = 0, through which a picture of an odd width has rays: no
-// sample finds that.
+// A formula whose loop never ends on the plane x = 0. A picture of odd width has rays in that plane, but no
+// sample of the formula is taken on it.
 const std::string endless_at_0 =
     "float f(vec3 p) {\n  while (p.x == 0.0) p.y += 1.0;\n  return distance(p, vec3(0.0, 1.0, 0.0)) - "
     "0.9;\n}\n";

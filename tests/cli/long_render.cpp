@@ -18,7 +18,8 @@ namespace {
 
 using Arguments = std::vector<std::string>;
 
-// The small scene on the CPU, for a second or two; in two bands of rows if so wished.
+// The words that render the small scene on the CPU, for a second or two. `bands`: the --band-memory in MiB;
+// "1" makes several bands of rows.
 Arguments long_render(const SceneFolder& folder, const std::string& name, const std::string& bands = "256") {
   return {"render",
           folder.scene(),
@@ -45,7 +46,7 @@ Arguments with(Arguments arguments, const Arguments& more) {
   return arguments;
 }
 
-// Every file of the picture NAME, under the name that it has after it.
+// The contents of every file of the picture `name`, by the rest of the file's name.
 std::map<std::string, std::string> files_of(const SceneFolder& folder, const std::string& name) {
   std::map<std::string, std::string> files;
   for (const std::string& file : folder.names()) {
@@ -85,7 +86,7 @@ TEST_CASE("interrupted at any time and resumed, all files are those of an uninte
     MESSAGE(fmt::format("band memory {}: {} runs", bands, runs));
     CHECK(runs > 2);
     CHECK(files_of(folder, "parts") == whole);
-    // The checkpoint has done its work, and nothing else is left.
+    // The checkpoint is gone, and only the pictures are left.
     CHECK(folder.names().size() == 1 + 2 * whole.size());
     for (const std::string& name : folder.names()) {
       if (name.starts_with("parts.")) std::filesystem::remove(folder / name);
@@ -170,7 +171,7 @@ TEST_CASE("another scene, size, sampling or backend does not resume, and gets th
   CHECK(refusal(command) == "the scene\n");
   replace_in_file(folder.scene(), "radius = 1.5", "radius = 1");
 
-  // A new render does not trample on it.
+  // A new render does not overwrite the checkpoint.
   const ProcessResult again = run_eyeray(with(command, {"--checkpoint", checkpoint}));
   CHECK(again.code == 2);
   CHECK(again.err == "eyeray: error: the checkpoint " + checkpoint +
@@ -210,7 +211,7 @@ TEST_CASE("Ctrl-C in a picture of several bands keeps nothing, and says what wou
   command.emplace_back("--quiet");
   const ProcessResult result = run_eyeray(command, {}, 120, 300);
   CHECK(result.code == 130);
-  // Early on, or with pixels to lose.
+  // The interrupt came before the first pixels, or after some that are lost.
   CHECK((result.err == "eyeray: error: interrupted\n" ||
          result.err == "eyeray: error: interrupted; a picture of 3 bands is complete only at its end, so "
                        "nothing was kept (--checkpoint FILE would keep the work)\n"));

@@ -63,7 +63,7 @@ TEST_CASE("beside the pictures of ids lies what they stand for") {
   CHECK(ids[2].at("last") == 3);
   CHECK_FALSE(ids[2].contains("color"));
 
-  // Every pixel is one of an entry, and has its colour.
+  // Every pixel belongs to an entry of the legend, and has that entry's colour.
   std::map<int, int64_t> pixels;
   int miscoloured = 0;
   for (int y = 0; y < data.height(); ++y) {

@@ -79,7 +79,7 @@ std::string gltf(const std::string& text) {
 
 struct Place {
   std::string name;
-  // The words of a command that shows the text; files that it reads are made.
+  // Returns the words of a command that shows the text, and makes the files that the command reads.
   std::function<Words(const SceneFolder&, const std::string& text)> words;
 };
 

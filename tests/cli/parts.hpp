@@ -21,12 +21,12 @@ inline std::string part_of(const SceneFolder& folder, int index, int count) {
 
 inline Words all_parts(const SceneFolder& folder, int count) {
   Words parts;
-  // Not in their order.
+  // In reverse order.
   for (int i = count; i > 0; --i) parts.push_back(part_of(folder, i, count));
   return parts;
 }
 
-// The words for one of them.
+// The words that make a command render one part.
 inline Words words_of_part(const SceneFolder& folder, int index, int count) {
   return {"--shard", fmt::format("{}/{}", index, count), "-o", part_of(folder, index, count)};
 }

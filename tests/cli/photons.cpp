@@ -83,7 +83,7 @@ TEST_CASE("--noise stops photons where a pixel is as good as it says, beside a l
       within += off <= double(noise.samples()[i]) * (luminance(exact, i) + 0.01);
     }
   }
-  // 95 % intervals, whose pixels share their photons.
+  // The intervals are of 95 %, and their pixels share photons.
   CHECK(double(within) / double(all) > 0.93);
 }
 

@@ -30,7 +30,7 @@ Probed probe(std::vector<std::string> arguments) {
   return {result.code, Json::parse(result.out)};
 }
 
-// The value of that name of a ray, by an executor.
+// The ray's value of that name, as an executor has it.
 Json value(const Json& ray, const std::string& name, const std::string& executor) {
   for (const Json& line : ray.at("values"))
     if (line.at("name") == name) return line.at(executor);
@@ -91,7 +91,7 @@ TEST_CASE("the text has a line a value and a column an executor, the verdict fir
   CHECK(result.out.find("≠") == std::string::npos);
   CHECK(result.out.find("\033") == std::string::npos);
 
-  // A pixel beside the ball; by the reference alone there is nothing to differ from.
+  // A pixel beside the ball. With the reference alone, no values can differ.
   const ProcessResult sky = run_eyeray({"probe", folder.scene(), "0,0", "--backends", "reference"});
   CHECK(sky.code == 0);
   CHECK(sky.out.find("  camera ray → nothing\n") != std::string::npos);

@@ -37,7 +37,7 @@ TEST_CASE("progress keeps to one line of a terminal of any width, also when the 
     CAPTURE(width);
     Terminal terminal(width);
     Process eyeray(terminal.command(render), xterm);
-    // The first bar, and another.
+    // Waits for the first drawing of the bar, and for another.
     REQUIRE(terminal.wait_for(" %"));
     REQUIRE(terminal.wait_for("\r", terminal.shown().size()));
     eyeray.send_signal(SIGINT);
@@ -55,7 +55,7 @@ TEST_CASE("progress keeps to one line of a terminal of any width, also when the 
   REQUIRE(terminal.wait_for(" left"));
   CHECK(std::ranges::any_of(drawings(terminal.shown()), [](const auto& each) { return columns(each) > 60; }));
   terminal.set_columns(40);
-  // A drawing may have been under way.
+  // A drawing of the old width may have been under way, so the next one is skipped.
   const size_t changed = terminal.shown().size();
   REQUIRE(terminal.wait_for("\033[K", changed));
   const size_t after = terminal.shown().size();
@@ -78,7 +78,7 @@ TEST_CASE("a terminal shows that kernels compile, and compiling is no part of th
   eyeray.send_signal(SIGINT);
   eyeray.wait(600);
 
-  // verify, before each executor.
+  // `verify` shows this before each executor.
   Terminal other(100);
   Process verify(other.command("verify " + folder.scene() + " >/dev/null"), xterm);
   size_t from = 0;

@@ -1,4 +1,4 @@
-// README.md shows a report of `eyeray verify`: its gates are the ones that come out.
+// README.md shows a report of `eyeray verify`; a real run reports the same gates.
 #include <sstream>
 
 #include "tests/support/process.hpp"

@@ -28,7 +28,7 @@ TEST_CASE("verify records what a healthy scene needs, and nothing of one that fa
   CHECK(read_text(folder.scene()) == before + "\n[verify]\nmax_explained = 0\n");
   CHECK(verify({}).code == 0);
 
-  // Again, over the recorded value; the cap itself is no reason to refuse.
+  // Recording again replaces the value; a value that is too high is no reason to refuse.
   write_text(folder.scene(), before + "\n[verify]\nmax_explained = 0.02 # too much\n");
   CHECK(verify({"--record"}).code == 0);
   CHECK(read_text(folder.scene()) == before + "\n[verify]\nmax_explained = 0 # too much\n");

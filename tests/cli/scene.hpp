@@ -52,8 +52,8 @@ inline std::string with_pixel_code(const std::string& shader, const std::string&
 }
 
 // Writes below `folder` the shader that renders a sample, made to loop without end.
-// (Mesa 22.3.6 ends any loop after 65 535 turns; the work in each makes that take far longer than the tests'
-// time-outs.)
+// (Mesa 22.3.6 ends any loop after 65 535 iterations; the work in each makes that take far longer than the
+// tests' time-outs.)
 inline void lay_endless_shader(const std::string& folder) {
   std::string work;
   for (int i = 0; i < 96; ++i) work += "    e = sin(e * 1.7 + float(x)) + cos(e + float(y));\n";

@@ -14,7 +14,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// For a second or two on the CPU.
+// The words of a render that takes a second or two on the CPU.
 Words long_picture(const SceneFolder& folder, const std::string& samples = "64") {
   return {"render", folder.scene(),           "-s",        "300x200", "--spp",  samples,
           "-D",     "image.pattern=jittered", "--backend", "twin",    "--quiet"};
@@ -25,7 +25,7 @@ void wait_for_file(Process& process, const std::string& file) {
   while (!std::filesystem::exists(file) && !process.wait(0.01)) continue;
 }
 
-// A program's words, by which it has one processor and so one thread.
+// Words before a program's, which restrict it to one processor and so to one thread.
 Words on_one_processor() {
   cpu_set_t set;
   REQUIRE(sched_getaffinity(0, sizeof set, &set) == 0);
@@ -34,8 +34,8 @@ Words on_one_processor() {
   return {"taskset", "-c", std::to_string(first)};
 }
 
-// Shards that are killed at any time and started again until they are done, `kills` times in all, with all
-// processors or one.
+// Kills shards at random times, `kills` times in all, and starts each again until it is done. Each run has
+// all processors or one.
 void kill_and_repeat(int kills) {
   const SceneFolder folder;
   Random random(20);
@@ -56,7 +56,7 @@ void kill_and_repeat(int kills) {
           words_of_part(folder, index, count) +
           Words{"--stats", resumes ? "--resume" : "--checkpoint", checkpoint, "--checkpoint-every", "0.02"});
       const bool kill = killed < kills && random.below(4) > 0;
-      // Before there is a checkpoint, or some time after, however fast the machine is.
+      // The kill comes at any time, or only after a checkpoint exists, however fast the machine is.
       if (kill && random.below(4) > 0) wait_for_file(process, checkpoint);
       if (!process.wait(kill ? random.below(300) * 0.001 : 3600) && kill) {
         process.send_signal(SIGKILL);
@@ -65,7 +65,7 @@ void kill_and_repeat(int kills) {
       }
       CAPTURE(process.err());
       REQUIRE((process.code() == 0 || process.code() == 128 + SIGKILL));
-      // A file under the part's name is whole.
+      // A file that has the part's name is complete.
       if (std::filesystem::exists(part)) {
         CHECK(process.code() == 0);
         CHECK_FALSE(std::filesystem::exists(checkpoint));
@@ -85,8 +85,8 @@ void kill_and_repeat(int kills) {
   if (many.contains("ray_kinds")) CHECK(one.at("ray_kinds") == many.at("ray_kinds"));
 }
 
-// Runs eyeray where files may have so many blocks of 512 bytes: a write beyond is refused as by a disk that
-// is full.
+// Runs eyeray with files limited to `blocks` blocks of 512 bytes: a write beyond them is refused as by a full
+// disk.
 ProcessResult run_on_a_full_disk(int blocks, const Words& words) {
   return run_process(Words{"/bin/sh", "-c", "ulimit -f \"$1\"; shift; exec \"$@\"", "sh",
                            std::to_string(blocks), eyeray_binary()} +
@@ -108,7 +108,8 @@ TEST_CASE("a full disk is reported, and leaves nothing that looks like a part or
   const SceneFolder folder;
   const Words picture{"render", folder.scene(), "-s", "160x90", "--quiet", "--backend", "twin"};
   const std::set<std::string> before{"scene.toml"};
-  // In the header, in the planes and, of 57 600 bytes of them each, with the totals; the last has room.
+  // The write fails in the header, in a plane (57 600 bytes each) or at the totals; the last limit leaves
+  // room for all.
   for (const int blocks : {0, 1, 60, 110, 120, 400}) {
     CAPTURE(blocks);
     const ProcessResult result = run_on_a_full_disk(blocks, picture + words_of_part(folder, 2, 3));

@@ -23,7 +23,7 @@ void render_parts(const SceneFolder& folder, const Words& picture, int count) {
     render_part(folder, picture, i, count, {{"LP_NUM_THREADS", std::to_string(i % 3)}});
 }
 
-// -o for each of these endings.
+// An option -o for each of these endings.
 Words outputs(const SceneFolder& folder, const std::string& name, const Words& endings) {
   Words words;
   for (const std::string& ending : endings) words = words + Words{"-o", folder / (name + ending)};

@@ -29,7 +29,7 @@ TEST_CASE("verify takes a folder: every scene in it and below, and no part of an
   CHECK(passed.out.find("\n2 scenes in ") != std::string::npos);
   CHECK(read_text(folder / "report.xml").find("tests=\"2\" failures=\"0\"") != std::string::npos);
 
-  // One that cannot be rendered fails; the others are verified all the same.
+  // A scene that cannot be rendered fails; the others are verified all the same.
   write_text(folder / "bad.toml", "sphere = 3\n");
   const ProcessResult failed = verify({"--json"});
   CHECK(failed.code == 1);
@@ -46,11 +46,13 @@ TEST_CASE("verify takes a folder: every scene in it and below, and no part of an
   std::filesystem::remove(folder / "deep.toml");
   CHECK(verify({"--json", "--github"}).code == 2);
 
-  // Alone, it is the error that it is; a folder without scenes is one, too.
+  // If the bad scene is verified by its file's name, its error ends the program; a folder without scenes is
+  // an error too.
   CHECK(run_eyeray({"verify", folder / "bad.toml"}).code == 2);
   std::filesystem::create_directories(folder / "empty");
 
-  // In a separate folder it is a failed scene of a suite, with reports. Names are not markup in them.
+  // Alone in a folder, the bad scene is a failed scene of a suite, and gets reports. Names in them are not
+  // markup.
   std::filesystem::create_directories(folder / "one");
   write_text(folder / "one/<!--<script>.toml", "sphere = 3\n");
   CHECK(run_eyeray({"verify", folder / "one", "--junit", folder / "one.xml", "--report", folder / "page"})

@@ -44,7 +44,7 @@ class Terminal {
     const winsize size{24, static_cast<unsigned short>(columns), 0, 0};
     REQUIRE(ioctl(master_, TIOCSWINSZ, &size) == 0);
   }
-  // Reads until `text` was written after position `from`, or nothing more is for ten minutes.
+  // Reads until `text` was written after position `from`, or until nothing was written for ten minutes.
   bool wait_for(const std::string& text, size_t from = 0) {
     while (shown_.find(text, from) == std::string::npos)
       if (!read_some(600'000)) return false;

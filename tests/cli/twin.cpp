@@ -1,4 +1,5 @@
-// The twin of a user's shaders: the bits of the device, and the reports of debuggers and sanitizers.
+// The twin of a user's shaders: it has the bits of the device, and debuggers and sanitizers report its
+// faults.
 #include <fmt/format.h>
 #include <sys/stat.h>
 
@@ -54,7 +55,8 @@ TEST_CASE("the twin of a user's shaders has the bits of the device, and verify a
   REQUIRE(run_eyeray({"render", users.scene(), "--backend", "twin", "-o", users / "own.pfm"}).code == 0);
   REQUIRE(users.render("twin", "same.pfm").code == 0);
   CHECK(read_text(users / "own.pfm") == read_text(users / "same.pfm"));
-  // The float policy is not the user's to change. What is compiled comes out of the program.
+  // CXXFLAGS cannot change the float policy. The headers of host/ and glm that are compiled come out of the
+  // program itself.
   const Environment fast{
       {"CXXFLAGS", "-O2 -march=native -ffp-contract=fast -MD -MF " + (users / "included")}};
   REQUIRE(users.render("twin", "fast.pfm", {}, fast).code == 0);
@@ -149,7 +151,7 @@ TEST_CASE("sanitizers find a user's shader's fault, at its line") {
   CHECK(address.code == 2);
   CHECK(contains(address.err, "AddressSanitizer: stack-buffer-overflow"));
   CHECK(contains(address.err, place));
-  // In a worker too.
+  // The same holds in dev's worker.
   const ProcessResult dev =
       users.run({"dev", users.scene(), "--backend", "twin", "--once", "--sanitize", "address,undefined"});
   CHECK(dev.code == 2);

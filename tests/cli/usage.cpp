@@ -26,7 +26,7 @@ std::string fact_in(const std::string& text, const std::string& name) {
   return text.substr(begin, text.find('"', begin) - begin);
 }
 
-// The same, of a program that is built of the sources in a folder.
+// The same fact of a program that is built from the sources in a folder.
 std::string build_fact(const std::string& name, const std::string& source,
                        const std::string& compiler = "a compiler") {
   const TemporaryFolder folder;
@@ -276,7 +276,7 @@ TEST_CASE("parts know the program by its sources and its compiler, not by the co
     std::filesystem::remove_all(changed);
   }
 
-  // The part's own sum is that of the sources of the built program.
+  // The sum in the part is that of the built program's sources.
   const SceneFolder scene;
   REQUIRE(run_eyeray({"render", scene.scene(), "--shard", "1/2", "-o", scene / "a.eyeray"}).code == 0);
   const std::string part = read_text(scene / "a.eyeray");

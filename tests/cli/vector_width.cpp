@@ -1,4 +1,4 @@
-// The vectors that llvmpipe computes in: as the picture wants them, or as LP_NATIVE_VECTOR_WIDTH sets them.
+// The width of llvmpipe's vectors: eyeray chooses it by the picture, or LP_NATIVE_VECTOR_WIDTH sets it.
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>

@@ -21,7 +21,7 @@ namespace {
 
 constexpr int columns = 36, rows = 27;
 
-// Gradients, edges, points and noise, of colours up to `brightest`, for a good part dark.
+// A picture of gradients, edges, points and noise, with colours up to `brightest`; much of it is dark.
 Image scene(uint64_t seed, double brightest) {
   Random random(seed);
   Image image(columns, rows, 3);

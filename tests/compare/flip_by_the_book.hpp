@@ -44,7 +44,7 @@ inline constexpr double to_xyz[3][3] = {{10135552.0 / 24577794, 8788810.0 / 2457
                                         {2613072.0 / 12288897, 8788810.0 / 12288897, 887015.0 / 12288897},
                                         {1425312.0 / 73733382, 8788810.0 / 73733382, 70074185.0 / 73733382}};
 
-// XYZ over that of white.
+// XYZ divided by the XYZ of white.
 inline Color relative_xyz(const Color& rgb) {
   Color xyz{};
   for (size_t i = 0; i < 3; ++i) {
@@ -58,7 +58,7 @@ inline Color relative_xyz(const Color& rgb) {
   return xyz;
 }
 
-// By Cramer's rule.
+// The RGB of relative XYZ, by Cramer's rule.
 inline Color rgb_from(const Color& relative) {
   double m[3][3];
   Color right{};
@@ -131,7 +131,7 @@ inline Filter sensitivity(double a1, double b1, double a2, double b2) {
   return filter;
 }
 
-// Along x, or along y.
+// The filter that detects points or edges, along x or along y.
 inline Filter feature(bool point, bool along_y) {
   const double sd = 0.5 * 0.082 * pixels_per_degree;
   Filter filter{int(std::ceil(3 * sd)), {}};

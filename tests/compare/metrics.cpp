@@ -57,7 +57,7 @@ TEST_CASE("one pixel's difference, in numbers worked out by hand") {
   CHECK(m.psnr == doctest::Approx(10 * std::log10(600 / 0.0625)));
   CHECK(m.max == doctest::Approx(0.25));
   CHECK(m.max_at == Pixel{13, 7});
-  // 1 of 200 pixels: 99 % do not differ, 99.9 % do not suffice.
+  // 1 of 200 pixels differs: the 99 % quantile is 0, and the 99.9 % quantile is not.
   CHECK(m.p99 == 0);
   CHECK(m.p999 == doctest::Approx(0.25));
   b.pixel(3, 2)[0] += 0.125f;
@@ -120,7 +120,8 @@ TEST_CASE("FLIP of constant greys is the paper's redistributed HyAB distance") {
 }
 
 TEST_CASE("FLIP agrees with the authors' program, filtered directly in two dimensions") {
-  // The figures come from a transcription of their published steps, neither separable nor in C++.
+  // The expected figures come from a transcription of the published steps, which is neither separable nor in
+  // C++.
   const auto paint = [](const std::function<double(int x, int y, int c)>& value) {
     Image image(24, 20, 3);
     for (int y = 0; y < 20; ++y) {

@@ -16,7 +16,7 @@ TEST_CASE("rays and values come to where they belong, however the loop goes abou
   recorder.value("visibility", 8, 1.0f);
   recorder.back(0);
   recorder.value("light", 9, Vec3(1, 2, 3));
-  // Refracted first, then the ray that waited.
+  // The refracted ray is traced first, then the reflected ray that waited.
   recorder.ray(RayKind::refracted, 0, 1);
   recorder.ray(RayKind::reflected, 0, 2);
   recorder.value("deep", 1, true);

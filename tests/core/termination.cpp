@@ -78,7 +78,7 @@ TEST_CASE("under nohup SIGHUP is no signal") {
   CHECK_FALSE(child.wait(0.1));
   child.send_signal(SIGTERM);
   REQUIRE(child.ends());
-  CHECK(child.code() == 128 + SIGTERM);  // of the first that was seen
+  CHECK(child.code() == 128 + SIGTERM);  // of the first signal that was seen
 }
 
 TEST_CASE("child: does not ask" * doctest::skip()) {
@@ -137,7 +137,7 @@ TEST_CASE("one signal lets it save, two at once are one, a second ends it") {
   CHECK_FALSE(child.wait(0.5));
   child.send_signal(SIGINT);
   REQUIRE(child.ends());
-  // Either of the two may come first.
+  // Either of the two signals may arrive first.
   CHECK((child.code() == 128 + SIGTERM || child.code() == 128 + SIGINT));
   CHECK(child.err().find("ended: interrupted\n") != std::string::npos);
 }
@@ -164,7 +164,7 @@ TEST_CASE("child: returns too late and saves" * doctest::skip()) {
       const ForeignCall call(0.05, Error(ExitCode::timed_out, "it took too long"));
       while (!call.passed()) sleep_seconds(0.001);
     }
-    sleep_seconds(0.6);  // twice the grace
+    sleep_seconds(0.6);  // twice the grace period
     fmt::print(stderr, "saved\n");
   }
   hang();
@@ -205,7 +205,7 @@ TEST_CASE("child: breaks off" * doctest::skip()) {
   watch_and_report();
   report_memory_shortage();
   if (std::getenv("EYERAY_TEST_LIMIT")) {
-    const rlimit limit{1 << 20, RLIM_INFINITY};  // less than it has
+    const rlimit limit{1 << 20, RLIM_INFINITY};  // less memory than it has
     CHECK(::setrlimit(RLIMIT_AS, &limit) == 0);
   }
   std::abort();
@@ -222,7 +222,7 @@ constexpr bool sanitized = false;
 TEST_CASE("memory that runs out in a library's hands is a message, any other crash a crash") {
   std::vector<std::unique_ptr<Child>> children;
   children.push_back(std::make_unique<Child>("has no memory in a thread"));
-  // AddressSanitizer itself does not live with so little.
+  // AddressSanitizer itself needs more memory than that.
   if (!sanitized)
     children.push_back(std::make_unique<Child>("breaks off", Environment{{"EYERAY_TEST_LIMIT", "1"}}));
   for (const std::unique_ptr<Child>& child : children) {

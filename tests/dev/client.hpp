@@ -1,4 +1,4 @@
-// TCP as it is, for tests of the page's server.
+// Plain TCP, for tests of the page's server.
 #pragma once
 
 #include <arpa/inet.h>
@@ -26,7 +26,7 @@ class Client {
   Client& operator=(const Client&) = delete;
 
   bool connected() const { return connected_; }
-  // True if the other end still takes it.
+  // True if the other end has taken the text.
   bool send(const std::string& text) const {
     for (size_t done = 0; done < text.size();) {
       const ssize_t count = ::send(socket_, text.data() + done, text.size() - done, MSG_NOSIGNAL);
@@ -35,7 +35,7 @@ class Client {
     }
     return true;
   }
-  // All that comes until the other end has had enough; or until `text` has come.
+  // Everything that arrives until the other end closes the connection, or until `text` has arrived.
   std::string answer(const std::string& text = "") const {
     std::string all;
     char buffer[65536];

@@ -1,4 +1,4 @@
-// The ways in which editors save, and the noise that is none of ours.
+// Tests of the ways in which editors save files, and of changes to other files, which do not count.
 #include "host/dev/file_watcher.hpp"
 
 #include <unistd.h>

@@ -68,7 +68,7 @@ TEST_CASE("slow clients are dropped, and keep nobody waiting for ever") {
   limits.request_seconds = 0.5;
   limits.connections = 4;
   const Site site(0, limits);
-  // More than there are connections: some send nothing, some send a little now and then.
+  // More clients than connections: some send nothing, some send a little now and then.
   const auto slow = clients(site, 12);
   std::atomic<bool> enough = false;
   std::thread drip([&] {
@@ -174,7 +174,7 @@ TEST_CASE("a body comes in one way alone") {
     CAPTURE(bad);
     CHECK(send(bad) != 204);
   }
-  // In chunks that never end.
+  // A body in chunks that never ends.
   const size_t before = resident_bytes();
   {
     const Client client(site.server.port());
@@ -206,7 +206,7 @@ TEST_CASE("it ends at once beside clients in every state") {
     CHECK(status(site.get(site.root())) == 200);
   }
   for (const auto& client : open) client->answer();
-  CHECK(watch.seconds() < 4);  // less than any client is given
+  CHECK(watch.seconds() < 4);  // less time than any client is given
 }
 
 TEST_CASE("a reader of events who does not read is dropped") {
@@ -218,7 +218,7 @@ TEST_CASE("a reader of events who does not read is dropped") {
   deaf.send("GET " + site.root() + "events HTTP/1.1\r\nHost: " + site.host() + "\r\n\r\n");
   CHECK(deaf.answer("\n\n").find("data: {") != std::string::npos);
   CHECK(status(site.get(site.root() + "events")) == 503);
-  // Its slot is free again once it has not taken the waiting text.
+  // The slot of the client that does not read is free again once the waiting text could not be sent to it.
   const std::string much(1 << 20, 'x');
   int answered = 503;
   for (int i = 0; i < 10000 && answered == 503; ++i) {

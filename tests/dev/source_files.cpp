@@ -42,7 +42,8 @@ TEST_CASE("a file that was saved while it was read counts as changed") {
   files.set({folder / "a.glsl"}, SourceFiles::Clock::now() - std::chrono::hours(1));
   CHECK_FALSE(files.changed().empty());
   CHECK(files.changed().empty());
-  // Known or not, and with the bytes that it had: whoever read it may have seen it half written. Once.
+  // A saved file counts as changed once, even if it was known and its bytes are the same: a reader may have
+  // seen it half written.
   const auto before = SourceFiles::now();
   CHECK_FALSE(files.any_unknown());
   write_text(folder / "a.glsl", "1");
@@ -52,7 +53,7 @@ TEST_CASE("a file that was saved while it was read counts as changed") {
   files.set({folder / "a.glsl"}, before);
   CHECK_FALSE(files.any_unknown());
   CHECK(files.changed().empty());
-  // The known state of a file is kept if the file is named again.
+  // set() keeps the known state of a file that it names again.
   write_text(folder / "a.glsl", "2");
   files.set({folder / "a.glsl"}, in_a_while);
   CHECK_FALSE(files.changed().empty());

@@ -1,4 +1,4 @@
-// The page's server, and pages of others.
+// The page's server: its answers, and its refusals of pages of other origins.
 #include "host/dev/web_server.hpp"
 
 #include <fstream>

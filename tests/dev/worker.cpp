@@ -1,4 +1,4 @@
-// A worker that answers, dies, hangs, and starts anew; and messages that are none.
+// A worker that answers, dies, hangs, and starts anew; and malformed messages.
 #include "host/dev/worker.hpp"
 
 #include <fcntl.h>
