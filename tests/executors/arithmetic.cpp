@@ -24,7 +24,8 @@ TEST_CASE("no entry contains an operation whose rounding is left to the driver" 
   Scene large = test::random_scene(random, 3);
   const int cube = test::add(large, test::cube());
   for (const double x : {-3, 3}) test::add_instance(large, cube, 0, test::translation({x, 0, 0}));
-  // Compiled in, tested one by one, and in BVHs with each way to keep a stack.
+  // Kernels with the scene compiled in, with shapes tested one by one, and with BVHs, for each way to keep a
+  // stack.
   const struct {
     const Scene& scene;
     Specialisation specialisation;

@@ -1,5 +1,5 @@
-// Four lanes a ray: the nodes they traverse have the contents of the binary BVH, and they find the twin's
-// hits.
+// Four lanes a ray: the nodes that they traverse have the contents of the binary BVH, and the lanes find the
+// twin's hits.
 #include <fmt/format.h>
 
 #include <map>
@@ -59,7 +59,8 @@ bool within(const shader::uvec4& inner, const shader::uvec4& outer) {
   return true;
 }
 
-// By slot of a BVH's leaves, the boxes around it from the leaf's up; `width`: the children of a node.
+// For each slot in a BVH's leaves, the boxes around it, from the leaf's box upwards. `width`: the number of a
+// node's children.
 using Boxes = std::multimap<uint32_t, shader::uvec4>;
 void gather(std::span<const shader::uvec4> nodes, uint32_t width, uint32_t node, Boxes& leaves) {
   for (uint32_t i = 0; i < width; ++i) {
@@ -114,7 +115,8 @@ TEST_CASE("nearest and any: four lanes a ray find what the twin finds, bit by bi
     const PackedScene scene_packed = packed(scene, split);
     std::vector<shader::QueryRay> rays(50'003);  // no whole number of workgroups
     for (shader::QueryRay& ray : rays) ray = test::random_ray(random);
-    // Half of them in bundles that start together, as bounces do. So they have a common way down.
+    // Half of the rays are in bundles that start together, as bounces do. So the rays of a bundle descend the
+    // BVH together.
     for (size_t i = 0; i < rays.size() / 2; ++i) {
       rays[i].origin = rays[i / 16 * 16].origin;
       if (i % 3 == 0) rays[i].origin += glm::vec3(random.point(1e-3));

@@ -1,4 +1,5 @@
-// Rays that wait with deferred shapes for each other (bvh/traverse.glsl) find the same as rays that do not.
+// Rays that wait for each other at deferred shapes (bvh/traverse.glsl) find the same hits as rays that do
+// not.
 #include <algorithm>
 #include <string>
 
@@ -17,7 +18,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// From and towards wherever the scene is.
+// Rays from and towards random points around the camera's target.
 std::vector<shader::QueryRay> rays_around(const Scene& scene) {
   Random random(5);
   std::vector<shader::QueryRay> rays;

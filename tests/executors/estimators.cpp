@@ -63,7 +63,7 @@ void check_all(const Scene& scene, const std::vector<std::pair<const char*, Chan
     CAPTURE(usual.mean);
     CAPTURE(other.mean);
     CAPTURE(other.error);
-    // Else it could not fail.
+    // Otherwise the comparison below could not fail.
     CHECK(std::hypot(usual.error, other.error) < 0.005 * usual.mean);
     CHECK(other.mean != usual.mean);
     // At five standard errors, one in a million and a half fails by chance.

@@ -22,7 +22,7 @@ Names matches(const std::string& text, const std::string& pattern) {
   return names;
 }
 
-// The text without its own preprocessor's lines, or only these.
+// The lines of the text that begin with #, if `wanted`; otherwise the other lines.
 std::string directives(const std::string& text, bool wanted) {
   std::istringstream lines(text);
   std::string kept;

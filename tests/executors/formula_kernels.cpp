@@ -78,7 +78,7 @@ std::unique_ptr<formula::Formula> formula_of(const std::string& text) {
   }
 }
 
-// The interpreter's value; none where it does not come to an end.
+// The interpreter's value; none if the formula does not end.
 std::optional<float> value_at(const formula::Formula& formula, const glm::vec4& p) {
   try {
     return formula.value(std::array{p.x, p.y, p.z});

@@ -93,7 +93,7 @@ std::vector<PixelSample> samples(const Scene& scene, Backend backend, bool formu
 TEST_CASE("a kernel that loads the numbers of formulas suits other parameters too") {
   const Specialised first = specialised(scene_of(0.3, 0.7, 0.9, 0.8, 0.55));
   CHECK(first.text.find("#define FORMULA_NUMBERS") != std::string::npos);
-  // The last one has numbers that stand in the formulas besides.
+  // The last scene's parameters include numbers that the formulas contain as well.
   for (const Scene& other : {scene_of(0.31, 0.65, 0.8, 0.85, 0.6), scene_of(0.25, 0.125, 0.5, 0.25, 3)}) {
     const Specialised second = specialised(other);
     CHECK(second.text == first.text);

@@ -43,8 +43,8 @@ ExecutorOptions one_by_one() {
   return options;
 }
 
-// Two mirrors that face each other, and between them rings of so many vertices, over which a ray must
-// iterate.
+// Two mirrors that face each other, and between them `count` rings of 2 × 8 000 vertices, over which a ray
+// must iterate.
 Scene hall_of_rings(int count, int depth) {
   const auto circle = [](double radius) {
     Outline outline;
@@ -61,7 +61,7 @@ Scene hall_of_rings(int count, int depth) {
   return scene;
 }
 
-// Every pixel of the GPU's is the twin's, or flagged.
+// Checks that every pixel of the GPU equals the twin's, or is flagged.
 void check_right_or_flagged(const Scene& scene, Executor& gpu, Executor& twin) {
   const Rect all{0, 0, scene.image.width, scene.image.height};
   std::vector<PixelSample> ours(size_t(all.pixels())), theirs(size_t(all.pixels()));
@@ -124,7 +124,7 @@ TEST_CASE(
 }
 
 TEST_CASE("more iterations in a BVH than a capped driver grants: every pixel is the twin's, or flagged") {
-  // No box separates these spheres: a ray tests them all, the nearest of which is the first.
+  // No box separates these spheres: a ray tests them all, and the first one is the nearest.
   constexpr int count = 70'000;
   Scene scene = test::empty_scene();
   scene.image = {.width = 16, .height = 8};
@@ -138,7 +138,7 @@ TEST_CASE("more iterations in a BVH than a capped driver grants: every pixel is 
 
   check_right_or_flagged(scene, *gpu, *twin);
 
-  // Rays alone have no room for a flag: they are right, or an error.
+  // Ray queries have no room for a flag: their hits are right, or the call is an error.
   for (const QueryKind kind : {QueryKind::nearest, QueryKind::any}) {
     std::vector<Query> rays;
     for (int i = 0; i < 64; ++i) rays.push_back({Vec3(0.001 * i, 0, 5), Vec3(0, 0, -1)});
@@ -160,7 +160,7 @@ TEST_CASE("more iterations in a BVH than a capped driver grants: every pixel is 
 TEST_CASE(
     "whichever loop a driver cuts off, in a BVH or in the linear list: what is taken from a ray is right, or "
     "flagged") {
-  // So faint that a ray goes through all of them.
+  // The spheres absorb so little that a ray goes through all of them.
   constexpr int count = 70'000;
   Scene scene = test::empty_scene();
   scene.camera.eye = Vec3(0, 0, 5);

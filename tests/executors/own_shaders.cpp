@@ -1,4 +1,4 @@
-// Whose fault a shader is that does not compile.
+// Tests whether a shader that does not compile is reported as eyeray's fault or as the user's.
 #include "host/executors/scene_kernels.hpp"
 #include "tests/support/shader_overlay.hpp"
 

@@ -1,5 +1,5 @@
-// coherent rays, in packets: they find the twin's hits, where a shaft is narrow and where it takes
-// too long and is begun again.
+// Coherent rays, traced in packets, find the twin's hits: with narrow shafts, and where a search takes too
+// long and is begun again.
 #include <fmt/format.h>
 
 #include "tests/support/empty_scene.hpp"
@@ -17,7 +17,7 @@ using test::Random;
 
 namespace {
 
-// A cloud of small triangles, and of spheres if wanted, every other one of them half transparent.
+// A cloud of small triangles, and of spheres if `spheres`. A random half of the shapes let light through.
 Scene cloud(Random& random, int count, double size, bool spheres) {
   Scene scene = test::empty_scene();
   scene.camera.eye = Vec3(0, 0, 8);
@@ -37,7 +37,8 @@ Scene cloud(Random& random, int count, double size, bool spheres) {
   return scene;
 }
 
-// Through the pixels of a picture, row by row; every seventh ends early, and one in `strays` goes elsewhere.
+// Rays through the pixels of a picture, row by row; every seventh ends early, and one in `strays` goes
+// elsewhere.
 std::vector<shader::QueryRay> picture(Random& random, int size, int strays) {
   std::vector<shader::QueryRay> rays;
   for (int y = 0; y < size; ++y) {
@@ -57,13 +58,13 @@ std::vector<shader::QueryRay> picture(Random& random, int size, int strays) {
 TEST_CASE("nearest and any: rays in packets find what the twin finds, bit by bit") {
   gpu::Device device({});
   Random random(17);
-  // In BVHs of triangles alone rays take turns in another way.
+  // If a BVH holds only triangles, its rays take turns in another way.
   for (const auto& [count, size, spheres, pixels, strays] :
        {std::tuple(3000, 0.1, true, 199, 0),  // narrow shafts
         {3000, 0.1, false, 199, 0},
         {200, 1.0, true, 199, 0},
         {200, 1.0, false, 199, 0},
-        {20'000, 0.05, true, 33, 0},  // wide ones, with hundreds of triangles
+        {20'000, 0.05, true, 33, 0},  // wide shafts, with hundreds of triangles
         {20'000, 0.05, false, 33, 0},
         {3000, 0.1, true, 101, 5},
         {3000, 0.1, false, 101, 5}}) {

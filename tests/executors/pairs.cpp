@@ -72,7 +72,7 @@ const std::array<std::vector<std::string>, factors> levels = {{
      "[[material]]\nname = 'lamp'\ntype = 'phong'\ndiffuse = 0\nemission = 9\n[[sphere]]\ncenter = [0, 5, "
      "0]\nradius = 1\nmaterial = 'lamp'",
      "[environment]\ntype = 'sky'\nsun = [0, 1, 0]", "[environment]\nimage = 'studio.hdr'",
-     // Many area lights, for a light BVH, whose light is a texture's and leaves on one side.
+     // Many area lights, for a light BVH; their light comes from a texture and leaves on one side.
      "[[material]]\nname = 'lamp'\ntype = 'phong'\ndiffuse = 0\nemission_side = 'front'\nemission = { "
      "checker = "
      "{ even = 1, odd = 9, size = 1 } }\n[[parallelogram]]\nedge_u = [0.1, 0, 0]\nedge_v = [0, 0, "
@@ -125,7 +125,7 @@ struct Row {
   Levels level;
 };
 
-// True if a scene may have both.
+// True if a scene may combine these levels.
 bool possible(const Levels& level) {
   const bool paths = level[integrator] < 2, raycast = level[integrator] == 3;
   const bool environment = level[light] == 5 || level[light] == 6;
@@ -202,7 +202,7 @@ std::string text_of(const Row& row, const std::string& eye = "[0, 1, 5]") {
          "[[material]]\nname = 'a'\n" + materials[row.first] + "\n" + at(surface) +
          "[[material]]\nname = 'b'\n" + materials[row.second] + "\n" + at(shape) +
          "[[parallelogram]]\norigin = [-2, -1, 1]\nedge_u = [4, 0, 0]\nedge_v = [0, 2, 0]\nmaterial = 'b'\n" +
-         // Photons are gathered on it.
+         // A floor on which photons are gathered.
          (row.level[integrator] == 1
               ? "[[material]]\nname = 'floor'\ntype = 'diffuse'\n[[plane]]\npoint = [0, -2, 0]\nnormal = [0, "
                 "1, 0]\nmaterial = 'floor'\n"
@@ -227,7 +227,7 @@ void compile(const Row& row, const std::string& file, Features& features) {
     compile_entry("kernels/photons.comp.glsl", packed, options, "#define SENDS_PHOTONS\n");
 }
 
-// Returns the scene's file, beside those that it names.
+// Writes the scene's file beside the files that it names, and returns its path.
 std::string write_scene(const TemporaryFolder& folder, const std::string& text) {
   for (const char* file :
        {"scenes/cameras/little_planet.glsl", "scenes/patterns/hexagons.glsl", "scenes/meshes/ring.ply",
@@ -266,7 +266,7 @@ std::string any_shape(Random& random) {
       random.uniform(0, 360), toml(random.point(1.4)));
 }
 
-// Gates A to D, on a scene that the seed makes up.
+// Checks gates A to D on a random scene made from the seed.
 void check_verified(uint64_t seed) {
   Random random(seed);
   const auto material = [&] { return size_t(random.below(int(materials.size()))); };

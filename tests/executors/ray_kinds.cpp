@@ -43,8 +43,7 @@ normal = [0, 1, 0]
 material = "floor"
 )";
 
-// So many spheres that there is a BVH, and packets; and a box, whose sides keep light in that came by its
-// front.
+// Enough spheres for a BVH and packets; and a box whose sides keep in the light that entered by its front.
 std::string things(const std::string& material) {
   std::string centers;
   for (int i = 0; i < 40; ++i)

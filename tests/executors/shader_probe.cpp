@@ -1,4 +1,5 @@
-// PROBE in shaders: nothing of it in ordinary kernels, and the same rays by GPU and twin where it is looked.
+// PROBE in shaders: ordinary kernels contain none of it, and where a pixel is probed, GPU and twin have the
+// same rays.
 #include <algorithm>
 #include <bit>
 #include <regex>
@@ -84,7 +85,7 @@ void check_pixels(const std::string& file, int count) {
       const ProbedValue *throughput = find(ray, "throughput"), *light = find(ray, "light");
       REQUIRE(throughput != nullptr);
       REQUIRE(light != nullptr);
-      // In float32, and in this order.
+      // The sum is made in float32, in this order.
       for (int c = 0; c < 3; ++c)
         sum[c] =
             double(float(sum[c]) + float(throughput->numbers[size_t(c)]) * float(light->numbers[size_t(c)]));
@@ -177,7 +178,7 @@ TEST_CASE("records beyond the room are counted") {
   std::vector<shader::ProbeRecord> records(3);
   records[0].name = 100;
   records[1] = {0, 1, PROBE_FLOAT, 1, {std::bit_cast<uint32_t>(2.5f), 0, 0, 0}};
-  records[2] = {12345, 1, PROBE_FLOAT, 1, {}};  // nothing that is written so, but a shader may write anything
+  records[2] = {12345, 1, PROBE_FLOAT, 1, {}};  // no PROBE writes this, but a shader may write anything
   const RayTree tree = probe.tree(records);
   CHECK(tree.lost == 98);
   REQUIRE(tree.rays[0].values.size() == 1);

@@ -17,7 +17,7 @@ using test::Random;
 
 namespace {
 
-// More than a thousand, so that incoherent rays are traced by four lanes each; some let light through.
+// More than a thousand superellipsoids, so that four lanes trace each incoherent ray; some let light through.
 Scene crowd() {
   Random random(5);
   Scene scene = test::empty_scene();

@@ -1,4 +1,4 @@
-// Tests of the pictures that packets trace, and of those that want vectors of 512 bits.
+// Tests which pictures packets trace, and which pictures use vectors of 512 bits.
 #include "host/executors/trace_plan.hpp"
 
 #include "host/materials/make.hpp"

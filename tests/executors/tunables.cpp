@@ -28,7 +28,7 @@ TEST_CASE("a constant with a control is read from the buffer, in its own line") 
   CHECK(tunables.records()[2] == std::array<float, 4>{1, 0.5f, 0.25f, 0});
   CHECK(tunables.records()[3][0] == 1);
 
-  // Another value, and the positions stay when the texts are read anew, in another order too.
+  // Another value. The positions stay the same if the texts are read anew, in another order too.
   CHECK(tunables.choose({{"shapes/sphere.glsl:WIDTH", {1.5}}}));
   CHECK(tunables.choice() == 1);
   CHECK_FALSE(tunables.choose({{"shapes/sphere.glsl:WIDTH", {1.5}}}));

@@ -1,4 +1,4 @@
-// Every key of --tune chooses something, and docs/tuning.md has a row of each.
+// Every key of --tune chooses something, and docs/tuning.md has a row for each key.
 #include "host/executors/tuning.hpp"
 
 #include <fmt/ranges.h>

@@ -40,7 +40,7 @@ struct Report {
   Vec3 where{};
 };
 
-// The number of `count` pieces that have a sampled point at which f is not within the affine bound.
+// Of `count` random pieces, counts those with a sampled point at which f is outside the affine bound.
 template <typename F>
 Report bound_often(const expression::StraightLine& function, const F& f, double reach, int count) {
   Random random(7);
@@ -158,7 +158,7 @@ TEST_CASE("a square is known to be one, and affine bounds shrink with the square
   CHECK(e.z == doctest::Approx(0.5));
 
   for (const test::TestSurface& surface : test::test_surfaces()) {
-    if (surface.jumps || surface.name == "twisted box") continue;  // or has a crease there
+    if (surface.jumps || surface.name == "twisted box") continue;  // it jumps, or has a crease there
     CAPTURE(surface.name);
     const expression::StraightLine function = test::straight_line(surface.glsl);
     const auto error = [&](float h) {

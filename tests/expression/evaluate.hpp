@@ -1,4 +1,4 @@
-// Straight-line code, run.
+// Runs straight-line code.
 #pragma once
 
 #include "host/core/vec.hpp"
@@ -7,11 +7,11 @@
 
 namespace eyeray::engine::test {
 
-// A formula's text, its first line being f.glsl:10, as straight-line code.
+// A formula's text as straight-line code. The text's first line counts as f.glsl:10.
 expression::StraightLine straight_line(const std::string& glsl);
-// In float64.
+// The function's value at p, in float64.
 double evaluate(const expression::StraightLine& line, const Vec3& p);
-// Its bounds on the piece o + (m + h·s)·d of a ray.
+// The function's bounds on the piece o + (m + h·s)·d of a ray.
 shader::vec3 bound_piece(const expression::StraightLine& line, const shader::vec3& o, const shader::vec3& d,
                          float m, float h);
 
@@ -20,7 +20,7 @@ struct FirstRoot {
   int steps;  // pieces examined
   bool over;  // whether that is certain
 };
-// By shaders/shapes/implicit/bound_march.glsl, with `most` pieces at most.
+// The search of shaders/shapes/implicit/bound_march.glsl, with `most` pieces at most.
 FirstRoot march(const expression::StraightLine& line, const shader::vec3& o, const shader::vec3& d, float end,
                 float finest, int most);
 

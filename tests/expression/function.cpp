@@ -67,7 +67,7 @@ TEST_CASE("the gradient is the derivative") {
         difference[axis] = (surface.f(p + offset) - surface.f(p - offset)) / (2 * step);
         coarse[axis] = (surface.f(p + 2.0 * offset) - surface.f(p - 2.0 * offset)) / (4 * step);
       }
-      // Not where the function has an edge nearby.
+      // Skips points with an edge of the function nearby.
       if (!(glm::length(difference - coarse) <= 1e-3 * (1 + glm::length(difference)))) continue;
       const shader::vec4 dual = twin::differentiate(function, shader::vec3(p));
       worst = std::max(worst, glm::length(Vec3(dual) - difference) / (1 + glm::length(difference)));
@@ -107,7 +107,7 @@ TEST_CASE("loops, calls and branches come down to what they compute") {
              "p[i]; } return s; }") ==
         "vec3 f(vec3 x, vec3 y, vec3 z) {\n  vec3 v0 = x;\n  vec3 v1 = z;\n  vec3 v2 = bound_add(v0, "
         "v1);\n  return v2;\n}\n");
-  // A branch that is known leaves nothing behind; one that is not chooses; an early return ends the
+  // A branch whose condition is constant leaves no code; any other becomes a choice. An early return ends the
   // computation.
   CHECK(text("float f(vec3 p) { if (1.0 < 2.0) return p.x; return p.y / 0.0; }") ==
         "vec3 f(vec3 x, vec3 y, vec3 z) {\n  vec3 v0 = x;\n  return v0;\n}\n");
@@ -116,7 +116,7 @@ TEST_CASE("loops, calls and branches come down to what they compute") {
   std::smatch less;
   CHECK(std::regex_search(early, less, std::regex(R"(uint (v\d) = bound_less\()")));
   CHECK(early.find(fmt::format("bound_choose({},", less[1].str())) != std::string::npos);
-  // A literal is the float that it is for kernels.
+  // A literal has the float32 value that it has in kernels.
   CHECK(text("float f(vec3 p) { return 0.1; }").find("vec3(1.000000015e-01f, 0.0f, 0.0") !=
         std::string::npos);
 }

@@ -1,4 +1,4 @@
-// The march finds the first root along a ray, against float64 values close together.
+// The march finds the first root along a ray: compared with float64 values at points close together.
 #include <algorithm>
 #include <cmath>
 
@@ -83,7 +83,7 @@ Count march_often(const test::TestSurface& surface, int rays) {
     } else if (root >= 0 && (t < 0 || t > root)) {
       ++(undecidable(root) ? count.grazing : count.missed);
     } else {
-      // Two roots between two samples, or a touch.
+      // The samples may have missed two roots between two of them, or a touch.
       ++(std::abs(surface.f(Vec3(o) + Vec3(d) * t)) <= 2 * noise(t) ? count.grazing : count.wrong);
     }
   }
@@ -122,7 +122,7 @@ TEST_CASE("2 000 rays at each surface: no root is missed, none comes out of noth
 
 TEST_CASE(
     "rays that skim the Mandelbulb hit it where f changes its sign, not anywhere that its bound allows") {
-  // A bound may be hundreds of times float32's rounding there.
+  // On this surface, a bound may be hundreds of times as wide as float32's rounding.
   const test::TestSurface& bulb =
       *std::ranges::find(test::test_surfaces(), "mandelbulb", &test::TestSurface::name);
   const expression::StraightLine function = test::straight_line(bulb.glsl);
@@ -164,7 +164,7 @@ TEST_CASE(
     const double at = bulb.f(start) > 0 ? first_change(bulb.f, start, toward, bulb.reach) : -1;
     if (at < 0) continue;
 
-    // A ray that is within the surface for a short way.
+    // A ray that is inside the surface over a short distance.
     const Vec3 p = start + toward * at, n = glm::normalize(gradient(bulb.f, p));
     const shader::vec3 d(glm::normalize(glm::cross(n, Vec3(random.direction()))));
     const shader::vec3 o(p - n * random.log_uniform(1e-6, 1e-4) - Vec3(d) * before);
@@ -173,7 +173,7 @@ TEST_CASE(
     const double way = in > 0 ? first_change(bulb.f, Vec3(o) + Vec3(d) * in, Vec3(d), 2 * before - in) : -1;
     if (way < 0) continue;
 
-    // The depth there, and the error of float32.
+    // The greatest depth on that distance, and the error of float32.
     double deepest = 0, rounding = 0;
     for (int k = 1; k < 32; ++k) {
       const float t = float(in + way * k / 32);

@@ -82,7 +82,7 @@ double smooth_union(const Vec3& p) {
   return std::min(a, b) - h * h * h * 0.3 / 6;
 }
 
-// By its angles, as its authors have it.
+// The Mandelbulb by its angles, as its authors define it.
 double mandelbulb(const Vec3& p) {
   Vec3 z = p;
   for (int i = 0; i < 2 && glm::length(z) < 8; ++i) {

@@ -1,5 +1,5 @@
-// Shapes of absurd sizes and proportions: each is refused with an error, or it can be computed with, in both
-// halves.
+// Shapes of absurd sizes and proportions: each is refused with an error, or both its halves can compute with
+// it.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ using test::Random;
 
 namespace {
 
-// Mostly sizes that are meant, some that are not.
+// A number as text: a sensible size, or an absurd one.
 std::string some_number(Random& random) {
   constexpr double absurd[] = {0, -1, 1, 1e-300, 1e-12, 1e-7, 1 - 1e-7, 1 + 1e-7, 1e6, 1e12, 1e300};
   if (random.below(2) == 0) return fmt::format("{}", random.uniform(-2, 2));
@@ -34,10 +34,10 @@ std::string some_vector(Random& random) {
   return fmt::format("[{}, {}, {}]", some_number(random), some_number(random), some_number(random));
 }
 
-// A table of the shape; empty where a key is of a type that has no absurd values here.
+// A table of the shape; empty if a key has a type for which this test has no absurd values.
 std::string some_table(Random& random, const shapes::ShapeType& type) {
   std::string text = fmt::format("[[{}]]\nmaterial = \"m\"\n", type.name);
-  std::string vector;  // often the same again
+  std::string vector;  // the last vector, which the next key may repeat
   for (const Key& key : type.keys) {
     if (key.type == KeyType::vec3) {
       if (vector.empty() || random.below(4) != 0) vector = some_vector(random);
@@ -57,7 +57,7 @@ bool finite(const Vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-// True if a ray from there has a valid result in both halves: no hit, or a surface of finite values with a
+// True if the ray from `from` has a valid result in both halves: no hit, or a surface of finite values with a
 // unit normal.
 bool can_be_hit(const Shape& shape, const PackedScene& packed, const Vec3& from, const Vec3& target) {
   const shader::Ray ray = shader::make_ray(glm::vec3(from), glm::vec3(glm::normalize(target - from)));

@@ -1,4 +1,4 @@
-// Bézier patches and rays that were once answered wrong, out of millions at random (shapes.cpp).
+// Bézier patches with rays whose hits were once wrong, found among millions of random ones (shapes.cpp).
 #include <cmath>
 #include <string>
 

@@ -1,5 +1,5 @@
 // A closed surface of Bézier patches, some of whose edges are points: no ray leaves it where pieces or
-// patches hit.
+// patches join.
 #include <fmt/format.h>
 
 #include <atomic>
@@ -22,7 +22,7 @@ using test::Random;
 
 namespace {
 
-// An eighth of nearly a unit ball, about the pole (0, ±1, 0), where all of v = 1 is one point.
+// An eighth of a ball of nearly radius 1, next to the pole (0, ±1, 0): the whole edge v = 1 is that point.
 BezierNet eighth(int quarter, double side) {
   constexpr double k = 0.5522847498;
   const double radius[] = {1, 1, k, 0}, height[] = {0, k, 1, 1};
@@ -50,7 +50,7 @@ TEST_CASE(
       Random random{uint64_t(part)};
       const double size = random.log_uniform(1e-4, 1e4);
       const Vec3 center = random.point(10 * size);
-      // Patches whose edges agree but for their last bits.
+      // Patches whose edges agree except in their last bits.
       std::vector<BezierNet> nets;
       Packer packer(Vec3(0));
       for (const int quarter : {0, 1, 2, 3})

@@ -23,7 +23,8 @@ Mat4 some_map(Random& random, double size) {
   return {{linear[0] * size, 0}, {linear[1] * size, 0}, {linear[2] * size, 0}, {random.point(3 * size), 1}};
 }
 
-// Within 1 about the origin, in a plane near it: a regular one, a star, a gear, with a hole or without.
+// A region within distance 1 of the origin, in a plane near the origin: a regular polygon, a star or a gear,
+// with a hole or without.
 shapes::PlanarRegion some_region(Random& random) {
   const int corners = 3 + random.below(40);
   const double waist = random.below(2) == 0 ? 1 : random.uniform(0.5, 1);
@@ -50,7 +51,8 @@ bool is_definite(const shapes::QuadricValues& quadric) {
   return quadric.square.x * quadric.square.y > p.x * p.x && sign * glm::determinant(form) > 0;
 }
 
-// One of eyeray's own formulas that are found by sphere tracing.
+// A formula: one of eyeray's own that are found by sphere tracing, or one of two that are found by affine
+// bounds.
 FormulaUse some_formula(Random& random) {
   static const std::vector<FormulaUse> all = [] {
     std::vector<FormulaUse> uses;
@@ -61,7 +63,7 @@ FormulaUse some_formula(Random& random) {
                                                       ready.parameters, std::string(ready.name)),
              {Vec3(-1), Vec3(1)},
              ready.lipschitz(ready.parameters)});
-    // Two that are found by affine bounds.
+    // Two formulas that are found by affine bounds.
     const char* tanglecube = "float f(vec3 p) { vec3 q = p * p; return dot(q, q - 5.0) + 11.8; }";
     uses.push_back(
         {std::make_shared<const formula::Formula>(formula::FormulaText{tanglecube, {}},
@@ -140,8 +142,8 @@ const std::map<std::string, MakeShape> makers = {
      }},
     {"quadric",
      [](Random& random, double size) {
-       // One in four is a cone, its apex in the box. Where all squares have one sign, a cone may be its apex
-       // alone: which rays hit that point is a matter of rounding, and is not tested.
+       // One quadric in four is a cone with its apex in the box. If all squares have one sign, the cone may
+       // be only its apex: rounding decides which rays hit that point, so it is not tested.
        const bool cone = random.below(4) == 0;
        shapes::QuadricValues values{.square = random.point(1),
                                     .product = random.point(1),
@@ -174,7 +176,7 @@ const std::map<std::string, MakeShape> makers = {
      }},
     {"bezier",
      [](Random& random, double size) {
-       // A sheet that is more or less bent; of one in four an edge is a point.
+       // A sheet that is more or less bent; in one of four, an edge is a point.
        std::array<Vec3, 16> net;
        const double bend = random.log_uniform(0.03, 0.4);
        for (int i = 0; i < 16; ++i)

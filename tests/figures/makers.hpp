@@ -1,4 +1,4 @@
-// Shapes of every kind at random, about as large as asked for.
+// Random shapes of every kind, of about the requested size.
 #pragma once
 
 #include <map>
@@ -12,7 +12,7 @@ namespace eyeray::engine::test {
 
 using MakeShape = std::unique_ptr<Shape> (*)(Random& random, double size);
 
-// By the shapes' names.
+// The makers by the names of their shapes.
 const std::map<std::string, MakeShape>& shape_makers();
 
 }  // namespace eyeray::engine::test

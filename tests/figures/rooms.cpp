@@ -215,7 +215,7 @@ radius = 0.8
 )"},
 };
 
-// Each closed shape as a part of a CSG object, cut to a ball, and without one.
+// The rooms, and some closed shapes also as parts of CSG objects: cut to a ball, and with a ball cut out.
 std::map<std::string, std::string> rooms_with_cuts() {
   std::map<std::string, std::string> all = rooms;
   for (const char* name : {"box", "cylinder", "cone", "cone cut off", "prism", "paraboloid", "hyperboloid",
@@ -230,7 +230,7 @@ std::map<std::string, std::string> rooms_with_cuts() {
   return all;
 }
 
-// These still lose some paths (docs/experiments/rooms.md), at most 1 of 10 000.
+// Rooms that still lose some paths (docs/experiments/rooms.md), at most 1 of 10 000.
 const std::set<std::string> leaking = {
     "prism",    "prism less a ball",       "prism cut to a ball", "polygons with holes",
     "bilinear", "cone cut off less a ball"};
@@ -238,7 +238,7 @@ const std::set<std::string> leaking = {
 constexpr const char* cube =
     "v -1 -1 -1\nv -1 -1 1\nv -1 1 -1\nv -1 1 1\nv 1 -1 -1\nv 1 -1 1\nv 1 1 -1\nv 1 1 1\n"
     "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n";
-// Its walls join at 22 degrees at the eaves.
+// A roof whose faces join at 22 degrees at the eaves.
 constexpr const char* roof =
     "v -1 -0.1 -1\nv 1 -0.1 -1\nv 1 -0.1 1\nv -1 -0.1 1\nv -1 0.3 0\nv 1 0.3 0\n"
     "f 1 2 3 4\nf 1 5 6 2\nf 4 3 6 5\nf 1 4 5\nf 2 6 3\n";
@@ -292,7 +292,8 @@ struct Count {
   std::atomic<int64_t> rays = 0, leaks = 0;
 };
 
-// Paths of eight rays from around `place`: at random, or if `at_edges` two of three rays towards an edge.
+// Follows paths of eight rays from points around `place`. Directions are random; if `at_edges`, two of three
+// rays go towards an edge.
 void follow_paths(const PackedScene& scene, const Vec3& place, bool at_edges, int paths, Count& count) {
   constexpr int parts = 64;
   parallel_for(0, parts, [&](int part) {
@@ -313,7 +314,7 @@ void follow_paths(const PackedScene& scene, const Vec3& place, bool at_edges, in
         if (at_edges && bounce % 3 < 2) d = towards_edge(start, Vec3(d), direction());
         const Seen seen = look(start(d));
         ++count.rays;
-        // A ray along a wall may see either side of it.
+        // A ray along a wall may hit either side of the wall.
         const bool outside = seen.hit.slot == NONE || glm::dot(d, seen.surface.normal_geometric) < -1e-6f;
         count.leaks += outside;
         if (outside) break;
@@ -325,7 +326,7 @@ void follow_paths(const PackedScene& scene, const Vec3& place, bool at_edges, in
 
 }  // namespace
 
-// --subcase=NAME follows those of one room alone.
+// --subcase=NAME follows only the paths in one room.
 TEST_CASE("closed rooms: paths that bounce about within stay, at random and from edge to edge") {
   const int paths = test::amount(500, 2'000, 1'250'000);
   for (const auto& [name, text] : rooms_with_cuts()) {

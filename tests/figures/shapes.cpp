@@ -100,8 +100,7 @@ void for_shapes(const Make& make, const Body& body) {
   });
 }
 
-// True if the exact t varies to `t` when the ray is moved by as little as `room`: then it grazes an edge or a
-// side.
+// True if moving the ray by at most `room` changes the exact t to `t`: then the ray grazes an edge or a side.
 bool is_grazing(const Sample& sample, const shader::Ray& ray, double t, double room, int probes) {
   const Vec3 o(ray.o), d = glm::normalize(Vec3(ray.d));
   const Vec3 x = glm::normalize(glm::cross(d, std::fabs(d.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)));
@@ -109,7 +108,7 @@ bool is_grazing(const Sample& sample, const shader::Ray& ray, double t, double r
   double least = HUGE_VAL, greatest = -HUGE_VAL;
   bool misses = false;
   for (int step = 0; step < probes; ++step) {
-    const double angle = step * 2.399963;  // the golden one: all over the disc
+    const double angle = step * 2.399963;  // the golden angle, which spreads the probes over the disc
     const double far = room * std::sqrt((step + 1.0) / probes);
     const double moved =
         sample.exact(o + (x * std::cos(angle) + y * std::sin(angle)) * far, d) / glm::length(Vec3(ray.d));
@@ -132,8 +131,8 @@ double first_thick(const Sample& sample, const shader::Ray& ray, double room) {
   return HUGE_VAL;
 }
 
-// The numbers needed to shoot the ray again, without loss of digits. One seed makes other shapes with another
-// compiler.
+// The numbers needed to shoot the ray again, without loss of digits. With another compiler, the same seed
+// makes other shapes.
 std::string describe(const Sample& sample, const shader::Ray& ray, double t, double exact) {
   const auto digits = [](const auto& v) {
     return fmt::format("{{{:.17g}, {:.17g}, {:.17g}}}", v.x, v.y, v.z);
@@ -146,7 +145,8 @@ std::string describe(const Sample& sample, const shader::Ray& ray, double t, dou
   return text;
 }
 
-// Shoots at shapes from a distance, in their own sizes; half of the rays aimed at the shape, half past it.
+// Shoots at shapes from a distance, measured in the shape's size. Half of the rays aim at the shape, half
+// past it.
 template <typename Make>
 void check_first_hits(const std::string& name, const Make& make, double distance) {
   std::atomic<int> rays = 0, hits = 0, misses = 0, grazing = 0, thin = 0, wrong = 0;
@@ -199,7 +199,7 @@ TEST_CASE("every closed shape as a part of CSG objects: first hits, no wrong ans
     for (int i = 0; i < 10 && name != "csg"; ++i)
       if (make(random, 1)->is_closed()) closed.insert(name);
     if (!closed.contains(name)) continue;
-    // It joined with a ball, cut to it, without it, and taken from it.
+    // The shape joined with a ball, cut to the ball, less the ball, and cut out of the ball.
     const MakeShape& make_part = make;
     const auto make_pair = [&make_part](Random& some, double size) {
       shapes::ShapeType::Shapes both;
@@ -241,7 +241,7 @@ TEST_CASE("rays that leave, sizes 1e-4 … 1e4: none hits its surface again, eve
         if (hit.t == T_MISS || !exact) continue;
         const SurfacePoint at = sample.shape->surface({Vec3(arriving.o), Vec3(arriving.d)}, *exact);
         const shader::Surface surface = sample.surface(arriving, hit);
-        // Past an edge the two may have hit different sides.
+        // Near an edge the two halves may have hit different sides.
         if (glm::dot(at.normal_geometric, Vec3(surface.normal_geometric)) < 0.99) continue;
         if (glm::length(at.position - Vec3(surface.p)) > 1e-3 * sample.radius) continue;
         ++left;
@@ -257,8 +257,8 @@ TEST_CASE("rays that leave, sizes 1e-4 … 1e4: none hits its surface again, eve
         }
         const double again = double(sample.shoot(shader::spawn_ray(surface, away)).t);
         const double truly = sample.exact(reference::spawn_origin(at, Vec3(away)), Vec3(away));
-        // A sheet that is bent to both sides may be hit again where it bends back, by a ray that starts a
-        // little off it and not by one that starts on it.
+        // A sheet may bend to both sides. Where it bends back, a ray that starts a little off the sheet may
+        // hit it again, though a ray that starts on it does not.
         const shader::Ray next = shader::spawn_ray(surface, away);
         const bool hits_again =
             again < 0.01 * sample.radius && again < 0.5 * truly && !(truly < 1e3 * double(surface.offset));

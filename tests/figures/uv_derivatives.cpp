@@ -74,7 +74,7 @@ void look(const Shape& shape, const PackedScene& scene, const Ray& ray, double s
   const SurfacePoint point = shape.surface(ray, *hit);
   if (std::abs(glm::dot(point.normal_geometric, ray.d)) < 0.1) return;
   const SurfacePoint beside = shape.surface({ray.o + Vec3(1e-6, 2e-6, -1e-6) * size, ray.d}, *neighbour);
-  // A point beyond an edge, or beyond the seam, shows nothing.
+  // A point beyond an edge or beyond the seam proves nothing.
   if (glm::length(beside.position - point.position) > 1e-4 * size ||
       glm::length(beside.uv - point.uv) > 0.1 ||
       glm::dot(beside.normal_geometric, point.normal_geometric) < 0.999)

@@ -46,7 +46,7 @@ Outline mapped(Outline outline, const Mat4& map) {
   return PlanarRegion{std::move(outline)}.transformed(Affine(map)).outer;
 }
 
-// Shapes in both forms.
+// Shapes as float64 objects and as packed records.
 struct Shapes {
   void add(std::unique_ptr<Shape> shape) {
     shape->pack(packer);
@@ -190,8 +190,8 @@ TEST_CASE("a closed gear: no ray from within passes at edges or vertices, walls 
       MESSAGE(fmt::format("{}, {}: {} rays, {} pass; in float64 {}", place.name, names[kinds - 1], count.rays,
                           count.leaks, count.exact_leaks));
       CHECK(count.leaks == 0);
-      // The corners of a parallelogram are sums; in float64 they are not to the last bit those of its
-      // neighbours.
+      // The corners of a parallelogram are sums. In float64 their last bits may differ from those of its
+      // neighbours' corners.
       if (kinds < 3) CHECK(count.exact_leaks == 0);
     }
   }

@@ -36,7 +36,7 @@ TEST_CASE("a colour is a function of uv") {
 }
 
 TEST_CASE("a colour's bits in float32, and float64 beside them") {
-  // Parameters, arrays, a uv that is written to, a function called like a surface's.
+  // Parameters, arrays, a uv that is written to, a function that has the name of a surface's.
   const formula::Formula formula = color(
       "vec3 gradient(vec3 p) { return p * p; }\n"
       "vec3 color(vec2 uv) {\n"
@@ -52,7 +52,7 @@ TEST_CASE("a colour's bits in float32, and float64 beside them") {
   const std::array<double, 3> both = formula.color(std::array{1.0, 1.5});
   CHECK(both[0] == 16);
   CHECK(both[1] == 9);
-  CHECK(both[2] == doctest::Approx(1.0 / 9).epsilon(1e-7));  // a literal of the text's is float32
+  CHECK(both[2] == doctest::Approx(1.0 / 9).epsilon(1e-7));  // a literal in the text is float32
 }
 
 TEST_CASE("the same text as another kind's is another formula") {

@@ -1,4 +1,4 @@
-// Constants give the same as anything computed, and variables begin with 0 each time.
+// A constant expression has the same value as a computed one, and variables begin with 0 each time.
 // EYERAY_FULL_TESTS=1 draws a million texts, EYERAY_SEED other ones.
 #include <cstring>
 

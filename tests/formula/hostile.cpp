@@ -1,4 +1,4 @@
-// Texts that want to harm: each is refused at its position, or does as GLSL requires and no more.
+// Malicious texts: each is refused at the position of its fault, or does as GLSL requires and no more.
 #include <fmt/format.h>
 
 #include "host/formula/formula.hpp"
@@ -195,7 +195,7 @@ TEST_CASE("an array is held to its size wherever it is declared") {
   }
   // Commas that declare nothing.
   CHECK(refusal_of_f("float a[4], b[3], c = max(p.x, p[1]); b[0] = c, a[3] = c; return a[3] + b[0];") == "");
-  // Memory counts the later ones too.
+  // The limit on memory counts the variables after the first comma too.
   CHECK(refusal_of_f("vec4 a" + times(9, "_") +
                      ", b[1024], c[1024], d[1024]; int i = int(p.x);\n"
                      "b[i] = vec4(1); c[i] = b[i]; d[i] = c[i]; return d[i + 1].x;") != "");
@@ -212,7 +212,7 @@ TEST_CASE("all variables together are limited, whatever becomes of them") {
 
 TEST_CASE("no construct, however often it is written, takes a compiler deeper than it can go") {
   const auto refused = [](const std::string& body) { return refusal_of_f(body) != ""; };
-  // A text of 64 KiB holds as many as fit; 100 000 do not.
+  // 600 and 10 000 repetitions fit in a text of 64 KiB; 100 000 do not.
   for (const int count : {600, 10000, 100000}) {
     CAPTURE(count);
     for (const std::string op : {"+",  "-", "*", "/", "<",  ">",  "<=", ">=", "==", "!=", "&&",   "||",
@@ -233,7 +233,7 @@ TEST_CASE("no construct, however often it is written, takes a compiler deeper th
   }
   CHECK(refusal_of_f("float a=p.x; return (a" + times(10000, ",a") + ");") == too_long_a_chain);
   CHECK(refusal_of_f("return p" + times(10000, "[0]") + ";") == too_long_a_chain);
-  // Adjacent statements may be as long as the text.
+  // Statements that follow each other may fill the text.
   for (const std::string statement : {"float a;", ";", "{}", "p.x;"})
     (void)refusal_of_f(times(7000, statement));
   (void)refusal_of_f("p.x = max(p.x" + times(20000, ",1.") + ");return p.x;");

@@ -1,5 +1,5 @@
-// Formulas at random: all of them are refused with words or run to an end, twice to the same
-// bits. EYERAY_FULL_TESTS=1 draws a million, EYERAY_SEED other ones.
+// Random formulas: each is refused with a message, or runs to an end, twice to the same bits.
+// EYERAY_FULL_TESTS=1 draws a million, EYERAY_SEED other ones.
 #include <cstring>
 
 #include "host/formula/formula.hpp"
@@ -12,7 +12,7 @@ using namespace eyeray::engine;
 
 namespace {
 
-// The value's bits; all ones where it did not come to an end.
+// The bits of the formula's value; all ones if it did not end.
 template <typename T>
 uint64_t bits_at(const formula::Formula& formula, const Vec3& p) {
   try {

@@ -1,6 +1,7 @@
 // The fuzzer's test of a checkpoint: it is refused, or gives as many sums and rows as requested. The bytes
-// are a file's. If they begin with "size: ", they are an identity, a 0, the bytes of the position, sums and
-// rows. Lengths and checksums are made to fit these: else nothing behind them would be seen.
+// are a file. If they begin with "size: ", they are an identity, a 0, and the bytes of the position, the sums
+// and the rows instead: a file with fitting lengths and checksums is made of these. Otherwise the data behind
+// a length or a checksum would never be read.
 #include <unistd.h>
 
 #include <cstdlib>

@@ -1,6 +1,6 @@
 // The fuzzer's test of a formula: it is refused, or it runs to an end, twice to the same bits, and has a
-// kernel. The first byte chooses how the others make a text: as they are, or as damage to one that a grammar
-// made; the bits of known formulas are tested too.
+// kernel. The first byte chooses the use of the bytes: as a text, as damage to a text that a grammar made, or
+// as the seed of a known formula, whose bits are tested too.
 #include <cstdlib>
 #include <cstring>
 
@@ -25,7 +25,7 @@ uint64_t number_at(std::string_view bytes) {
   return number;
 }
 
-// The grammar's text, with a piece put in at a position for every three bytes.
+// A text made by the grammar, with a piece inserted at some position for every three bytes.
 std::string damaged(std::string_view bytes) {
   std::string text = test::RandomFormula(number_at(bytes), bytes.size() % 2 == 0).text();
   for (bytes.remove_prefix(std::min(bytes.size(), sizeof(uint64_t))); bytes.size() >= 3;

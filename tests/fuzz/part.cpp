@@ -1,7 +1,7 @@
 // The fuzzer's test of a part: it is refused, or read whole, and its header and totals stay the same when
-// they are written again. The bytes are a file's. If they begin with {, they are a header's, a 0, those of
-// totals, a 0 and pixels. Lengths and checksums are made to fit these: else nothing behind them would be
-// seen.
+// they are written again. The bytes are a file. If they begin with {, they are a header, a 0, totals, a 0 and
+// pixels instead: a file with fitting lengths and checksums is made of these. Otherwise the data behind a
+// length or a checksum would never be read.
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -16,7 +16,7 @@ using namespace eyeray::engine::shards;
 
 namespace {
 
-// Larger ones are written without their pixels: that is refused too.
+// Parts with more pixels are written without them, and are refused too.
 constexpr int64_t most_pixels = 1 << 12;
 
 uint32_t sum_of(std::string_view bytes, uint32_t begin = 0) {

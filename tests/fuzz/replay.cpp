@@ -1,4 +1,5 @@
-// In place of libFuzzer where it is not built: every file of the folders named, once.
+// Takes the place of libFuzzer where that is not built: runs the test once on every file of the named
+// folders.
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>

@@ -42,7 +42,8 @@ TEST_CASE("spheres stand as Haines' database has them: parents first, each child
   CHECK(all[1 + 91].radius == doctest::Approx(1.0 / 6));
   CHECK(glm::distance(all[1 + 91].center, 2.0 / 3 * Vec3(0.965925826, 0.258819045, 0)) < 1e-9);
 
-  // A child stands at four thirds of its parent's radius, of which its own is the last third.
+  // A child's centre is four thirds of the parent's radius from the parent's centre; the child's own radius
+  // is the last third.
   std::vector<Ball> path;
   int touching = 0;
   for (const Ball& ball : all) {
@@ -93,7 +94,7 @@ TEST_CASE("an octasphere is closed, outward and round") {
     const Mesh mesh = octasphere(divisions);
     CHECK(mesh.positions.size() == size_t(4 * divisions * divisions + 2));
     CHECK(mesh.triangles.size() == size_t(8 * divisions * divisions));
-    // Every edge is hit once in each direction.
+    // Every edge occurs once in each direction.
     std::map<std::pair<uint32_t, uint32_t>, int> edges;
     double volume = 0;
     for (const auto& corners : mesh.triangles) {

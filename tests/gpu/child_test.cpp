@@ -11,7 +11,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// More work than any time-out here: 65 535 groups of as many iterations as the driver is willing to make.
+// Work that outlasts any time-out here: 65 535 groups of as many iterations as the driver is willing to make.
 void run_endless(double timeout_seconds) {
   watch_for_termination([](const Error& error) { std::fprintf(stderr, "%s\n", error.what()); });
   std::atexit([] { std::fputs("torn down\n", stderr); });

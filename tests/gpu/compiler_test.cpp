@@ -11,7 +11,7 @@ namespace {
 
 const std::string head = "#version 450\nlayout(local_size_x = 1) in;\n";
 
-// Everything the compiler has against `texts`, of which "main.comp.glsl" is the entry.
+// The compiler's diagnostics of `texts`, whose entry is "main.comp.glsl".
 std::vector<Diagnostic> diagnose(const std::map<std::string, std::string>& texts,
                                  const std::string& preamble = "") {
   try {
@@ -165,12 +165,12 @@ TEST_CASE("SPIR-V is remembered by content, and a damaged entry is made anew") {
   REQUIRE(entries().size() == 1);
   const std::filesystem::path entry = entries()[0];
 
-  // It is the entry that answers: put another shader's words there, under a true hash, and they come back.
+  // The result comes from the cache's entry: other words that are stored there with a correct hash come back.
   const std::string key = entry.stem().string();
   cache.store(key, "12345678");
   CHECK(gpu::compile_kernel(source("int a = 1;"), "", {}, cache).spirv.size() == 2);
 
-  // Cut and changed entries are not believed.
+  // Truncated and changed entries are not used.
   cache.store(key, "12345678");
   for (const std::string& damage :
        {std::string("x"), std::string(), read_text(entry).substr(0, 38), "0" + read_text(entry)}) {
@@ -179,7 +179,7 @@ TEST_CASE("SPIR-V is remembered by content, and a damaged entry is made anew") {
     CHECK(cache.load(key)->size() == first.size() * 4);
   }
 
-  // Another text, preamble or entry is another shader.
+  // Another text, preamble or entry file makes another shader, which has a separate entry in the cache.
   gpu::compile_kernel(source("int a = 2;"), "", {}, cache);
   gpu::compile_kernel(source("int a = 1;"), "#define A\n", {}, cache);
   CHECK(entries().size() == 3);

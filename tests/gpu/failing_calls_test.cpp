@@ -1,5 +1,5 @@
 // Every call of Vulkan may fail. Each failure gives one message and exit code 3, unless it only costs time:
-// then all goes on. There is never a crash or a hang, and nothing is left behind but objects that a busy
+// then the work goes on. There is never a crash or a hang, and nothing is left behind but objects that a busy
 // device may still use.
 #include <dlfcn.h>
 #include <sys/wait.h>
@@ -61,7 +61,7 @@ void use_device(const std::string& cache_folder, bool staging) {
   if (rasterizer.read().ids != std::vector<uint32_t>{7, 7, 7, 7}) throw std::runtime_error("a wrong picture");
 }
 
-// If it fails, the device may still be at work.
+// True if a failure of the function leaves a device that may still be at work.
 bool may_be_busy(const std::string& function) {
   return function == "vkQueueSubmit" || function == "vkWaitForFences";
 }
@@ -73,8 +73,7 @@ struct Case {
   bool staging;
 };
 
-// Does all that in a separate process, with one call failing. Returns how that ended badly; "" if it ended
-// well.
+// Calls use_device() in a separate process, in which one call fails. Returns the fault in its end, or "".
 std::string fault_of(const Case& failing) {
   const std::string name = SHIM(function_name)(failing.function);
   const TemporaryFolder cache;
@@ -91,7 +90,7 @@ std::string fault_of(const Case& failing) {
     } catch (...) {
       status = 71;
     }
-    // A device that may be busy keeps all; any other nothing.
+    // A device that may be busy keeps its objects; any other leaves none.
     if (may_be_busy(name) == (SHIM(objects_alive)() == alive_before)) status = 72;
     if (SHIM(calls)(failing.function) < failing.number) status = 73;
     std::exit(status);
@@ -131,20 +130,20 @@ std::vector<int> count_calls(bool staging) {
 
 }  // namespace
 
-// Single-threaded, so that it may fork, and with the libraries loaded that take each process long.
+// Single-threaded, so that it may fork. Loads first the libraries that each process would take long to load.
 void test::fail_every_call() {
   setenv("EYERAY_VULKAN_LOADER", FAILING_VULKAN, 1);
   const gpu::Instance warm(gpu::DeviceOptions{});
   const bool all = std::getenv("EYERAY_FULL_TESTS") != nullptr;
   int cases = 0;
   for (const bool staging : {false, true}) {
-    if (!staging && !all) continue;  // the other has more calls
+    if (!staging && !all) continue;  // staging makes more calls
     const std::vector<int> counts = count_calls(staging);
     for (int function = 0; function < int(counts.size()); ++function) {
       const int count = counts[size_t(function)];
       for (int number = 1; number <= count; ++number) {
         for (int error = 0; error < 4; ++error) {
-          // The first and the last, with one of the errors in turn; or every one with all.
+          // Tests the first and the last call, with one of the errors in turn; or every call with all errors.
           if (!all && ((number > 1 && number < count) || error != (function + number) % 4)) continue;
           ++cases;
           const std::string fault = fault_of({function, number, errors[error], staging});

@@ -127,7 +127,7 @@ void main() { data[0] = (data[1] + 2.0) + 3.0; }
     CHECK(count(words(strict), {spv::OpFAdd}) == 2);
     CHECK(count(words(strict), {spv::OpExecutionMode}) == 4);
     CHECK(gpu::decorate_no_contraction(words(strict)) == words(strict));
-    CHECK(count(words(fast), {spv::OpFAdd}) == 1);  // of x + 5
+    CHECK(count(words(fast), {spv::OpFAdd}) == 1);  // the addition of x + 5
     CHECK(count(words(fast), {spv::OpExecutionMode}) == 1);
     CHECK(count(words(fast_as_written), {spv::OpFAdd}) == 2);
   }

@@ -9,7 +9,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// All that is x + y ≤ `to` of the picture from 0 to 1, at one depth.
+// A triangle that covers x + y ≤ `to`, where x and y go from 0 to 1 over the picture; its depth is constant.
 std::vector<gpu::RasterVertex> corner(float to, float depth, uint32_t id) {
   const float end = 2 * to - 1;
   return {{-1, -1, depth, id}, {end, -1, depth, id}, {-1, end, depth, id}};

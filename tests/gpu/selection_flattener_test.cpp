@@ -29,7 +29,7 @@ bool writes_whole_part(const std::vector<uint32_t>& spirv) {
   return found;
 }
 
-// The number of a kernel's selections that are left.
+// The number of selections that flattening leaves in a kernel with this body.
 int left_of(const std::string& body) {
   const std::vector<uint32_t> flat = gpu::optimise(word_kernel(body), true);
   CHECK(spvtools::SpirvTools(SPV_ENV_VULKAN_1_1).Validate(flat));
@@ -83,8 +83,8 @@ TEST_CASE("operations that have an effect, or may fault, run only where they are
   CHECK(left_of("uint x = data[0]; if (x < 9u) x = data[x]; data[i] = x;") == 1);   // a load
   CHECK(left_of("uint x = data[0]; if (x != 0u) x = i / x; data[i] = x;") == 1);    // a division
   CHECK(left_of("uint x = data[0]; if (x != 0u) atomicAdd(data[1], x); data[i] = x;") == 1);
-  // glslang 12 has the whole part written through a pointer, glslang 15 returned in a structure: a mere
-  // value.
+  // In glslang 12's code, modf writes the whole part through a pointer. In glslang 15's, it returns a
+  // structure, which is a mere value.
   const std::string parts =
       "float x = float(data[0]), w = 1.0; if (x > 3.0) x = modf(x, w); data[i] = uint(x + w);";
   CHECK(left_of(parts) == (writes_whole_part(word_kernel(parts)) ? 1 : 0));

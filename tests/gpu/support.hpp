@@ -41,7 +41,7 @@ inline std::vector<uint32_t> compile(const std::string& text, const std::string&
       .spirv;
 }
 
-// The project's own, to draw with.
+// The project's own shaders for drawing.
 inline gpu::RasterShaders raster_shaders() {
   const auto compiled = [](std::string_view entry) {
     return gpu::compile_shader(gpu::read_shader(project_shader, entry), "").spirv;
@@ -57,7 +57,7 @@ inline std::vector<uint32_t> word_kernel(const std::string& body, int local_size
                  body + "\n}\n");
 }
 
-// The text of the Error that `work` throws, and its code; "" when it throws none.
+// The text and the code of the Error that `work` throws; the text is "" if it throws none.
 template <typename Work>
 std::pair<std::string, ExitCode> error_of(const Work& work) {
   try {

@@ -7,9 +7,9 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// A day's work: buffers, an upload, a dispatch that reads the results of the one before, with a barrier
-// between them or not, and a read. (The layer keeps silent about two dispatches that write one buffer: it
-// cannot know which words.)
+// Typical work: buffers, an upload, two dispatches, the second of which reads the first one's results, with a
+// barrier between them or not, and a read. (The layer keeps silent about two dispatches that write one
+// buffer: it cannot know which words.)
 void use(gpu::Device& device, bool with_barrier) {
   gpu::Kernel increment(device, word_kernel("data[i] += 1u;"), "increment", no_cache);
   gpu::Kernel copy(device, compile(R"(#version 450

@@ -13,7 +13,7 @@ namespace {
 
 using BitmapPixel = std::array<uint8_t, 4>;
 
-// Three columns, two rows, the top one first. Five bits a channel suffice for all.
+// Three columns and two rows, the top row first. Five bits a channel hold every colour exactly.
 const std::vector<BitmapPixel> bitmap_colors = {{255, 0, 0, 255}, {0, 255, 0, 255},     {0, 0, 255, 255},
                                                 {0, 0, 0, 255},   {255, 255, 255, 255}, {255, 0, 0, 255}};
 constexpr int bitmap_columns = 3, bitmap_rows = 2;
@@ -70,7 +70,7 @@ std::string tga_color(const BitmapPixel& pixel, int bits) {
   return bgr(pixel, bits).substr(0, size_t(bits + 7) / 8);
 }
 
-// `order`: of the pixels in the file. In runs: the first three as they are, then two equal or not.
+// The header of a TGA file. `descriptor` contains the order of the pixels in the file.
 std::string tga_header(int type, int bits, int descriptor, int map_count = 0, int map_bits = 0,
                        int map_first = 0) {
   return std::string("\3", 1) + char(map_count > 0) + char(type) + little(uint32_t(map_first), 2) +
@@ -89,7 +89,7 @@ std::vector<BitmapPixel> in_order(int descriptor) {
   return pixels;
 }
 
-// A header of `size` bytes with the file's before it; the pixels follow `middle`.
+// A BMP file: the file's header, a header of `size` bytes, `middle`, and the pixels.
 std::string bmp(int size, int height, int bits, int compression, const std::string& rest,
                 const std::string& middle, const std::string& pixels) {
   std::string header = little(uint32_t(size), 4);
@@ -130,7 +130,7 @@ TEST_CASE("TGA, plain and in runs, 15 to 32 bits, from each corner") {
       const std::vector<BitmapPixel> pixels = in_order(corner);
       std::string plain = tga_header(2, bits, descriptor), runs = tga_header(10, bits, descriptor);
       for (const BitmapPixel& pixel : pixels) plain += tga_color(pixel, bits);
-      runs += "\3";  // four as they are, and two runs of one
+      runs += "\3";  // four pixels stored singly, then two runs of one pixel
       for (size_t i = 0; i < 4; ++i) runs += tga_color(pixels[i], bits);
       for (size_t i = 4; i < 6; ++i) runs += "\x80" + tga_color(pixels[i], bits);
       check_colors(plain);

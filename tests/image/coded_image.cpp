@@ -43,7 +43,7 @@ std::string refusal(const std::string& bytes) {
   return "accepted";
 }
 
-// A PNG of one grey channel, as its header has it: `width` and `height` are not those of the data.
+// A PNG of one grey channel whose header states `width` and `height`, which are not those of the data.
 std::string png_with_size(uint32_t width, uint32_t height) {
   std::string bytes = bytes_of("grey.png");
   for (int i = 0; i < 4; ++i) {
@@ -202,7 +202,7 @@ TEST_CASE("a header that promises more than its file can hold takes no memory") 
   REQUIRE(frame != std::string::npos);
   jpeg.replace(frame + 5, 4, "\x40\x00\x40\x00", 4);
   CHECK(refusal(jpeg) == "cannot read a picture: it ends early");
-  // 3000 pixels a byte are more than its blocks have bits for.
+  // A JPEG of 3000 pixels a byte has fewer bits than its blocks need.
   const auto side = static_cast<int>(std::sqrt(3000.0 * double(jpeg.size())));
   for (const size_t at : {5, 7}) {
     jpeg[frame + at] = char(side >> 8);

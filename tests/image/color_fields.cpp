@@ -1,4 +1,4 @@
-// Fields that define the meaning of a picture's codes: each that is not honoured is a warning.
+// Fields that define the meaning of a picture's codes: eyeray warns of each that it does not honour.
 #include "host/image/color_fields.hpp"
 #include <fstream>
 

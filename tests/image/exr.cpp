@@ -19,15 +19,15 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// Written by the library's own tools: 9 × 5 pixels, of which channel c (in the order of its file's list) of
-// (x, y) is (x + 10 y + 100 c) / 4.
+// Files written by the library's own tools: 9 × 5 pixels. At (x, y), channel c (in the order of the file's
+// list) is (x + 10 y + 100 c) / 4.
 const std::string corpus = "tests/fuzz/corpus/exr/";
 
 float value(int channel, int x, int y) {
   return float(x + 10 * y + 100 * channel) / 4;
 }
 
-// True if it is the picture above of these channels, each value within `error`.
+// True if `image` is that picture with these channels, each value within `error`.
 bool holds(const Image& image, const std::vector<int>& channels, float error = 0) {
   if (image.width() != 9 || image.height() != 5 || image.channels() != int(channels.size())) return false;
   for (int y = 0; y < 5; ++y)

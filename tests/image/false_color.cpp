@@ -21,7 +21,7 @@ Image row(std::vector<float> samples, int channels = 1) {
   return image;
 }
 
-// The colour that the .png shows.
+// The colour of pixel x that the .png shows.
 glm::ivec3 shown(const Image& image, int x) {
   const float* p = image.pixel(x, 0);
   return {srgb8(p[0]), srgb8(p[1]), srgb8(p[2])};

@@ -59,13 +59,13 @@ TEST_CASE("srgb8 follows IEC 61966-2-1, rounded half up") {
   CHECK(int(srgb8(0.2140411f)) == 127);
   CHECK(int(srgb8(0.2158605f)) == 128);
 
-  // Clipped, and no NaN gets through.
+  // Values outside [0, 1] are clipped, and a NaN becomes 0.
   CHECK(int(srgb8(-1.0f)) == 0);
   CHECK(int(srgb8(7.0f)) == 255);
   CHECK(int(srgb8(std::numeric_limits<float>::infinity())) == 255);
   CHECK(int(srgb8(std::numeric_limits<float>::quiet_NaN())) == 0);
 
-  // Everywhere the formula's own rounding, except within a float of a boundary.
+  // The code is always the rounded result of the formula, except within one float of a boundary.
   Random random(1);
   for (int i = 0; i < 1'000'000; ++i) {
     const double linear = double(float(random.uniform() * random.uniform()));

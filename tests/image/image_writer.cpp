@@ -20,7 +20,7 @@ using eyeray::engine::test::write_text;
 
 namespace {
 
-// Noise, flat areas and gradients, so that every filter and kind of run is hit.
+// Noise, flat areas and gradients, so that every filter and kind of run is used.
 Image mixed_image(int width, int height, int channels) {
   Random random(uint64_t(width * 1000 + height * 10 + channels));
   Image image(width, height, channels);

@@ -26,7 +26,7 @@ TEST_CASE("the neutral curve keeps base colours, less 0.04, and ends below 1") {
   const auto red = pixel_toned({0.7f, 0.1f, 0.2f}, neutral);
   CHECK(red[0] == doctest::Approx(0.66));
   CHECK(red[1] == doctest::Approx(0.06));
-  // By hand: of (4, 1, 1) less 0.04 the peak is 3.96, squeezed to 1 − 0.0576/3.44.
+  // Computed by hand: (4, 1, 1) less 0.04 has the peak 3.96, which is squeezed to 1 − 0.0576/3.44.
   const auto bright = pixel_toned({4, 1, 1}, neutral);
   CHECK(bright[0] == doctest::Approx(0.983256));
   CHECK(bright[1] == doctest::Approx(0.468299));

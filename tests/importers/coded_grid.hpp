@@ -24,7 +24,7 @@ inline Vec3 normal_at(double x, double y) {
 struct Grid {
   std::vector<double> positions, normals, uv, indices;
 };
-// Over 0 to 1 in x and y, which uv are too; unique vertices.
+// A grid over x and y from 0 to 1, which are its uv too. Its vertices are unique.
 inline Grid hilly_grid(int side = grid_side) {
   Grid grid;
   const auto add = [](std::vector<double>& to, const auto& vector) {
@@ -102,7 +102,7 @@ inline std::string meshopt_code(const std::string& bytes, const MeshoptCoding& c
   return coded;
 }
 
-// From now on the view stands in a buffer that is not there, and its bytes are the coded ones.
+// Makes the coded `bytes` the view's data: the view itself then refers to a buffer that does not exist.
 inline Json& code_view(GltfFile& file, int index, const std::string& bytes, const MeshoptCoding& coding) {
   const std::string coded = meshopt_code(bytes, coding);
   const Json place = file.json["bufferViews"][size_t(file.add_view(coded))];
@@ -124,7 +124,7 @@ inline std::string view_bytes(const GltfFile& file, int index) {
   return file.data().substr(view["byteOffset"], view["byteLength"]);
 }
 
-// The grid with all of its views coded; of the plain one only the accessors are left.
+// The grid with all of its views coded; only the accessors of the plain grid are left.
 inline GltfFile meshopt_grid(const std::string& index_mode = "TRIANGLES", int index_component = 5123,
                              const std::string& name = "EXT_meshopt_compression") {
   const GltfFile plain = grid_file(index_component);
@@ -143,7 +143,7 @@ struct DracoCoding {
   bool metadata = false;
 };
 
-// A mesh in the making, whose vertices all attributes have one value for.
+// Builds a Draco mesh; each attribute has one value for each vertex.
 class DracoMesh {
  public:
   explicit DracoMesh(const Grid& grid) {
@@ -155,7 +155,7 @@ class DracoMesh {
     }
   }
 
-  // Its unique id.
+  // Adds an attribute, and returns its unique id.
   template <typename T>
   unsigned add(draco::GeometryAttribute::Type type, draco::DataType data, const std::vector<double>& numbers,
                bool normalized = false) {
@@ -194,7 +194,8 @@ class DracoMesh {
   draco::Mesh mesh_;
 };
 
-// Codes the primitive's attributes (name to unique id) by the data; accessors lose their views.
+// Makes `data` the source of the primitive's attributes (name to unique id); their accessors lose their
+// views.
 inline void code_primitive(GltfFile& file, const std::string& data, const Json& attributes) {
   Json& primitive = file.primitive();
   primitive["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", file.add_view(data)},
@@ -213,7 +214,7 @@ inline std::string draco_grid_data(const DracoCoding& coding, const Grid& grid) 
   return mesh.code(coding);
 }
 
-// The grid coded as a whole; likewise.
+// The grid with its attributes and indices coded by Draco; only the accessors of the plain grid are left.
 inline GltfFile draco_grid(const DracoCoding& coding = {}) {
   const Grid grid = hilly_grid();
   GltfFile file;

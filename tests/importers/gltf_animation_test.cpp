@@ -48,7 +48,7 @@ ImportedScene at(const GltfFile& file, double seconds, bool loop = false) {
   return import_sound(file.gltf(), "a.gltf", {.playing = {.seconds = seconds, .loop = loop}});
 }
 
-// The position of the square's point.
+// The position to which the square's point p has moved after `seconds`.
 Vec3 point_at(const GltfFile& file, double seconds, const Vec3& p = Vec3(0), bool loop = false) {
   const ImportedScene scene = at(file, seconds, loop);
   REQUIRE(scene.instances.size() == 1);
@@ -98,13 +98,13 @@ TEST_CASE("translations jump or go straight between keys, and stay at the ends")
   CHECK(near(point_at(jumps, 1.5), Vec3(3, 8, 0)));
   CHECK(near(point_at(jumps, 3.5), Vec3(3, 4, -6)));
 
-  // Again from 0 after the last key.
+  // With `loop`, the animation starts again from 0 after the last key.
   CHECK(near(point_at(straight, 3.5 + 0.75, Vec3(0), true), Vec3(1.5, 2, 0)));
   CHECK(near(point_at(straight, 0.75 - 3.5, Vec3(0), true), Vec3(1.5, 2, 0)));
 }
 
-// A cubic f with f(2) = 1, f'(2) = −3 and f(4) = 5, f'(4) = 2 is the only one: by u = (x − 2)/2 it is
-// 1 − 6 u + 20 u² − 10 u³.
+// Only one cubic f has f(2) = 1, f'(2) = −3, f(4) = 5 and f'(4) = 2. With u = (x − 2)/2 it is 1 − 6 u + 20 u²
+// − 10 u³.
 TEST_CASE("cubic splines have the values and the slopes of their keys") {
   const GltfFile file = animated_square(
       {"translation", "CUBICSPLINE", {2, 4}, {9, 9, 9, 1, 0, 7, -3, 0, 0, 2, 0, 0, 5, 0, 7, 9, 9, 9}});
@@ -117,8 +117,8 @@ TEST_CASE("cubic splines have the values and the slopes of their keys") {
   CHECK(near(point_at(file, 0), Vec3(1, 0, 7)));
   CHECK(near(point_at(file, 9), Vec3(5, 0, 7)));
 
-  // The four numbers of rotations are interpolated alike, then normalised: half way between two is their
-  // mean.
+  // The four numbers of a rotation are interpolated in the same way, then normalised: half way between two
+  // keys they are the mean.
   const std::vector<double> none = {0, 0, 0, 0};
   const GltfFile spun = animated_square(
       {"rotation", "CUBICSPLINE", {0, 1}, joined({none, turn(0), none, none, turn(90), none})});
@@ -131,15 +131,15 @@ TEST_CASE("rotations go evenly the shortest way, whatever their signs") {
       animated_square({"rotation", "LINEAR", {0, 1, 2}, joined({turn(0), turn(120), turn(280)})});
   for (const double t : {0.0, 0.25, 0.9, 1.0}) CHECK(near(point_at(file, t, {1, 0, 0}), turned(120 * t)));
   CHECK(near(point_at(file, 1.25, {1, 0, 0}), turned(160)));
-  // From 20° to 360 − 20°, and the same of the other sign: back over 0.
+  // From 20° to 360° − 20°, and to the same quaternion with the other sign: both go back over 0.
   const auto back = [](double sign) {
     std::vector<double> last = turn(-20);
     for (double& x : last) x *= sign;
     return animated_square({"rotation", "", {0, 1}, joined({turn(20), last})});
   };
   for (const double sign : {1.0, -1.0}) CHECK(near(point_at(back(sign), 0.25, {1, 0, 0}), turned(10)));
-  // About two axes: from 90° about z to 90° about x, half way it is 2/3 of a half turn about (1, 0, 1), by
-  // cos θ/2 = (1/2 + 1/2)/√3 …
+  // Two axes: half way from 90° about z to 90° about x, the rotation is 2/3 of a half turn about (1, 0, 1),
+  // by cos θ/2 = (1/2 + 1/2)/√3 …
   const double k = std::sqrt(0.5);
   const GltfFile over = animated_square({"rotation", "", {0, 1}, {0, 0, k, k, k, 0, 0, k}});
   const double w = 2 / std::sqrt(6), x = 1 / std::sqrt(6);
@@ -147,7 +147,7 @@ TEST_CASE("rotations go evenly the shortest way, whatever their signs") {
   // A rotation that is not of unit length is normalised.
   const GltfFile longer = animated_square({"rotation", "", {0, 1}, joined({{0, 0, 0, 3}, turn(120)})});
   CHECK(near(point_at(longer, 0.25, {1, 0, 0}), turned(30)));
-  // In shorts, which are not quite of unit length.
+  // A rotation in shorts, which is not quite of unit length.
   const GltfFile coarse =
       animated_square({"rotation", "", {0, 1}, {0, 0, 0, 32767, 0, 0, 23170, 23170}, 5122, true});
   CHECK(glm::length(point_at(coarse, 0.5, {1, 0, 0}) - turned(45)) < 1e-4);
@@ -319,12 +319,12 @@ TEST_CASE("animations that break rules, a row a rule") {
     CHECK(contains(said, row.said));
   }
 
-  // Breaches with a clear meaning are only warned of.
+  // A broken rule whose meaning is clear causes only a warning.
   CHECK(warns(at(animated_square({"rotation", "", {0}, {0, 0, 0, 2}}), 0),
               "rotations that are not of unit length, normalised: 1, the first accessors[3]"));
   CHECK(warns(at(animated_square({"translation", "", {-1, 1}, plain.values}), 0),
               "animations that begin before 0: 1, the first accessors[2]"));
-  // Channels of no node are left out.
+  // Channels that name no node are left out.
   GltfFile pointer = animated_square(plain);
   pointer.json["animations"][0]["channels"][0]["target"] = {{"path", "pointer"}};
   CHECK(warns(at(pointer, 0), "left out: animated values that belong to no node (1)"));

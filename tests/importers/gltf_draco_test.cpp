@@ -31,7 +31,7 @@ std::string varint(uint32_t value) {
   return bytes + char(value);
 }
 
-// Up to where an edgebreaker's mesh states its size.
+// The beginning of an edgebreaker mesh, up to the mesh's size.
 const std::string edgebreaker_head("DRACO\x02\x02\x01\x01\x00\x00\x00", 12);
 
 }  // namespace
@@ -124,7 +124,7 @@ TEST_CASE("draco: attributes that its data lack come from their accessors, colou
 }
 
 TEST_CASE("draco: a skin's joints and weights") {
-  // A square of which two corners are held by each of two joints; the second stands 3 above the first.
+  // A square with two joints, each of which holds two corners; the second joint stands 3 above the first.
   GltfFile file = square_file();
   Grid grid{square_positions, {}, {}, {0, 1, 2, 0, 2, 3}};
   const std::vector<double> joints = {0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
@@ -154,7 +154,7 @@ TEST_CASE("draco: two primitives of one data, and one that is not coded by the s
   file.json["meshes"][0]["primitives"].push_back(coded);
   CHECK(import_sound(file.gltf(), "a.gltf").meshes.size() == 2);
 
-  // The accessors have separate views, with other numbers, which count where nothing is coded.
+  // The accessors have separate views with other numbers, which are used if nothing is coded.
   GltfFile both = grid_file();
   code_primitive(both, draco_grid_data({}, hilly_grid()),
                  {{"POSITION", 0}, {"NORMAL", 1}, {"TEXCOORD_0", 2}});
@@ -244,14 +244,14 @@ TEST_CASE("draco: absurd sizes take no memory, in its header, its attributes or 
   const std::string too_much = "have more faces or vertices than data of this size can encode";
   const std::string billion = varint(1000000000);
   CHECK(contains(refusal_of_data(edgebreaker_head + billion + billion + '\0' + billion + '\0'), too_much));
-  // Twelve million corners may be, not 255 tables of them.
+  // Twelve million corners are allowed; 255 tables of them are not.
   const std::string million = varint(4000000);
   const std::string many_tables = edgebreaker_head + million + million + '\xff' + million + '\0';
   const std::string one_table = edgebreaker_head + million + million + '\0' + million + '\0';
   CHECK(contains(refusal_of_data(many_tables), too_much));
   CHECK(contains(refusal_of_data(one_table), "are damaged"));
 
-  // A position of 255 numbers at each vertex of a flat plane, of which there are almost no data.
+  // A position of 255 numbers at each vertex of a flat plane, whose data are very small.
   Grid plane = hilly_grid(400);
   for (size_t i = 2; i < plane.positions.size(); i += 3) plane.positions[i] = 0;
   DracoMesh mesh(plane);
@@ -263,7 +263,7 @@ TEST_CASE("draco: absurd sizes take no memory, in its header, its attributes or 
   data[declared + 2] = '\xff';
   CHECK(contains(refusal_of_data(data), too_much));
 
-  // Branches of metadata to come, at each level as many as there are bytes.
+  // Metadata that announce 100 branches at each of 900 nested levels, and then end.
   std::string tree("DRACO\x02\x02\x01\x01\x00\x80\x00", 12);
   for (int level = 0; level < 900; ++level) tree += std::string("\0", 1) + varint(100) + std::string("\0", 1);
   CHECK(contains(refusal_of_data(tree), "are damaged: their metadata end too early"));

@@ -27,7 +27,7 @@ inline std::string base64(const std::string& bytes) {
   return text;
 }
 
-// One mesh, one node, one buffer; tests change and add.
+// A file of one mesh, one node and one buffer, which tests change and extend.
 class GltfFile {
  public:
   Json json = {{"asset", {{"version", "2.0"}}},
@@ -39,8 +39,8 @@ class GltfFile {
                {"accessors", Json::array()}};
   std::vector<Json> more_buffers;  // after the one that the bytes are in
 
-  // The accessor of the numbers, stored as the component type, in a separate bufferView, with their bounds.
-  // Vectors begin at multiples of 4 bytes.
+  // Adds an accessor of the numbers, stored as the component type, in a separate bufferView and with their
+  // bounds; returns its index. Vectors begin at multiples of 4 bytes.
   int add(const std::vector<double>& numbers, int component, const char* type, size_t components,
           bool normalized = false) {
     const size_t size = component < 5122 ? 1 : component < 5125 ? 2 : 4;
@@ -89,7 +89,7 @@ class GltfFile {
   Json& primitive() { return json["meshes"][0]["primitives"][0]; }
 
   std::string data() const { return data_.text(); }
-  // With the buffer as a data URI, as a file's name, or as the chunk of a .glb.
+  // The file's bytes, with the buffer as a data URI, as a file's name, or as the chunk of a .glb.
   std::string gltf() const { return gltf("data:application/octet-stream;base64," + base64(data_.text())); }
   std::string gltf(const std::string& uri) const {
     Json whole = declared();
@@ -114,7 +114,7 @@ class GltfFile {
   }
 
  private:
-  // With its extensions in extensionsUsed, unless the test lists them itself.
+  // The JSON with its extensions in extensionsUsed, unless the test lists them itself.
   Json declared() const {
     Json whole = json;
     if (whole.contains("extensionsUsed")) return whole;

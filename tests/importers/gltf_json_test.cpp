@@ -28,7 +28,7 @@ TEST_CASE("JSON is read in time that grows with its length, and to a bound") {
     for (size_t i = 0; i < count; ++i) nodes += "{},";
     return std::string(plain).insert(place, nodes);
   };
-  // By the square it took 17 s; now a tenth of one.
+  // When the time grew with the square of the size, this took 17 s; now it takes a tenth of a second.
   std::string many = with_nodes(300'000);
   many.replace(many.find("\"nodes\":[0]"), 11, "\"nodes\":[300000]");
   const std::clock_t before = std::clock();
@@ -37,7 +37,7 @@ TEST_CASE("JSON is read in time that grows with its length, and to a bound") {
 
   const std::string too_many = refusal("{\"a\":[0\n" + std::string(size_t{1} << 24, ',') + ",0]}", "a.gltf");
   CHECK(too_many == "a.gltf:2:16777215: error: its JSON has more than 16777216 values");
-  // Brackets in strings are no structure.
+  // Brackets in strings do not count as nesting.
   CHECK(refusal("{\"a\":\"" + std::string(100, '[') + "\\\"" + std::string(100, '{') + "\"}", "a.gltf") ==
         "a.gltf: error: it is not glTF 2: its asset.version is \"\"");
 }

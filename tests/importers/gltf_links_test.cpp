@@ -1,5 +1,5 @@
-// Errors and warnings for glTF whose values or references break rules, in objects that are shown or not: a
-// row a rule.
+// Errors and warnings for glTF whose values or references break rules, in objects that are shown or not: one
+// row for each rule.
 #include "gltf_rich_file.hpp"
 
 using namespace eyeray::engine;
@@ -8,7 +8,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// One more object in a list of the document.
+// Adds an object to a list of the document.
 std::function<void(GltfFile&)> add_object(const char* list, const Json& object) {
   return [=](GltfFile& file) { file.json[list].push_back(object); };
 }
@@ -306,7 +306,7 @@ TEST_CASE("rules of glTF: chunks of .glb") {
   longer.replace(8, 4, Bytes().add(uint32_t(longer.size())).text());
   CHECK(said(longer) == Said{"bytes after the last chunk of .glb, left out: 1, the first the file"});
 
-  // A binary chunk beside buffers that are elsewhere.
+  // A binary chunk in a file whose buffers are elsewhere.
   std::string json = square_file().gltf();
   while (json.size() % 4 != 0) json += ' ';
   std::string glb = Bytes().add(uint32_t(0x46546c67)).add(uint32_t(2)).add(uint32_t(20 + json.size())).text();

@@ -46,7 +46,7 @@ TEST_CASE("meshopt: what is coded counts, and the fallback is not even read") {
   file.more_buffers = {{{"byteLength", 1 << 20}, {"uri", "missing.bin"}}};
   check_grid(import_sound(file.gltf(), "a.gltf"), 1e-6);
   file.json["bufferViews"][0].erase("extensions");
-  CHECK_THROWS_AS(import_bytes(file.gltf(), "a.gltf"), Error);  // now it would be
+  CHECK_THROWS_AS(import_bytes(file.gltf(), "a.gltf"), Error);  // now the missing buffer is read
   file.more_buffers = {{{"byteLength", 1 << 20}}};
   CHECK(contains(refusal(file.gltf(), "a.gltf"), "buffers[1] has no data"));
 }
@@ -86,7 +86,8 @@ TEST_CASE("meshopt: the filter OCTAHEDRAL, in 8 and 16 bits") {
     file.json["extensionsUsed"].push_back("KHR_mesh_quantization");
     check_grid(import_sound(file.gltf(), "a.gltf"), stride == 4 ? 2e-2 : 1e-3);
     coding_of(file, 1).erase("filter");
-    const ImportedScene raw = import_bytes(file.gltf(), "a.gltf");  // its numbers are no normals then
+    const ImportedScene raw =
+        import_bytes(file.gltf(), "a.gltf");  // without the filter its numbers are not normals
     CHECK(glm::length(raw.meshes[0].normals[1] - normal_at(1.0 / (grid_side - 1), 0)) > 0.1);
   }
 }
@@ -108,7 +109,7 @@ TEST_CASE("meshopt: the filter EXPONENTIAL") {
   CHECK(glm::length(import_bytes(file.gltf(), "a.gltf").meshes[0].positions[0]) > 1e3);
 }
 
-// Nothing that is read here is a rotation; colours have four numbers too.
+// This file has no rotations, so its colours take their place: they have four numbers too.
 TEST_CASE("meshopt: the filter QUATERNION") {
   std::vector<float> turns;
   for (int i = 0; i < grid_side * grid_side; ++i) {
@@ -211,7 +212,7 @@ TEST_CASE("meshopt: data cut short at every byte, or of another version") {
 }
 
 TEST_CASE("meshopt: absurd counts take no memory, alone or many of them together") {
-  // 64 bytes at most of one, plus the bytes at the ends.
+  // A coded byte stands for at most 64 bytes, apart from the bytes at the ends.
   for (const auto& [view, stride] : {std::pair(size_t{0}, 12), std::pair(size_t{3}, 2)}) {
     GltfFile file = meshopt_grid();
     coding_of(file, view)["count"] = 999999999;
@@ -219,7 +220,7 @@ TEST_CASE("meshopt: absurd counts take no memory, alone or many of them together
     CHECK(contains(refusal(file.gltf(), "a.gltf"), "bytes, which cannot encode 999999999 elements"));
   }
 
-  // Nothing but zeros: blocks of 256 elements of 32 bytes, each in 128.
+  // Only zeros: each block of 256 elements of 32 bytes is coded in 128 bytes.
   const std::string zeros(size_t{1} << 18, '\0');
   GltfFile file;
   Json view;

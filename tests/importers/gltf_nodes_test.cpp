@@ -56,7 +56,8 @@ TEST_CASE("EXT_mesh_gpu_instancing shows a mesh many times, each moved before it
   CHECK(corner(scene, 0) == Vec3(2, 3, 13));
   CHECK(corner(scene, 1) == Vec3(5, 6, 16));
 
-  // A half turn about z, in bytes, then twice as big; the second is flat.
+  // The first instance is rotated by a half turn about z, stored in bytes, and twice as big; the second is
+  // flat.
   attributes_of(file)["ROTATION"] = file.add({0, 0, 127, 0, 0, 0, 0, 127}, 5120, "VEC4", 4, true);
   attributes_of(file)["SCALE"] = file.add({2, 2, 2, 1, 0, 1}, 5126, "VEC3", 3);
   scene = import_sound(file.gltf(), "a.gltf");

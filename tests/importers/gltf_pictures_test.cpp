@@ -31,7 +31,7 @@ TEST_CASE("rules of glTF: samplers, and pictures without uv") {
   CHECK(said_of(file) ==
         "meshes without the uv that their material's picture needs: 1, the first meshes[0].primitives[0]");
 
-  // A picture of another type than it states, and one that is two.
+  // A picture whose type is not the one that it states, and a picture that names two sources.
   Json& image = file.json["images"][0];
   file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] = 0;
   image["mimeType"] = "image/jpeg";
@@ -59,7 +59,7 @@ TEST_CASE("rules of glTF: samplers, and pictures without uv") {
       "a picture was left out: a.gltf: error: images[0] has both a uri and a bufferView: it is one picture");
   image = {{"uri", image["uri"]}};
 
-  // The picture is one of the scene's, and counts among its pixels.
+  // The pixels of the picture count among those of all images of the scene.
   file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] = 0;
   PixelBudget few{5};
   CHECK_THROWS_WITH_AS(import_bytes(file.gltf(), "a.gltf", {.pixels = &few}),

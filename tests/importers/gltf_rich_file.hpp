@@ -13,7 +13,7 @@ enum Accessor { positions, indices, normals, uv, joints, weights, bind_matrices,
 
 inline const std::vector<double> identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
-// A square with all that rules are about, none of them broken.
+// A square with everything that the rules concern; it breaks none of them.
 inline GltfFile rich_file() {
   GltfFile file = square_file();
   Json& attributes = file.primitive()["attributes"];
@@ -31,7 +31,7 @@ inline GltfFile rich_file() {
   return file;
 }
 
-// The refusal, or the warnings, or "".
+// The message of the file's refusal, or the file's warnings, or "".
 inline std::string said_of(const GltfFile& file) {
   const std::string refused = refusal(file.gltf(), "a.gltf");
   if (refused != "accepted") return refused;

@@ -1,5 +1,5 @@
-// Errors and warnings for glTF that breaks a rule of its specification, if that can change the picture: a row
-// a rule.
+// Errors and warnings for glTF that breaks a rule of its specification, if that can change the picture: one
+// row for each rule.
 #include "gltf_rich_file.hpp"
 
 using namespace eyeray::engine;

@@ -163,8 +163,8 @@ TEST_CASE("extensions of materials, with their pictures: which channel of each c
     CHECK(over.coat == doctest::Approx(channel(0)->at(uv).x));
     CHECK(over.coat_roughness == doctest::Approx(channel(1)->at(uv).x));
   }
-  // A material with thickness refracts, is tinted and dims light. One without is a pane, however Whitted's
-  // pictures show it.
+  // A material with thickness refracts, is tinted and dims light. A material without thickness is a pane,
+  // however Whitted's pictures show it.
   const Json volume = {{"thicknessFactor", 1}, {"attenuationDistance", 2}, {"attenuationColor", {1, 0.5, 1}}};
   const ImportedScene thick = imported({{"KHR_materials_transmission", {{"transmissionFactor", 0.25}}},
                                         {"KHR_materials_volume", volume},
@@ -193,7 +193,7 @@ TEST_CASE("pictures, from data and files, with their samplers") {
   CHECK(scene.warnings.empty());
   CHECK(scene.meshes[0].uv == std::vector<Vec2>{{0, 0}, {1, 0}, {1, 1}, {0, 1}});  // the second set
 
-  // One that cannot be had leaves its material's colour.
+  // If the picture cannot be read, the material keeps its colour.
   for (const std::string& uri : {std::string("data:image/png;base64,AAAA"), std::string("none.png")}) {
     file.json["images"] = {{{"uri", uri}}};
     const ImportedScene without = import_sound(file.gltf(), "a.gltf");
@@ -229,7 +229,7 @@ TEST_CASE("a normal map counts by its codes, with the mesh's tangents where they
               "meshes with tangents that are not directions; their tangents are computed from uv instead"));
   CHECK(unsound.meshes[0].tangents.empty());
 
-  // A coat has its own, or none.
+  // A coat has a separate normal map, or none.
   file.primitive()["attributes"].erase("TANGENT");
   Json& material = file.json["materials"][0];
   file.json["extensionsUsed"] = {"KHR_materials_clearcoat"};
@@ -270,7 +270,7 @@ TEST_CASE("alphaMode MASK cuts out by factor, picture and vertices, BLEND blends
   REQUIRE(mask_of());
   CHECK(mask_of()->blends);
   CHECK(mask_of()->alpha->alpha_at(Vec2(0)) == 0.6);
-  // A ray hits it with a probability of 0.6, or of half of that where its vertices' alpha is 0.5.
+  // A ray hits the surface with a probability of 0.6, or of half of that where its vertices' alpha is 0.5.
   CHECK(mask_of()->covers(Vec2(0), 1, 0.6));
   CHECK_FALSE(mask_of()->covers(Vec2(0), 0.5, 0.6));
   CHECK(mask_of()->covers(Vec2(0), 0.5, 0.3));

@@ -35,7 +35,8 @@ Json scaled(double scale) {
   return scaled;
 }
 
-// The colour of the base on set 0, and light on `emission`.
+// A material whose base colour's picture reads set 0, and whose emission's picture reads as `emission`
+// states.
 Json glowing(const Json& emission) {
   return {{"pbrMetallicRoughness", {{"baseColorTexture", map(0)}, {"metallicFactor", 0}}},
           {"emissiveFactor", {1, 1, 1}},

@@ -1,5 +1,5 @@
-// Tests of changes of vertices by glTF files, beside their placement: colours, transforms of uv, morph
-// targets, skins.
+// Tests of the changes that glTF files make to vertices, beside placing them: colours, transforms of uv,
+// morph targets, skins.
 #include <numbers>
 
 #include "gltf_files.hpp"
@@ -38,7 +38,7 @@ TEST_CASE("colours of vertices are linear, with and without alpha, and kept with
   CHECK(contains(refusal(file.gltf(), "a.gltf"), "do not all have as many elements"));
 }
 
-// By the specification: scaled, then turned against the clock as pictures are seen, then moved.
+// By the specification, uv are scaled, then rotated counter-clockwise as pictures are seen, then moved.
 TEST_CASE("KHR_texture_transform, and the set of uv that it names") {
   GltfFile file = square_file();
   file.primitive()["attributes"]["TEXCOORD_2"] = file.add({0, 0, 1, 0, 1, 1, 0, 1}, 5126, "VEC2", 2);
@@ -79,7 +79,7 @@ TEST_CASE("morph targets by their weights, the node's before the mesh's") {
 }
 
 TEST_CASE("a skin puts vertices where its joints are, wherever its node is") {
-  // Two corners are held by each of two joints, and the second joint stands above the first.
+  // Each of two joints holds two corners, and the second joint stands above the first.
   GltfFile file = square_file();
   const auto skinned = [&](const std::vector<double>& joints, const std::vector<double>& weights) {
     file.primitive()["attributes"]["JOINTS_0"] = file.add(joints, 5121, "VEC4", 4);
@@ -103,7 +103,8 @@ TEST_CASE("a skin puts vertices where its joints are, wherever its node is") {
         std::vector<std::string>{"weights of joints that do not sum to 1, divided by their sum: 1, the first "
                                  "meshes[0].primitives[0].attributes.WEIGHTS_0"});
 
-  // Halfway between both joints; then a joint that there is not; then one that stands nowhere.
+  // A corner halfway between both joints; then a joint that does not exist; then joints that are not in the
+  // scene.
   skinned({0, 1, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, {1, 1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
   CHECK(import_sound(file.gltf(), "a.gltf").meshes[0].positions[0] == Vec3(5, 1, 0));
   skinned({0, 2, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, {1, 1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});

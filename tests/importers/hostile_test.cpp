@@ -48,7 +48,7 @@ std::vector<Seed> seeds() {
       {"draco.glb", draco_grid().glb()}};
 }
 
-// True if it is read.
+// True if the bytes are read; false if they are refused.
 bool survives(const std::string& bytes, const std::string& name) {
   try {
     const ImportedScene scene = import_bytes(bytes, name, {.playing = {.seconds = 0.5}});
@@ -70,7 +70,7 @@ TEST_CASE("files cut short at every byte") {
     CHECK(survives(bytes, name));
     size_t read = 0;
     for (size_t length = 0; length < bytes.size(); ++length) read += survives(bytes.substr(0, length), name);
-    // Binary data and JSON are whole or nothing; a text may end sooner.
+    // Binary data and JSON must be complete; a text file may end sooner.
     if (!name.ends_with("obj")) CHECK(read <= 1);
   }
 }

@@ -64,14 +64,14 @@ TEST_CASE("faces that cannot be seen are left out and counted") {
   CHECK(scene.meshes[0].triangles.size() == 2);  // the first and the last: 1e-999 is 0
   CHECK(warns(scene, "3 faces with coordinates that are not finite were left out"));
   CHECK(warns(scene, "3 faces without area were left out"));
-  CHECK(scene.meshes[0].positions.size() == 4);  // those of vertices that nothing uses are gone
+  CHECK(scene.meshes[0].positions.size() == 4);  // the positions of unused vertices are gone
 }
 
 TEST_CASE("normals that cannot be used become those of the face") {
   const ImportedScene scene = import_sound(
       square + "vn 0 0 5\nvn 0 0 0\nvn 0 0 -1\nvn nan 0 0\nf 1//1 2//2 3//3\nf 1//1 3//4 4//1\n", "a.obj");
   CHECK(warns(scene, "3 corners whose normals"));
-  CHECK(scene.meshes[0].positions.size() == 5);  // 1 and 4 as written, three of their own
+  CHECK(scene.meshes[0].positions.size() == 5);  // 1 and 4 as written, three with the face's normal
 }
 
 TEST_CASE("each material has its mesh, and its .mtl is read") {
@@ -197,7 +197,7 @@ TEST_CASE("options of maps may have fewer numbers than they can; -s and -o place
     CAPTURE(options);
     CHECK(scene.warnings.empty());
     CHECK(scene.files.back() == folder / "my picture.png");
-    return scene.meshes[0].uv[2];  // that of (1, 1)
+    return scene.meshes[0].uv[2];  // the uv of the corner (1, 1)
   };
   CHECK(corner("") == Vec2(1));
   CHECK(corner("-s 2") == Vec2(2, 1));

@@ -25,7 +25,7 @@ size_t bent_normals(const Mesh& mesh) {
 }  // namespace
 
 TEST_CASE("faces that join at a small angle are one surface") {
-  // Vertices are the same where their positions are: the hinge has eight, two of them twice, once as −0.
+  // Vertices at equal positions count as one: the hinge has eight vertices, two of them twice, once with −0.
   const Mesh smooth = import_sound(hinge(30), "a.obj").meshes[0];
   CHECK(smooth.positions.size() == 8);
   const double half = 15 * std::numbers::pi / 180;
@@ -36,7 +36,8 @@ TEST_CASE("faces that join at a small angle are one surface") {
     ++at_hinge;
   }
   CHECK(at_hinge == 4);
-  CHECK(bent_normals(import_sound(hinge(30), "a.obj", {.smooth = 29.0}).meshes[0]) == 4);  // one side's own
+  CHECK(bent_normals(import_sound(hinge(30), "a.obj", {.smooth = 29.0}).meshes[0]) ==
+        4);  // those of the turned square
   const Mesh sharp = import_sound(hinge(50), "a.obj").meshes[0];
   for (const auto& t : sharp.triangles) CHECK(sharp.normals[t[0]] == sharp.normals[t[2]]);
   CHECK(import_sound(hinge(30), "a.obj", {.smooth = 0.0}).meshes[0].normals.empty());

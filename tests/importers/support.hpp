@@ -41,7 +41,7 @@ inline bool warns(const importers::ImportedScene& scene, const std::string& word
   return false;
 }
 
-// Twice the area of all triangles, each counted against the side that `up` is on.
+// Twice the area of all triangles as seen from `up`; triangles that face away count as negative.
 inline double signed_area(const Mesh& mesh, const Vec3& up) {
   double sum = 0;
   for (const auto& t : mesh.triangles) {

@@ -75,7 +75,7 @@ TEST_CASE("a process that renders keeps its environment and its signals") {
     return all;
   };
   const auto handlers_before = handlers();
-  // A picture of the size for which the program sets llvmpipe to vectors of 512 bits.
+  // A picture so large that the program would set llvmpipe to vectors of 512 bits.
   const Scene scene = with({"image.width=1024", "image.height=1024"});
   CHECK(renderer().render(scene, {.crop = {0, 0, 64, 48}}).complete());
   CHECK(environment() == before);

@@ -68,19 +68,19 @@ TEST_CASE("between keyframes a value goes straight, jumps, or takes Catmull and 
   CHECK(eye(three, "step", 9.99) == Vec3(0, 0, 0));
   CHECK(eye(three, "step", 10) == Vec3(10, 0, 2));
   CHECK(eye(three, "step", 30) == Vec3(10, 40, 2));
-  // Beyond the ends the ends count.
+  // Before the first keyframe and after the last, their values hold.
   for (const char* curve : {"linear", "step", "smooth"}) {
     CHECK(eye(three, curve, -7) == Vec3(0, 0, 0));
     CHECK(eye(three, curve, 99) == Vec3(10, 40, 2));
   }
-  // Half way of the first stretch: straight ahead at its begin, at its end by the slope between its
-  // neighbours.
+  // Half way between the first two keyframes. The slope at the first is that of the straight line between
+  // them; at the second, that of the line between its neighbours.
   const Vec3 half = eye(three, "smooth", 5);
   const double slope_x = 10.0 / 30, slope_y = 40.0 / 30;
   CHECK(half.x == doctest::Approx(5 + (10 - 10 * slope_x) / 8));
   CHECK(half.y == doctest::Approx(0 + (0 - 10 * slope_y) / 8));
   CHECK(eye(three, "smooth", 10) == Vec3(10, 0, 2));
-  // Evenly apart, it is the classic spline: (−p₀ + 9 p₁ + 9 p₂ − p₃) / 16 half way.
+  // With keyframes evenly apart it is the classic spline: half way, (−p₀ + 9 p₁ + 9 p₂ − p₃) / 16.
   const std::string even = "[[0, [1, 0, 0]], [1, [2, 0, 0]], [2, [5, 0, 0]], [3, [4, 0, 0]]]";
   CHECK(eye(even, "smooth", 1.5).x == doctest::Approx((-1 + 9 * 2 + 9 * 5 - 4) / 16.0));
 }
@@ -105,7 +105,8 @@ TEST_CASE("rotations: degrees about one axis run on, about two axes the shortest
   const auto near = [](const Vec3& a, const Vec3& b) { return glm::length(a - b) < 1e-6; };
   CHECK(near(moved(keyframes(turn("[0, 0, 1]", 0), turn("[0, 0, 1]", 720)), 1), Vec3(0, 1, 0)));
   CHECK(near(moved(keyframes(turn("[0, 0, 1]", 0), turn("[0, 0, 2]", 720)), 3), Vec3(0, -1, 0)));
-  // From 90° about z to 90° about y, half way: about (0, 1, 1), by cos θ/2 = (1/2 + 1/2) / √(2 + 2 · 1/2) …
+  // Half way from 90° about z to 90° about y: a rotation about (0, 1, 1), by cos θ/2 = (1/2 + 1/2) / √(2 + 2
+  // · 1/2) …
   const double w = 1 / std::sqrt(2.0), k = 0.5 / std::sqrt(2.0), unit = std::sqrt(w * w + 2 * k * k);
   const double c = w / unit, s = k / unit;
   const Vec3 half = moved(keyframes(turn("[0, 0, 1]", 90), turn("[0, 1, 0]", 90)), 4);
@@ -158,7 +159,8 @@ TEST_CASE("two tracks on one target are one error, at the second one's line, how
   for (int i = 0; i < 10'000; ++i) many += eye;
   CHECK(error_of(many) == "17: " + message);
 
-  // A part of a moving value may move differently. In the reverse order it would stand still.
+  // A later track may move a part of a value differently. In the reverse order, that part's track would have
+  // no effect.
   const std::string x = track("camera.eye.0", "7");
   CHECK(at(eye + x, 0).camera.eye == Vec3(7, 0, 1));
   CHECK(error_of(x + eye) == "17: " + message);

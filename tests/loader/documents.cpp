@@ -57,7 +57,8 @@ TEST_CASE("every default is a right value of its key") {
 }
 
 TEST_CASE("the examples in the manual are scenes") {
-  // Each ```toml block of both documents is loaded, its materials made up where it names others.
+  // Loads each ```toml block of both documents. Materials that a block names but does not contain are made
+  // up.
   int examples = 0;
   for (const std::string& document : {scene_manual(), read("docs/scene-file.md")}) {
     for (size_t at = document.find("```toml\n"); at != std::string::npos;

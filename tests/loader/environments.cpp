@@ -1,4 +1,4 @@
-// [environment]: messages about files that are no light.
+// [environment]: messages about files that cannot be an environment.
 #include <cmath>
 #include <limits>
 
@@ -20,7 +20,8 @@ image::Image gray(int width, int height, float value, int channels = 3) {
   return picture;
 }
 
-// The error of a scene with that table, in the folder, without its position; or the first warning.
+// The error, without its position, of a scene in the folder with that [environment] table; or the first
+// warning.
 std::string said_of(const test::Folder& folder, const std::string& table, const std::string& rest = "") {
   const std::string scene = folder.write("scene.toml", "[environment]\n" + table + "\n" + rest);
   std::string said;

@@ -1,4 +1,4 @@
-// Tests of other renderers' words.
+// Tests of suggestions for the words of other renderers.
 #include "host/reading/foreign_words.hpp"
 
 #include <vector>

@@ -1,4 +1,4 @@
-// Keys by the names that they had before: read as today's, in files and by -D.
+// Former names of keys are read like today's names, in files and by -D.
 #include "host/loader/scene_file.hpp"
 //
 #include "tests/support/doctest.hpp"
@@ -25,7 +25,7 @@ TEST_CASE("[[solid]] is [[csg]], wherever it stands") {
   REQUIRE(then.shapes.size() == 2);
   REQUIRE(now.shapes.size() == 2);
   for (const size_t i : {0, 1}) CHECK(then.shapes[i]->type == now.shapes[i]->type);
-  // Both names in one file: one list.
+  // Tables under both names in one file make one list.
   CHECK(parse_scene(scene_with("solid") + "[[csg]]\nmaterial = \"wall\"\n[[csg.sphere]]\ncenter = [0, 0, "
                                           "0]\nradius = 1\n",
                     "scene.toml")

@@ -1,4 +1,4 @@
-// Input that nobody means well with: it may be refused, but it never crashes, hangs or overflows the stack.
+// Malicious input: it may be refused, but it never crashes eyeray, hangs it or overflows the stack.
 #include <sys/stat.h>
 
 #include <fstream>
@@ -98,7 +98,7 @@ TEST_CASE("keys and values are bounded, over all files of a scene, and the place
   CHECK(starts(said(repeat("k.k=1\n", 2'100'000)), "scene.toml:2097153:4"));
   CHECK(starts(said(repeat("[[a.b]]\n", 2'800'000)), "scene.toml:2796203:4"));
 
-  // Text in strings and comments does not count, and floats in rows of a list are no keys.
+  // Text in strings and comments does not count, and floats in rows of a list do not count as keys.
   TreeBudget budget;
   CHECK_FALSE(find_excess(
       "x = \"" + std::string(100, '{') + "\" # [[[[\ny = '''" + std::string(100, '[') + "\n'''", budget));

@@ -1,4 +1,4 @@
-// Keys that change nothing in a scene: a warning that states why.
+// Keys that change nothing in a scene cause a warning that states why.
 #include <fmt/ranges.h>
 
 #include "host/loader/scene_file.hpp"
@@ -9,7 +9,7 @@ using namespace eyeray::engine;
 
 namespace {
 
-// The warnings of a scene with these lines that are about idle keys, each as "line: message".
+// The warnings about idle keys of a scene with these lines, each as "line: message".
 std::vector<std::string> warnings_of(const std::string& text) {
   std::vector<std::string> found;
   for (const Diagnostic& warning : loader::parse_scene(text, "scene.toml").warnings)

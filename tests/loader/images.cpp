@@ -1,4 +1,5 @@
-// Images that a scene names: where they may lie, their textures, and the messages when they are none.
+// Images that a scene names: the folders where they may lie, their textures, and the messages for files that
+// are not images.
 #include <sys/stat.h>
 
 #include "host/core/atomic_file.hpp"
@@ -37,7 +38,7 @@ class Folder : public test::TemporaryFolder {
   }
 };
 
-// A scene with a material of that diffuse colour.
+// A scene with a material whose `diffuse` is that text.
 std::string scene_with(const std::string& diffuse) {
   return "[[material]]\nname = \"m\"\ntype = \"phong\"\ndiffuse = " + diffuse + "\n";
 }

@@ -17,7 +17,7 @@ bool says(const std::string& text, std::string_view what) {
   return text.find(what) != std::string::npos;
 }
 
-// A list of that many steps along x.
+// A list of `count` steps along x.
 std::string steps(int count) {
   std::string text;
   for (int i = 0; i < count; ++i) text += fmt::format("[{{ translate = [{}, 0, 0] }}],", i);
@@ -49,7 +49,7 @@ TEST_CASE("a named group stands where instances name it, after its own transform
 }
 
 TEST_CASE("among nested groups, those are instanced that leave the least to keep") {
-  // 2 × 20 000 × 10 spheres: the inner group is; in the reverse order, the outer one.
+  // 2 × 20 000 × 10 spheres: the inner group is instanced. With 20 000 × 2, the outer group is.
   const auto nested = [](int outer, int inner, int spheres) {
     std::string text = "[[group]]\n" + batch(outer) + "[[group.group]]\n" + batch(inner);
     for (int i = 0; i < spheres; ++i) text += sphere("group.group.sphere", 3 * i);
@@ -105,7 +105,8 @@ TEST_CASE("a group that holds something without an end is copied") {
 }
 
 TEST_CASE("a triangle's normals are right or wrong in its own space, however its group is kept") {
-  // A slope, z' = z + 2 x, turns the first to the other side, and the second to the right one.
+  // The group's map, z' = z + 2 x, would turn the first normal to the wrong side, and the second one to the
+  // right side.
   const auto verdict = [](const char* groups, const char* normal) {
     const char* const slope = "{ matrix = [[1, 0, 0, 0], [0, 1, 0, 0], [2, 0, 1, 0]] }";
     return refused(fmt::format(R"([render]
@@ -222,7 +223,7 @@ TEST_CASE("parts of CSG objects count as kept objects") {
   CHECK_MESSAGE(says(said, "batches and groups make 100020001 objects; at most 67108864 are possible"), said);
 }
 
-// Shapes in a group that are too thin, too far or distorted too much under a map that only the world knows.
+// Shapes in a group that become too thin, too far or too distorted only under the group's map into the world.
 TEST_CASE("shapes under a group's map are legal or not, however the group is kept") {
   const struct {
     const char* group_map;
@@ -247,7 +248,7 @@ TEST_CASE("shapes under a group's map are legal or not, however the group is kep
        "[[group.sphere]]\ncenter = [0, 0, 0]\nradius = 1\ntransform = [{ scale = [1, 1, 1e4] }]\n",
        "`transform` cannot be inverted"},
       {"{ scale = 1e6 }", "[[group.box]]\nmin = [0, 0, 0]\nmax = [1e7, 1e7, 1e7]\n", "out of range"},
-      // Near a limit that it keeps, and far from all.
+      // A shape just within a limit, and one far from all limits.
       {"{ scale = [1, 1, 90] }", "[[group.bilinear]]\ncorners = [[0,0,0],[1,0,0],[1,1,1],[0,1,0]]\n",
        "accepted"},
       {"{ scale = [1, 1, 2] }", "[[group.bilinear]]\ncorners = [[0,0,0],[1,0,0],[1,1,1],[0,1,0]]\n",

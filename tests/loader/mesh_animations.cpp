@@ -21,7 +21,8 @@ std::string floats(const std::vector<float>& numbers) {
 }
 
 // A triangle whose node goes from 0 to 8 along x ("Walk") or y ("Run") from 1 s to 2 s, and stands at 5 along
-// z at rest. `nodes`: these and the rest of the file; `path` and `end`: of "Walk".
+// z at rest. `nodes`: the nodes and the rest of the file. `path` and `end`: the property that "Walk" moves,
+// and its last value.
 std::string walker(const Folder& folder, const std::string& name = "walker.gltf",
                    const std::string& nodes = R"("nodes": [{"mesh": 0, "translation": [0, 0, 5]}])",
                    const char* path = "translation", const Vec3& end = Vec3(8, 0, 0)) {
@@ -78,7 +79,7 @@ TEST_CASE("a mesh shows its file's animation at the frame's moment") {
   const auto at = [&](const char* frame) {
     return place(load(file, {std::string("animation.frame=") + frame}).instances.at(0));
   };
-  CHECK(place(load(file).instances.at(0)) == Vec3(0, 0, 0));  // and not where it is at rest
+  CHECK(place(load(file).instances.at(0)) == Vec3(0, 0, 0));  // and not the position at rest
   CHECK(at("-3") == Vec3(0, 0, 0));
   CHECK(at("8") == Vec3(0, 0, 0));
   CHECK(at("10") == Vec3(2, 0, 0));
@@ -115,7 +116,7 @@ loop = true
   CHECK(place(scene.instances[5]) == Vec3(4, 0, 0));
   CHECK(place(load(file, {"animation.frame=84"}).instances[5]) == Vec3(4, 0, 0));  // 3.5 s
   CHECK(place(load(file, {"animation.frame=84"}).instances[4]) == Vec3(8, 0, 0));
-  // If all shown files are at rest, nothing moves.
+  // If every shown file is at rest, the scene has no animation.
   const std::string still =
       folder.write("still.toml", std::string(sun) + "[[mesh]]\nfile = 'walker.gltf'\nanimation = 'none'\n");
   CHECK(load(still).animation.tracks == 0);
@@ -162,14 +163,15 @@ TEST_CASE("a file that is itself the scene moves too, before a camera that stand
   CHECK(place(still.instances.at(0)) == Vec3(0, 0, 5));
   CHECK(still.animation.tracks == 0);
 
-  // A camera of the file's own goes where it is taken.
+  // The file's own camera moves with its node.
   const std::string filming = walker(folder, "film.gltf", R"("nodes": [{"camera": 0}, {"mesh": 0}],
   "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}])");
   CHECK(load(filming, {"animation.frame=36"}).camera.eye == Vec3(4, 0, 0));
   const Scene other = load(filming, {"animation.frame=36", "mesh.0.smooth=40"});
   CHECK(other.warnings.empty());
 
-  // A mesh that grows from nothing is shown once it has an extent, and is framed then if nothing is at rest.
+  // A mesh that grows from nothing is shown once it has an extent. If no mesh is visible at rest, the camera
+  // frames it then.
   const std::string grows = walker(folder, "grows.gltf", R"("nodes": [{"mesh": 0}])", "scale", Vec3(8));
   CHECK(load(grows).instances.empty());
   CHECK(load(grows, {"animation.frame=36"}).instances.size() == 1);

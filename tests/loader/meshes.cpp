@@ -153,12 +153,13 @@ TEST_CASE("a mesh file alone is a scene that frames it") {
   CHECK(scene.lights.size() == 2);
   CHECK(scene.render.ambient.x > 0);
 
-  // Every vertex is in the square in the picture's middle, and one is near its edge, whatever its shape.
+  // Whatever the picture's shape, every vertex is in the square in its middle, and one is near the square's
+  // edge.
   for (const char* size : {"image.width=100", "image.height=100", "image.width=2000"}) {
     const Override shape{size};
     const Scene other = load_scene(obj, {&shape, 1});
-    const double half =
-        std::min(1.0, double(other.image.height) / other.image.width);  // the square's, in half widths
+    const double half = std::min(
+        1.0, double(other.image.height) / other.image.width);  // half the square's side, in half widths
     double most = 0;
     for (const Vec3& p : other.meshes[0].positions) {
       REQUIRE(glm::dot(p - other.camera.eye, camera_axes(other.camera).w) > 0);
@@ -199,7 +200,7 @@ TEST_CASE("overrides and a file's own camera and lights") {
   REQUIRE(own.lights.size() == 1);
   CHECK(std::get<PointLight>(own.lights[0]->form()).position == Vec3(4, 5, 6));
 
-  // In a scene file they are left out, with a word.
+  // If a scene file shows the mesh, its camera and lights are left out, with a warning.
   const Scene shown = load_scene(folder.write("scene.toml", light + "[[mesh]]\nfile = 'a.gltf'\n"));
   CHECK(shown.lights.size() == 1);
   REQUIRE(shown.warnings.size() == 1);

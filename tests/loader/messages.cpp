@@ -1,4 +1,5 @@
-// Every message a scene's author may see: NAME.toml is the scene, NAME.txt exactly the text that is printed.
+// Every message that a scene's author may see: NAME.toml is the scene, and NAME.txt is exactly the printed
+// text.
 #include <fstream>
 #include <iterator>
 #include <set>

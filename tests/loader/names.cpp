@@ -1,4 +1,4 @@
-// Names of shapes, meshes and groups: who bears which, and the names in messages.
+// Names of shapes, meshes and groups: the objects that have them, and the names in messages.
 #include <fmt/format.h>
 
 #include "host/loader/scene_file.hpp"
@@ -77,7 +77,7 @@ TEST_CASE("messages begin with what they are about, and say it once for all copi
                  "name = \"wheel\"\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"wal\"\n") ==
         std::vector<std::string>{
             "sphere \"cart 1/wheel\": no [[material]] is named \"wal\"; did you mean \"wall\"?"});
-  // An error of one copy alone names the copy.
+  // An error that concerns only one copy names that copy.
   CHECK(refusals(
             fmt::format("[[group]]\nname = \"cart\"\nbatch = {{ transform = [[], [{{ scale = 1e13 }}]] }}\n"
                         "[[group.sphere]]\nname = \"wheel\"\n{}",

@@ -50,7 +50,7 @@ std::string refusal(const char* change) {
   return "accepted";
 }
 
-// A triangle with its 36 bytes of positions in the file itself, or behind it in a .glb.
+// A triangle as glTF. Its 36 bytes of positions are in the file itself, or in the second chunk of a .glb.
 std::string gltf_triangle(bool embedded) {
   const std::string uri =
       embedded
@@ -196,7 +196,7 @@ TEST_CASE("a file that an override names lies beside the scene, whatever kind of
       CHECK_THROWS_AS(load_scene(input, std::vector<Override>{{missing}}), InputError);
     }
   }
-  // Text has no folder, not even for a file that is there.
+  // A scene given as text has no folder, so it cannot name files, not even existing ones.
   for (const std::string key : {"environment.image=NAME", "material.1.diffuse={image=\"NAME\"}",
                                 "material.1.diffuse={formula={file=\"NAME\"}}"}) {
     for (const std::string& name :

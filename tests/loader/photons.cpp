@@ -1,4 +1,4 @@
-// Scenes of the suite that photons cannot light. All others are verified with photons
+// Scenes of the suite that photons cannot light. All other scenes are verified with photons
 // (tests/scene/entries.cmake).
 #include <fstream>
 

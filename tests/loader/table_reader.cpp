@@ -115,7 +115,7 @@ TEST_CASE("wrong values: an error each, and a valid stand-in") {
   CHECK_FALSE(t.reader.valid("must"));
   CHECK_FALSE(t.reader.valid("count"));
 
-  // A second error of a value is ignored.
+  // A second error about the same value is ignored.
   t.reader.error("count", "secondary");
   t.reader.error("pairs", "primary");
   CHECK(t.messages().size() == 11);

@@ -13,7 +13,7 @@ inline Scene parse_walls(const std::string& text) {
   return loader::parse_scene("[[material]]\nname = \"wall\"\ntype = \"phong\"\n" + text, "scene.toml");
 }
 
-// The error for it, or "accepted".
+// The error for the scene, or "accepted".
 inline std::string refused(const std::string& text) {
   try {
     parse_walls(text);

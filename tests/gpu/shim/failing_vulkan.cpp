@@ -10,7 +10,7 @@
 #include <cstring>
 #include <iterator>
 
-// All that the layer calls and that answers a result; those that make objects first.
+// The functions that the layer calls and that return a result. Those that make objects come first.
 #define MAKERS(X)                \
   X(vkCreateInstance)            \
   X(vkCreateDevice)              \
@@ -131,7 +131,7 @@ struct QueueFamilies {
   }
 };
 
-// The stand-in of a function that the loader has, which remembers it.
+// The stand-in for one of the loader's functions; it remembers the real function.
 template <typename Stand>
 PFN_vkVoidFunction stand_in(PFN_vkVoidFunction real) {
   if (!real) return nullptr;
