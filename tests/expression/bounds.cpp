@@ -40,7 +40,7 @@ struct Report {
   Vec3 where{};
 };
 
-// Of `count` random pieces, counts those with a sampled point at which f is outside the affine bound.
+// Counts, among `count` random pieces, those with a sampled point at which f is outside the affine bound.
 template <typename F>
 Report bound_often(const expression::StraightLine& function, const F& f, double reach, int count) {
   Random random(7);

@@ -109,7 +109,7 @@ TEST_CASE("meshopt: the filter EXPONENTIAL") {
   CHECK(glm::length(import_bytes(file.gltf(), "a.gltf").meshes[0].positions[0]) > 1e3);
 }
 
-// This file has no rotations, so its colours take their place: they have four numbers too.
+// This file has no rotations, so the test uses colours, which have four numbers too.
 TEST_CASE("meshopt: the filter QUATERNION") {
   std::vector<float> turns;
   for (int i = 0; i < grid_side * grid_side; ++i) {

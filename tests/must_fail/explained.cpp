@@ -10,7 +10,7 @@ using namespace eyeray::engine::compare;
 using namespace eyeray::engine::test;
 
 TEST_CASE("an edge does not excuse a value that is on neither side of it") {
-  // At the opening's edge, the shadow's, the checker's and the mirror's.
+  // One pixel at each edge: the opening's, the shadow's, the checker's and the mirror's.
   for (const Pixel p : {Pixel{88, 6}, {6, 60}, {20, 63}, {6, 10}}) {
     Frame gpu = honest_frame();
     gpu.color.pixel(p.x, p.y)[1] = 0.97f;
@@ -18,7 +18,7 @@ TEST_CASE("an edge does not excuse a value that is on neither side of it") {
     CHECK(comparison.colors.unexplained == 1);
     CHECK(comparison.colors.worst.pixel == p);
   }
-  // A hit of the right primitive with another's t.
+  // A hit of the right primitive with the t of another one.
   Frame gpu = honest_frame();
   hit_at(gpu, {88, 6}) = hit_of(900, {}, {0, 0, 1}, {}, 0);
   CHECK(compared(gpu).first_hits.unexplained == 1);
@@ -42,7 +42,8 @@ TEST_CASE("too many explained pixels fail, all of them explained") {
 }
 
 TEST_CASE("an extreme between the usual places is looked for, in few pixels") {
-  // Left of a column the picture is twice as bright in a direction that lies between two of the 64.
+  // In the first `columns` pixels of row 0, the picture is twice as bright if moved in a direction between
+  // two of the 64 that are tried.
   const auto unexplained = [](int columns) {
     const Reference wedge = [columns](int x, int y, const Vec2& shift, rounding::Chance) {
       Neighbour neighbour = picture_reference(x, y, shift);
@@ -61,7 +62,7 @@ TEST_CASE("an extreme between the usual places is looked for, in few pixels") {
 }
 
 TEST_CASE("unexamined pixels fail, even if all examined ones are explained") {
-  // Seventy columns with an edge each: more than are looked into.
+  // Seventy columns with an edge each: more pixels than are examined.
   const Reference stripes = [](int x, int y, const Vec2& shift, rounding::Chance) {
     Neighbour neighbour;
     const double place = x + 0.5 + shift.x;

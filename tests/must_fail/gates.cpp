@@ -1,5 +1,5 @@
-// A check that cannot fail is a defect: every gate is shown a frame with one fault in it, and must turn red
-// for the right reason.
+// A check that cannot fail is a defect. So every gate gets a frame with one fault, and must fail for the
+// right reason.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -211,7 +211,7 @@ TEST_CASE("swapped ids fail at the seam 'primitive'") {
   CHECK(mentions(verify(gpu), "diverges at primitive"));
   CHECK_FALSE(compared(gpu).first_hits.passes());
 
-  // One pixel is enough, and a neighbour's id that is 3 pixels away explains nothing.
+  // One pixel is enough to fail, and the id of a pixel that is 3 pixels away explains nothing.
   gpu = honest_frame();
   hit_at(gpu, {48, 34 - 22}).primitive = 0;
   CHECK(compared(gpu).first_hits.unexplained == 1);
@@ -304,7 +304,8 @@ TEST_CASE("gate C sees one surface or one ray too many") {
     CHECK(counts.worst.seam == Seam::counts);
     CHECK(compared(gpu).colors.passes());
   }
-  // At the mirror's edge they may be those of either side, and at its corner no others.
+  // At the mirror's edge the counts may be those of either side, but at its corner they may not be any
+  // others.
   CHECK(compared(honest_frame()).counts.passes());
   CHECK(compared(honest_frame()).counts.explained[size_t(Cause::silhouette)] == edge_pixels);
 }

@@ -1,4 +1,4 @@
-// Gate D: which samples of random paths are excused, and which are not.
+// Tests which samples of random paths gate D excuses.
 #include <cmath>
 
 #include "honest_frame.hpp"
@@ -18,7 +18,7 @@ constexpr int edge_rows = 4;
 
 using Events = std::vector<uint32_t>;
 
-// At x pixels from the left in that row: a wall on the left, and another on the right.
+// True if a camera ray x pixels from the left in row y hits the wall on the right, not the wall on the left.
 bool on_right(double x, int y) {
   return y < edge_rows && x >= edge;
 }
@@ -34,7 +34,7 @@ uint32_t trail_of(const Events& events) {
   return trail;
 }
 
-// A frame as from an executor whose samples are off by `off`.
+// A frame of an executor whose samples are displaced by `off` pixels.
 Frame path_frame(double off = 0) {
   Frame frame = picture_frame();
   for (int y = 0; y < picture_height; ++y)
@@ -49,7 +49,7 @@ TracedSample& sample_at(Frame& frame, int x, int y, int sample) {
   return frame.samples[size_t((y * picture_width + x) * each + sample)];
 }
 
-// Whose twin is `off`.
+// The reference's paths, with a twin whose samples are displaced by `off` pixels.
 PathReference paths(double off = 0) {
   PathReference paths;
   paths.around = [](int sample) -> Reference {
@@ -101,13 +101,13 @@ TEST_CASE("one sample's colour is wrong, by less than its pixel's mean would sho
 }
 
 TEST_CASE("a path goes where none of the reference's does, or nobody knows where") {
-  // The other wall, far from the edge.
+  // A sample shows the other wall, far from the edge.
   Frame gpu = path_frame();
   sample_at(gpu, 20, 2, 1) = sample_at(gpu, 60, 2, 1);
   CHECK(compared_paths(gpu, 40).paths.unexplained == 1);
-  // The twin's path is another.
+  // The twin's path is another one than the GPU's.
   CHECK(compared_paths(gpu).paths.unexplained == 1);
-  // At the edge, but by an event that is on neither side.
+  // At the edge, but with an event that occurs on neither side.
   gpu = path_frame();
   const Events strange{7, 3, 9};
   sample_at(gpu, 48, 2, 2) = {glm::vec3(9.0f), trail_of(strange), 2, 3};

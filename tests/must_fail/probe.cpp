@@ -1,4 +1,4 @@
-// The probe finds each fault of the GPU's side at the value where it is.
+// The probe finds each fault of the GPU's side at the value that is wrong.
 #include <nlohmann/json.hpp>
 #include <span>
 
@@ -14,7 +14,7 @@ namespace {
 struct Probed {
   std::string fault;
   std::string pixel;
-  std::string ray;    // the last of its way
+  std::string ray;    // the last ray on the way to the difference
   std::string value;  // "" where a ray is missing
   std::vector<std::string> scene = {"scenes/whitted.toml"};
 };
@@ -36,7 +36,7 @@ void expect_found(const Probed& probed) {
   CHECK(first.value("name", "") == probed.value);
 }
 
-// One of no fault, but of an option.
+// The faults and the first difference of each; one entry differs by an option instead of a fault.
 const Probed probed_faults[] = {
     {"ior", "56,22", "camera ray", "ior"},
     {"shadow", "31,60", "shadow ray to light 0", "visibility"},

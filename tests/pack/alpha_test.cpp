@@ -1,4 +1,4 @@
-// Cutouts by alpha: the surface behind one is hit in every way of searching, by nearest and by shadow rays.
+// Cutouts by alpha: nearest and shadow rays hit the surface behind a cutout, in every way of searching.
 #include <fmt/format.h>
 
 #include "host/pack/collapse.hpp"
@@ -19,7 +19,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// 3 × 2 texels of every alpha, the last of them that of the cutoff.
+// A mask of 3 × 2 texels with various alphas; the last is exactly the cutoff.
 AlphaMask picture_mask(Filter filter) {
   auto image = std::make_shared<ImageTexture>();
   image->width = 3;
@@ -114,7 +114,7 @@ TEST_CASE("cutouts: BVHs find what brute force finds, and in float64 too, to the
     MESSAGE(fmt::format("{} instances: {} of {} rays hit cutouts, {} differ from float64", instances, cut,
                         2 * rays.size(), apart));
     CHECK(cut > 19'000);
-    CHECK(apart < 100);  // where rounding decides on which side of a cutout's edge a ray is
+    CHECK(apart < 100);  // rays for which rounding decides the side of a cutout's edge
   }
 }
 

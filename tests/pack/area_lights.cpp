@@ -1,4 +1,4 @@
-// Area lights of [[light]], beside the shapes that they are.
+// Area lights of [[light]], compared with emissive shapes of the same form.
 #include <cstring>
 
 #include "host/loader/scene_file.hpp"
@@ -10,7 +10,7 @@ using namespace eyeray::engine;
 
 namespace {
 
-// A floor and `lights`, path traced.
+// A path-traced scene of a floor and `lights`.
 Scene scene_of(const std::string& lights) {
   return loader::parse_scene(R"(
 [render]

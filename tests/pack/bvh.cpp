@@ -57,7 +57,7 @@ class Tally {
   std::string shown_;
 };
 
-// Eight BVHs cover every profile.
+// Compares `count` hard scenes on the GPU with the twin; every eight BVHs cover all profiles.
 void hard_scenes_on_the_gpu(int count) {
   gpu::Device device({});
   Tally tally;
@@ -94,9 +94,9 @@ void hard_scenes_on_the_gpu(int count) {
   CHECK(with_splits > 0);
   CHECK(with_instances > count / 6);
   if (count <= 8) return;
-  // Features that few scenes have.
+  // Checks for features that few scenes have.
   CHECK(tally.dimmed > 40 * count);
-  CHECK(quantised < bvhs);  // nodes that cannot be quantised
+  CHECK(quantised < bvhs);  // some BVHs have nodes that cannot be quantised
   CHECK(together > count / 6);
 }
 
@@ -131,8 +131,8 @@ TEST_CASE("10 000 hard scenes on the twin: the BVH finds what brute force finds,
           doctest::test_suite("long")) {
   Tally whole, split;
   std::atomic<int> bvhs = 0, quantised = 0, with_splits = 0, with_instances = 0, with_groups = 0;
-  // Three of many more scenes, which once were wrong: CSG objects of glass in two leaves, an assertion in
-  // Embree.
+  // Three seeds, found among many more scenes, that once were wrong: CSG objects of glass in two leaves, and
+  // an assertion in Embree.
   constexpr std::array once_wrong{117549, 220962, 249576};
   parallel_for(0, 10000 + int(once_wrong.size()), [&](int i) {
     const int seed = i < 10000 ? i : once_wrong[size_t(i - 10000)];
@@ -198,7 +198,7 @@ TEST_CASE("the validation layers have nothing to say of BVHs, instances and eith
       ExecutorOptions options;
       options.gpu.validation = layer;
       options.gpu.profile.loads = loads;
-      // A message is an error.
+      // A message of the validation layer is an error.
       const auto gpu = make_executor(Backend::gpu, scene, options);
       const Rendering ours = render::render(scene, *gpu, {.crop = {}, .first_hits = true, .progress = {}});
       const Rendering twins = render::render(scene, *make_executor(Backend::twin, scene, {}), {});

@@ -1,5 +1,5 @@
-// Materials that are there only in front: rays from behind a triangle of theirs hit surfaces beyond, in every
-// search, by nearest and by shadow rays. The expectation is computed here, in the world.
+// Materials that exist only in front: nearest and shadow rays from behind such a triangle hit the surfaces
+// beyond it, in every search. This test computes the expectation itself, in world space.
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 
@@ -21,7 +21,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// Loose triangles and balls, some of them mirrored; every second instance is there only in front.
+// Loose triangles and balls, some of them mirrored; every second instance exists only in front.
 Scene one_sided_scene(Random& random, int instances) {
   Scene scene = test::empty_scene();
   scene.camera.eye = Vec3(0);
@@ -46,10 +46,10 @@ Scene one_sided_scene(Random& random, int instances) {
 struct Expected {
   uint32_t nearest = NONE;
   bool occluded = false;
-  bool culled = false;  // whether anything was hit from behind that is not there
+  bool culled = false;  // whether the ray hit a front-only triangle from behind
 };
 
-// Möller and Trumbore, for one triangle after the other.
+// The expected hit, by Möller and Trumbore's test of one triangle after the other.
 Expected expected(const Scene& scene, const shader::QueryRay& ray) {
   const Vec3 o(ray.origin), d(ray.direction);
   Expected found;
@@ -108,7 +108,7 @@ TEST_CASE("one-sided meshes are not hit from behind, whatever the way of searchi
       }
     }
     CHECK(culled > 10);
-    CHECK(apart < 4);  // rays on an edge
+    CHECK(apart < 4);  // rays that hit an edge
   }
 }
 

@@ -1,4 +1,4 @@
-// Instanced groups: every kind of shape is the same in them as where it is copied.
+// Instanced groups: every kind of shape looks the same in an instanced group as in a copied one.
 #include <fmt/format.h>
 
 #include <fstream>
@@ -84,7 +84,7 @@ Answer by_twin(const PackedScene& scene, const Ray& at, const Vec3& eye) {
 double difference(const Answer& a, const Answer& b, double rounding, double size) {
   if (a.primitive != b.primitive || a.flags != b.flags) return HUGE_VAL;
   if (a.primitive < 0) return 0;
-  // The seam of a texture that wraps around.
+  // At the seam of uv that wrap around, a difference of 1 counts as none.
   const Vec2 uv = glm::abs(a.uv - b.uv);
   const double off = std::max(
       {std::abs(a.t - b.t) / size, magnitude(a.position - b.position) / size, magnitude(a.normal - b.normal),

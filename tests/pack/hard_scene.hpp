@@ -17,7 +17,8 @@ class HardScene {
 
   const Scene& scene() const { return scene_; }
 
-  // Rays that start where anything starts and go where it matters. The scene's eye is the records' origin.
+  // Rays that start at any kind of point and go towards critical points. The scene's eye is the records'
+  // origin.
   std::vector<shader::QueryRay> rays(size_t count) {
     std::vector<shader::QueryRay> rays(count);
     for (shader::QueryRay& ray : rays) ray = some_ray();
@@ -58,7 +59,7 @@ class HardScene {
     }
     if (chance(0.4)) add_groups(1 + random_.below(4));
     sort_shapes();
-    // More media around the eye than a ray can carry: all opaque.
+    // If more media are around the eye than a ray can carry, everything becomes opaque.
     if (reference::media_at(scene_, scene_.camera.eye).size() > 4) {
       const auto erase_csg_objects = [](auto& shapes) {
         std::erase_if(shapes, [](const auto& shape) { return is_csg(*shape); });
@@ -75,7 +76,7 @@ class HardScene {
     targets_ = ray_targets(scene_, random_);
   }
 
-  // Shapes stand in registry order.
+  // Sorts the shapes into the order of the registry.
   void sort_shapes() {
     std::ranges::stable_sort(scene_.shapes, {}, [](const std::unique_ptr<Shape>& shape) {
       records::Packer packer(Vec3(0));
@@ -93,7 +94,7 @@ class HardScene {
     return grid_ > 0 ? glm::round(p / grid_) * grid_ : p;
   }
 
-  // Triangles of every bad kind.
+  // A mesh of triangles of every bad kind.
   Mesh hard_triangles(int count) {
     Mesh mesh;
     const bool at_one_point = chance(0.05);
@@ -111,7 +112,7 @@ class HardScene {
           break;  // a needle
         case 2:
           v[2] = v[1] + random_.point(random_.log_uniform(1e-8, 1e-2)) * reach;
-          break;  // with two ends close
+          break;  // two corners close together
         case 3:
           if (i > 0) v = corners(mesh, index(mesh.triangles.size()));
           break;  // a duplicate
@@ -134,7 +135,7 @@ class HardScene {
 
   void add_shapes(const Mesh& mesh) { add_triangles(scene_, mesh, material()); }
 
-  // Stars, and parallelograms; some as thin as needles, some as flat as their boxes.
+  // Adds stars and parallelograms, some as thin as needles, some with flat boxes.
   void add_polygons(int count) {
     for (int i = 0; i < count; ++i) {
       const Mat4 map = chance(0.5) ? some_map() : Mat4(1.0);
@@ -181,7 +182,8 @@ class HardScene {
     Mat4 map(1.0);
     for (int i = 0; i < count; ++i) {
       if (i == 0 || !chance(0.2)) {
-        // Not as far and small as the others: a million sizes away no digit of such a shape is left.
+        // These shapes are not as far away or as small as the others: at a million times its size, such a
+        // shape would have no digits left.
         map = some_map() * translation(center_ + random_.point(1) * size_);
         map = glm::scale(map, Vec3(size_ * random_.log_uniform(0.03, 1)));
       }
@@ -224,14 +226,14 @@ class HardScene {
           operands.push_back(std::move(inner));
         }
       }
-      // Most intersections of all of them would be empty.
+      // Most intersections of three or more operands would be empty.
       const bool all = operands.size() < 3 && chance(0.4);
       auto csg = shapes::make_csg(all, std::move(operands), std::move(removed));
       if (glm::all(glm::lessThan(csg->bounds().min, csg->bounds().max))) add(scene_, std::move(csg), 0);
     }
   }
 
-  // Each around the next, and all but alike: the deepest of BVHs.
+  // Adds nested spheres, each around the next and nearly as large: they make the deepest BVHs.
   void add_nest() {
     const int count = 30 + random_.below(100);
     const double factor = random_.uniform(1.05, 1.5);
@@ -251,7 +253,7 @@ class HardScene {
     }
   }
 
-  // A group of shapes of many kinds, or of one, perhaps with a mesh.
+  // Adds a group of shapes of one kind or of many, perhaps with a mesh, and shows it `count` times.
   void add_groups(int count) {
     std::vector<std::unique_ptr<Shape>> own;
     std::swap(own, scene_.shapes);
@@ -276,7 +278,7 @@ class HardScene {
     std::ranges::stable_sort(scene_.group_instances, {}, &GroupInstance::instances_before);
   }
 
-  // Turned, stretched, mirrored, sheared, made tiny or huge, and moved.
+  // A map that turns, stretches, mirrors, shears, shrinks or enlarges, and moves.
   Mat4 some_map() {
     if (chance(0.1)) return Mat4(1.0);
     const double strongest = chance(0.3) ? 100 : 2;
@@ -323,7 +325,7 @@ class HardScene {
         origin = Vec3(target) - direction * (chance(0.3) ? 0.0 : size_ * random_.log_uniform(1e-2, 1e2));
         break;
       }
-      case 2:  // from one to another
+      case 2:  // from one point to another
       case 3:
         origin = Vec3(some_point());
         direction = Vec3(target) - origin;
@@ -352,7 +354,7 @@ class HardScene {
     }
     if (direction == Vec3(0)) direction = {0, 0, 1};
     direction = unit(direction);
-    // Half of them end, some close to their target.
+    // Half of the rays end, some close to their target.
     const double distance = glm::length(Vec3(target) - origin);
     const double t_max = chance(0.5)   ? 3e38
                          : chance(0.5) ? distance
@@ -365,7 +367,7 @@ class HardScene {
   double size_ = 1;
   Vec3 center_{0};
   double grid_ = 0;
-  Vec3 apart_{0};  // to where half of everything is: against that, any of it is tiny
+  Vec3 apart_{0};  // offset of half of the objects: compared with it, each object is tiny
   double glass_ = 0;
   Vec3 sphere_center_{0};
   double sphere_radius_ = 1;

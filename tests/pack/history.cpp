@@ -1,5 +1,5 @@
-// BVHs of frames: refitted where items have moved a little, built where that would cost rays much; hits of
-// rays are the same.
+// BVHs of successive frames: refitted if items have moved a little, and built anew if a refitted BVH would
+// slow rays much. Hits are the same.
 #include "host/bvh/history.hpp"
 
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr size_t many = 3000;
 
-// Small boxes all over a cube; each seed puts them at other positions.
+// Small boxes spread over a cube; each seed puts them at other positions.
 std::vector<Box> boxes_of(uint64_t seed, float shift = 0) {
   test::Random random{seed};
   std::vector<Box> boxes;
@@ -43,7 +43,7 @@ bool same(const Bvh& a, const Bvh& b) {
   return all;
 }
 
-// Around all that is below it, and no larger.
+// Checks that each node's box bounds everything below it, and is no larger.
 void check_boxes(const Bvh& bvh, std::span<const Box> boxes) {
   size_t wrong = 0, items = 0;
   const auto around = [&](auto& self, const Child& child) -> Box {
@@ -143,8 +143,8 @@ TEST_CASE("what moved a little is refitted, what is elsewhere is built, and so i
   CHECK_FALSE(built_again);
   CHECK(std::ranges::equal(first.order, second.order));
   CHECK(frame(boxes_of(2)).second);                       // everything is elsewhere
-  CHECK_FALSE(frame(boxes_of(2, 0.02f)).second);          // these boxes are kept now
-  CHECK(frame(boxes_of(2), uint32_t(many - 40)).second);  // others are lone
+  CHECK_FALSE(frame(boxes_of(2, 0.02f)).second);          // the BVH of boxes_of(2) is the kept one now
+  CHECK(frame(boxes_of(2), uint32_t(many - 40)).second);  // other items are lone now
   std::vector<Box> fewer = boxes_of(2);
   fewer.resize(many - 1);
   CHECK(frame(fewer, uint32_t(many - 40)).second);

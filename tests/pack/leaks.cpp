@@ -1,5 +1,5 @@
-// Closed meshes do not leak and surfaces that are left are not hit again: on the kernel, through the BVH,
-// baked and as instances.
+// Closed meshes do not leak, and rays that leave a surface do not hit it again: in the kernel, through the
+// BVH, with baked meshes and with instances.
 #include <fmt/format.h>
 
 #include <map>
@@ -74,8 +74,8 @@ enum class Kept { baked, instance, in_group };
 constexpr Kept all_kept[] = {Kept::baked, Kept::instance, Kept::in_group};
 constexpr const char* kept_names[] = {"baked", "an instance", "in a group"};
 
-// The mesh in its place, turned; as an instance, or in a group, it has a second far away, so that both have a
-// BVH to share.
+// The mesh, turned, scaled and moved to `place`. As an instance or in a group it is shown a second time far
+// away, so that both share a BVH.
 struct PlacedMesh {
   PlacedMesh(Mesh mesh, const Place& place, Kept kept) {
     map = glm::scale(glm::rotate(translation(place.center), 0.7, Vec3(0.6, 0, 0.8)), place.scale);

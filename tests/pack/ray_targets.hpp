@@ -7,7 +7,7 @@
 namespace eyeray::engine::test {
 
 struct RayTarget {
-  glm::vec3 a, b, c;  // the corners; of a sphere its centre, and points at its poles and on it
+  glm::vec3 a, b, c;  // the shape's corners; for a sphere its centre, a pole and another point on it
 };
 
 // The targets on every primitive of the scene, once for each instance that shows it.

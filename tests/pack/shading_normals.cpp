@@ -1,5 +1,5 @@
-// Shading normals under maps that stretch: however a thing comes to stand where it does, they are
-// interpolated in its own space and mapped then. What they should be is computed here.
+// Shading normals under maps that stretch: however an object gets its map, normals are interpolated in its
+// own space and then mapped. This test computes the expected normals itself.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -24,7 +24,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// A turn about an axis, or without degrees a stretch along the axes.
+// A turn about the axis v; if `degrees` is 0, a stretch by v along the axes.
 struct Step {
   Vec3 v;
   double degrees = 0;
@@ -38,7 +38,7 @@ using Steps = std::vector<Step>;
 
 struct Case {
   std::string name;
-  Steps inner, outer;  // the outer ones come after
+  Steps inner, outer;  // the outer steps are applied after the inner ones
 
   Mat4 map() const {
     Mat4 all(1);
@@ -57,7 +57,7 @@ const Case cases[] = {
     {"stretched, and undone", {{{0, 1, 0}, 50}, {{1, 1, 8}}}, {{{1, 1, 0.125}}, {{0, 1, 0}, -50}}},
 };
 
-// Two triangles whose corners look far apart.
+// Two triangles whose normals differ much from corner to corner.
 constexpr int corners[2][3] = {{0, 1, 2}, {0, 2, 3}};
 const Vec3 positions[] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0.5}, {-1, 1, 0}};
 const Vec3 normals[] = {{-2, -0.5, 0.75}, {1.5, -0.25, 1}, {0.5, 0.5, 0.5}, {-2.25, 1, 1}};
@@ -89,7 +89,8 @@ void write_ply(const std::string& file) {
   write_text(file, text);
 }
 
-// Each step is a node, which holds the one before; the first shows the triangles.
+// Writes a file with a node for each step. Each node holds the node of the step before; the first shows the
+// triangles.
 void write_gltf(const std::string& file, const std::string& data, const Steps& steps) {
   std::string bytes;
   const auto add = [&](float x) { bytes.append(reinterpret_cast<const char*>(&x), sizeof x); };
@@ -133,13 +134,13 @@ std::string mesh(const std::string& table, const char* file) {
   return fmt::format("[[{}]]\nfile = \"{}\"\nmaterial = \"wall\"\n", table, file);
 }
 
-// A second one far away.
+// A batch that shows the object twice, the second time far away.
 std::string twice(const std::string& steps) {
   return fmt::format("batch = {{ transform = [[{0}], [{0} {{ translate = [900, 0, 0] }}]] }}\n", steps);
 }
 
-// All ways in which the triangles may come to stand under the case's map; roof.gltf holds its inner steps,
-// whole.gltf all.
+// All ways to put the triangles under the case's map: names and scenes. roof.gltf contains the inner steps,
+// whole.gltf all steps.
 std::vector<std::pair<std::string, std::string>> ways_to_stand(const Case& of) {
   const std::string inner = steps_text({&of.inner}), outer = steps_text({&of.outer});
   const std::string all = inner + outer;
@@ -164,8 +165,8 @@ std::vector<std::pair<std::string, std::string>> ways_to_stand(const Case& of) {
   return ways;
 }
 
-// The shading normal where the ray hits the triangles under the map: Σ weight · normal, mapped, or the
-// triangle's own, where that is on the other side. Nothing where rounding decides.
+// The shading normal where the ray hits the triangles under the map: Σ weight · normal, mapped; or the
+// triangle's own normal, if that sum is on the other side. Nothing if rounding decides.
 std::optional<Vec3> expected_normal(const Mat4& map, const Ray& ray) {
   const Mat3 linear(map), cotangent = glm::transpose(glm::inverse(linear));
   std::optional<Vec3> nearest;
@@ -243,7 +244,7 @@ TEST_CASE("vertex normals are interpolated in the object's space, however it com
 }
 
 TEST_CASE("what is left of stretched CSG objects looks where the gradient does, however they come to stand") {
-  // A ball without a smaller one, as their equations have it.
+  // A ball less a smaller ball; the equations of both give the expected normals.
   const auto csg = [](const std::string& table) {
     return fmt::format(
         "[[{0}]]\nmaterial = \"wall\"\n[[{0}.sphere]]\ncenter = [0, 0, 0]\nradius = 1\n"

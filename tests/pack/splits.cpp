@@ -18,8 +18,8 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// Long triangles across each other, which a BVH is eager to cut: needles of any length of their short side,
-// thin ones with all corners far apart, wide ones.
+// Long triangles across each other, which a BVH readily splits: needles with a short side of any length, thin
+// triangles with all corners far apart, and wide ones.
 class LongTriangles {
  public:
   explicit LongTriangles(uint64_t seed) : random_(seed) {
@@ -46,7 +46,7 @@ class LongTriangles {
       mesh.triangles.push_back({first, first + 1, first + 2});
     }
     const int index = add(scene_, std::move(mesh));
-    // Two of them are instances, one is the world's own.
+    // A mesh that is shown twice becomes instances; one that is shown once is baked into the world.
     const bool twice = chance(0.2);
     add_instance(scene_, index, 0, Mat4(1.0));
     if (twice)
@@ -60,7 +60,7 @@ class LongTriangles {
 
   Scene& scene() { return scene_; }
 
-  // Rays at a triangle; most of them in its plane, but for the rounding of their own numbers.
+  // Rays at triangles. Most lie in the triangle's plane, except for the rounding of their numbers.
   std::vector<shader::QueryRay> rays(size_t count) {
     std::vector<shader::QueryRay> rays(count);
     for (shader::QueryRay& ray : rays) {

@@ -19,7 +19,7 @@ View simple_view() {
   return {camera, {10, 10}, {0, 0, 10, 10}};
 }
 
-// Two halves of a square about the centre, their common edge x = `split`, at a nearness.
+// Two triangles around the centre that share the edge x = `split`, at one nearness.
 std::vector<ScreenTriangle> halves(double split, double nearness, uint32_t left, uint32_t right) {
   const Vec3 top(split, 0, nearness), bottom(split, 10, nearness);
   return {{{top, bottom, Vec3(-20, 5, nearness)}, left}, {{bottom, top, Vec3(30, 5, nearness)}, right}};
@@ -76,7 +76,7 @@ TEST_CASE("a depth that is not the triangle's is not allowed") {
 }
 
 TEST_CASE("a rasteriser may be farther off in a sliver, and beyond a corner; a ray may not") {
-  // A hundredth of a pixel wide, from depth 1 to 2.
+  // A sliver, a hundredth of a pixel wide, from depth 1 to 2.
   const std::vector<ScreenTriangle> sliver = {
       {{Vec3(-94.5, 5.495, 1), Vec3(-94.5, 5.505, 1), Vec3(105.5, 5.5, 2)}, 1}};
   const auto at = [&](Viewer viewer, double nearness) {

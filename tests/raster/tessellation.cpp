@@ -1,4 +1,4 @@
-// The bounds that tessellations state hold: of points on the surface, and of points of the triangles.
+// Tests the error bounds that tessellations state, for points of the surface and for points of the triangles.
 #include "host/raster/tessellation.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// By Ericson: Real-Time Collision Detection, 5.1.5, 2005.
+// The distance of p from the triangle, by Ericson: Real-Time Collision Detection, 5.1.5, 2005.
 double distance_to(const std::array<Vec3, 3>& triangle, const Vec3& p) {
   const auto& [a, b, c] = triangle;
   const Vec3 normal = glm::cross(b - a, c - a);
@@ -95,7 +95,7 @@ TEST_CASE("no point of a surface is farther from its triangles than the bound, n
           CHECK(distance_to(*drawn, ray.o + ray.d * hit->t) <= drawn->bound + 1e-9);
         }
         CHECK(hits > 5);
-        // From a triangle's middle some line hits the surface within the bound.
+        // From the middle of a triangle, some line hits the surface within the bound.
         for (int i = 0; i < 60; ++i) {
           const auto& [a, b, c] = drawn->triangles[size_t(random.below(int(drawn->triangles.size())))];
           const Vec3 corners[] = {drawn->points[a], drawn->points[b], drawn->points[c]};

@@ -83,7 +83,7 @@ TEST_CASE("a triangle about the eye is cut to what is before it; a cut edge is t
       });
       CHECK(corners[size_t(side)].size() >= 3);
     }
-    // Both have the ends of the edge that they share, bit by bit.
+    // Both triangles have the same ends of the shared edge, bit by bit.
     std::vector<std::array<double, 3>> both;
     std::ranges::set_intersection(corners[0], corners[1], std::back_inserter(both));
     CHECK(both.size() == 2);
@@ -99,7 +99,7 @@ TEST_CASE("a plane is drawn to its horizon, and not above it") {
     for (const Vec3& at : piece.at) {
       lowest = std::min(lowest, at.z);
       highest = std::max(highest, at.z);
-      // At its end its direction is level.
+      // At the end of the plane (z = 0), the direction is level: the point lies on the horizon.
       if (at.z > 1e-12) continue;
       const Vec3 level = camera_axes(camera).w - Vec3(0, camera_axes(camera).w.y, 0);
       const double horizon = view.project(Vec4(view.turned(level), 0.0)).y;

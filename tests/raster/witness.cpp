@@ -49,8 +49,8 @@ struct Compared {
   }
 };
 
-// One-sided squares before a wall, each over a quarter of the picture: the upper two face the viewer, and the
-// left upper one and the right lower one are mirrored.
+// One-sided squares before a wall, each over a quarter of the picture. The upper two face the viewer; the
+// upper left and the lower right ones are mirrored.
 Scene one_sided_squares() {
   Scene scene = test::empty_scene();
   scene.camera.eye = Vec3(0, 0, 8);
@@ -122,7 +122,7 @@ TEST_CASE("neighbours' ids, another t, another place, a miss and a ghost are eac
         if (hit.primitive > 0) hit.primitive = 1 << 30;
       },
       "the ray hits a primitive that");
-  // Both t and position, along the ray.
+  // Damages both t and the position, along the ray.
   const Vec3 eye = compared.scene.camera.eye;
   fails(
       [&](FirstHit& hit) {

@@ -15,7 +15,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// A mesh of triangles that are hard on boxes: flat ones, needles, coplanar ones, duplicates, all sizes.
+// A mesh of triangles whose boxes are difficult: flat ones, needles, coplanar ones, duplicates, of all sizes.
 Mesh hard_mesh(Dice& dice, double size) {
   Mesh mesh;
   const Vec3 center = dice.in_box(1) * size * dice.scale(-3, 3);
@@ -91,7 +91,7 @@ HardScene hard_scene(Dice& dice) {
     }
   }
   if (dice.between(0, 2) < 1) {
-    // A group of spheres and a mesh, more than once.
+    // Adds a group of spheres and a mesh, shown more than once.
     Group& group = scene.groups.emplace_back();
     for (int i = int(dice.between(0, 4)); i > 0; --i) {
       group.shapes.push_back(make_sphere(size * dice.in_box(2), size * dice.scale(-3, 0)));
@@ -115,14 +115,14 @@ Vec3 at(const Corners& v, double u, double w) {
   return v[0] + u * (v[1] - v[0]) + w * (v[2] - v[0]);
 }
 
-// A point of some triangle: in it, on an edge, or a corner.
+// A point of a random triangle: inside, on an edge, or a corner.
 Vec3 some_point(const HardScene& scene, Dice& dice) {
   const double u = dice.between(0, 2) < 1 ? 0 : dice.between(0, 1);
   const double w = dice.between(0, 2) < 1 ? 0 : dice.between(0, 1 - u);
   return at(scene.some(dice), u, w);
 }
 
-// From anywhere or from one triangle to another, along an axis, or in the very plane of a triangle.
+// A ray from anywhere or from one triangle to another, along an axis, or exactly in the plane of a triangle.
 Ray some_ray(const HardScene& scene, Dice& dice) {
   const Vec3 target = some_point(scene, dice);
   switch (int(dice.between(0, 4))) {
@@ -154,7 +154,7 @@ bool same(const std::optional<reference::Hit>& a, const std::optional<reference:
          same_bits(a->at.u, b->at.u) && same_bits(a->at.v, b->at.v);
 }
 
-// The nearest hit by the definition, without a box in it anywhere.
+// The nearest hit by its definition, without any boxes.
 std::optional<Intersection> plain_search(const Scene& scene, const Ray& ray) {
   std::optional<Intersection> nearest;
   const auto offer = [&](const std::optional<Intersection>& hit) {

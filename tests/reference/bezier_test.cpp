@@ -12,7 +12,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// Over the unit square, of the height that the control points have: x = u, z = v.
+// A patch over the unit square, where x = u and z = v, from the heights of its control points.
 std::array<Vec3, 16> sheet(const std::array<double, 16>& heights) {
   std::array<Vec3, 16> net;
   for (size_t i = 0; i < 16; ++i) net[i] = {double(i % 4) / 3, heights[i], double(i / 4) / 3};
@@ -47,7 +47,8 @@ TEST_CASE("bezier: a parabolic arch from above, across, twice, along its top, an
 }
 
 TEST_CASE("bezier: the edge that is one point has the normal next to it") {
-  // A quarter of a cone's mantle would have none; this is flat: all of v = 0 is at the origin.
+  // A flat patch whose edge v = 0 is all at the origin, where a quarter of a cone's mantle would have no
+  // normal.
   std::array<Vec3, 16> net;
   for (size_t i = 0; i < 16; ++i) net[i] = Vec3(double(i % 4) / 3, 0, 1) * (double(i / 4) / 3);
   const auto patch = make_bezier(net);
@@ -79,8 +80,8 @@ TEST_CASE("bezier: light loses the root of a patch's share at each crossing") {
 }
 
 TEST_CASE("bezier: a patch that is 1e12 wide and bent within 1: its crossings end at the degree, and soon") {
-  // One of the scenes at random. Rounding moves its points by 1e-4: a ray that starts behind a crossing finds
-  // itself before it again.
+  // A patch from a random scene. Rounding moves its points by 1e-4, so a ray that starts behind a crossing
+  // finds itself before the crossing again.
   const std::array<Vec3, 16> net = {{{179.999999, 1, 0.2539326768112482},
                                      {0.9623034388921758, 1e12, 1e-15},
                                      {1e12, 1e12, 1e12},
@@ -107,7 +108,7 @@ TEST_CASE("bezier: a patch that is 1e12 wide and bent within 1: its crossings en
     CHECK(crossings <= 18);
   }
 
-  // Queries of the media around the eye do not exceed the limit either.
+  // A query of the media around the eye keeps the limit on crossings too.
   Scene scene = test::empty_scene();
   scene.materials.push_back(make_dielectric({}));
   scene.shapes.push_back(make_bezier(net));

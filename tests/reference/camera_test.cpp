@@ -59,7 +59,7 @@ TEST_CASE("an orthographic camera moves the origin") {
 TEST_CASE("a fisheye's distance from the middle is the angle, up to its circle") {
   const Camera camera{.eye = {0, 0, 5}, .projection = make_projection(FisheyeCamera{240})};
   const reference::CameraRays rays(camera, {.width = 200, .height = 100});
-  const double third = M_PI / 3;  // of 120° at 50 pixels
+  const double third = M_PI / 3;  // the angle at 25 pixels; at 50 it is 120°
   CHECK(near(rays.ray({100, 50}).d, Vec3(0, 0, -1), 1e-15));
   CHECK(near(rays.ray({125, 50}).d, Vec3(std::sin(third), 0, -std::cos(third)), 1e-15));
   CHECK(near(rays.ray({100, 0}).d, Vec3(0, std::sin(2 * third), -std::cos(2 * third)), 1e-15));
@@ -104,14 +104,14 @@ TEST_CASE("rays through a lens intersect in the plane in focus") {
       CHECK(near(ray.o - 3 / ray.d.z * ray.d, pinhole.o - 3 / pinhole.d.z * pinhole.d, 1e-13));
     }
   }
-  // The first corner is at the right, the next further up.
+  // The aperture's first corner is at the right, and the next one is above.
   values.aperture.blades = 4;
   CHECK(near(Vec3(rays().lens_point({0, 1}), 0), Vec3(0.5, 0, 0), 1e-15));
   CHECK(near(Vec3(rays().lens_point({0.25, 1}), 0), Vec3(0, 0.5, 0), 1e-15));
 }
 
 TEST_CASE("a known picture stands upright") {
-  // Red to the right, green above, blue to the left of the middle.
+  // Red is to the right of the middle, green above it, and blue to its left.
   Scene scene = test::empty_scene();
   scene.image = {.width = 9, .height = 9};
   scene.camera = looking_along_z(PerspectiveCamera{90});
@@ -132,13 +132,13 @@ TEST_CASE("a known picture stands upright") {
   CHECK(pixel(1, 4) == Bools(false, false, true));
   CHECK(pixel(4, 7) == Bools(false));
 
-  // A shift of two pixels moves the ray, not the picture's numbering.
+  // A shift of two pixels moves the ray, but the result is still that of pixel (5, 4).
   CHECK(renderer.first_hit(5, 4, {2, 0}).primitive == 0);
   CHECK(renderer.sample(5, 4, 0, {2, 0}).color == renderer.sample(7, 4, 0).color);
 }
 
 TEST_CASE("random numbers are the published PCG hash") {
-  // Computed by an independent program.
+  // Values computed by an independent program.
   CHECK(reference::random(0, 0, 0, 0) == 9253448 / 16777216.0);
   CHECK(reference::random(1, 0, 0, 0) == 11179986 / 16777216.0);
   CHECK(reference::random(7, 5, 1, 42) == 2373789 / 16777216.0);

@@ -41,7 +41,7 @@ std::vector<double> ends(const Shape& shape, const Ray& ray) {
   return all;
 }
 
-// Along x, in units.
+// Spans of a ray along x, given as pairs of distances.
 std::vector<Span> spans(std::initializer_list<std::pair<double, double>> list, uint32_t part) {
   std::vector<Span> all;
   for (const auto& [in, out] : list) all.push_back({{in, 0, 0, part}, {out, 0, 0, part}});
@@ -90,7 +90,7 @@ TEST_CASE("a lens: entered by the one ball, left by the other, normals outward")
   CHECK(near(front.position, Vec3(-1, 0, 0), 1e-14));
   CHECK(near(front.normal, Vec3(-1, 0, 0), 1e-14));
   CHECK(near(surface_hit(*lens, {{0, 0, 0}, {1, 0, 0}}).normal, Vec3(1, 0, 0), 1e-14));
-  // Its rim is where both balls are: at a distance of √3 from the axis.
+  // The lens's rim lies on both balls, at a distance of √3 from the axis.
   CHECK(distance(*lens, {{0, 1.733, -10}, {0, 0, 1}}) == -1);
   CHECK(near(distance(*lens, {{0, 0, -10}, {0, 0, 1}}), 10 - std::sqrt(3.0), 1e-13));
   CHECK(lens->bounds().min.x == -1);
@@ -124,7 +124,7 @@ TEST_CASE("a tube is crossed four times; CSG objects in CSG objects, also where 
   CHECK(ends(*kept, along_x) == std::vector<double>{8, 9});
   const auto cut = make_csg(false, operands(make_box({-5, -0.5, -5}, {5, 0.5, 5})), operands(tube()));
   CHECK(ends(*cut, along_x) == std::vector<double>{5, 8, 9, 11, 12, 15});
-  // Taken away twice, the tube's hole is full again.
+  // The hole is cut out of the tube, and the tube out of the box: so the hole is solid again.
   CHECK(near(surface_hit(*cut, {{0, 0, 0}, {1, 0, 0}}).normal, Vec3(1, 0, 0), 1e-14));
 }
 
@@ -140,8 +140,8 @@ TEST_CASE("each closed shape says where a line is within it, whichever way the l
 }
 
 TEST_CASE("what a formula bounds: each crossing once, alternating, with a Lipschitz constant and without") {
-  // Sheets of a width that the ray crosses two by two, and the box's faces where it begins and ends within
-  // one.
+  // Sheets whose faces the ray crosses in pairs. The box's faces bound a sheet in which the box begins or
+  // ends.
   const auto sheets = [](double lipschitz) {
     FormulaUse use{
         std::make_shared<const formula::Formula>(
@@ -160,7 +160,7 @@ TEST_CASE("what a formula bounds: each crossing once, alternating, with a Lipsch
                                        10 - sixth, 10 + sixth,     10 + 5 * sixth};
     REQUIRE(found.size() == expected.size());
     for (size_t i = 0; i < found.size(); ++i) CHECK(near(found[i], expected[i], 1e-12));
-    // Less a ball, whose surface is seen where it cuts a sheet.
+    // The sheets less a ball, whose surface is seen where the ball cuts a sheet.
     const auto cut = make_csg(false, operands(sheets(lipschitz)), operands(make_sphere({-0.3, 0, 0}, 0.3)));
     const std::vector<double> left = ends(*cut, along_x);
     REQUIRE(left.size() == 6);

@@ -100,14 +100,14 @@ TEST_CASE("shadow rays lose their light to each shape that they hit") {
   scene.shapes.back()->material = opaque;
   CHECK(look(scene).color == Vec3(0));
 
-  // Behind the light, or behind the floor, nothing casts a shadow.
+  // An object behind the light or behind the floor casts no shadow.
   scene.lights.clear();
   add_point_light(scene, {0, 7, 0}, Vec3(1));
   CHECK(near(look(scene).color, Vec3(0.96), 1e-14));
   add(scene, make_sphere({0, -2, 0}, 1), opaque);
   CHECK(near(look(scene).color, Vec3(0.96), 1e-14));
 
-  // A light inside the glass is dimmed as one behind it.
+  // A light inside the glass is dimmed like a light behind the glass.
   scene.lights.clear();
   add_point_light(scene, {0, 5, 0}, Vec3(1));
   CHECK(near(look(scene).color, Vec3(0.96), 1e-14));
@@ -121,7 +121,7 @@ TEST_CASE("checks lie where uv say") {
     scene.camera.target = {x, 0, z};
     return look(scene).color;
   };
-  // v = −z.
+  // On this floor, v = −z.
   CHECK(at(0.5, -0.5) == Vec3(1, 0, 0));
   CHECK(at(1.5, -0.5) == Vec3(1, 0, 0));
   CHECK(at(2.5, -0.5) == Vec3(0, 0, 1));
@@ -142,7 +142,7 @@ TEST_CASE("raycast: no shadows, no reflections; a light at the eye if there is n
   CHECK(sample.rays == 1);
   CHECK(sample.hits == 1);
 
-  // A light behind the surface, or in the very point that is seen, gives nothing.
+  // A light behind the surface, or exactly at the visible point, contributes nothing.
   scene.lights.clear();
   add_sun(scene, {0, -1, 0}, Vec3(2));
   CHECK(near(look(scene).color, Vec3(0.05), 1e-15));

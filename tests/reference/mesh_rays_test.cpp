@@ -1,5 +1,5 @@
-// Tests of rounding of rays at meshes: no ray hits again the triangle that it leaves, and none slips between
-// two triangles.
+// Tests of the rounding of rays at meshes: no ray hits the triangle that it leaves again, and none slips
+// between two triangles.
 #include "host/core/parallel_for.hpp"
 #include "host/reference/crossings.hpp"
 #include "tests/support/meshes.hpp"
@@ -19,7 +19,8 @@ TEST_CASE("a ray that leaves a triangle of an instance does not hit it again") {
     Mesh mesh = make_mesh({}, {{0, 1, 2}, {0, 2, 1}});
     for (int corner = 0; corner < 3; ++corner)
       mesh.positions.push_back(center + size * dice.in_box(1) * Vec3(1, i % 3 > 0, 1));
-    // One in five is a needle: so rough is its normal that turned over, it is another one.
+    // One mesh in five is a single needle. Its normal is so imprecise that the reversed triangle would have
+    // another one.
     if (i % 5 == 0) {
       mesh.triangles.pop_back();
       mesh.positions[2] = glm::mix(mesh.positions[0], mesh.positions[1], dice.between(-1, 2)) +

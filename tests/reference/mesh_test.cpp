@@ -1,4 +1,4 @@
-// Meshes and their instances in the reference: their looks, against shapes and closed forms.
+// Meshes and their instances in the reference, compared with shapes and closed forms.
 #include "tests/support/empty_scene.hpp"
 #include "tests/support/meshes.hpp"
 
@@ -11,7 +11,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// Light, shadow, a mirror, glass and a floor, for the objects that are put between them.
+// A scene with light, shadow, a mirror, glass and a floor, to which tests add an object.
 Scene studio() {
   Scene scene = test::empty_scene();
   scene.image = {.width = 48, .height = 36};
@@ -55,7 +55,8 @@ TEST_CASE("a cube as a mesh is the cube of twelve triangles, pixel by pixel") {
   for (const bool glass : {false, true}) {
     Scene with_mesh = studio(), with_shapes = studio();
     for (Scene* scene : {&with_mesh, &with_shapes}) {
-      // Each triangle of a mesh lets the square root of the share through.
+      // Each triangle of a mesh lets the square root of `shadow` through, so the mesh gets the square of the
+      // shapes' value.
       const double shadow = scene == &with_mesh ? 0.25 : 0.5;
       const int material =
           glass ? add(*scene, make_dielectric({.absorption = {0.1, 0.4, 0.3}, .shadow = shadow}))
@@ -106,7 +107,7 @@ TEST_CASE("primitives count the shapes, then each instance's triangles") {
 
 TEST_CASE("of equal hits the lowest primitive wins: shapes, instances, triangles") {
   for (const Acceleration acceleration : {Acceleration::bvh, Acceleration::brute_force}) {
-    // One square many times: the sixth triangle of a mesh, instances, a shape.
+    // The same square many times: from the sixth triangle of a mesh on, in instances, and as a shape.
     Mesh squares = make_mesh({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {-3, -1, 0}, {3, -1, 0}}, {});
     for (int i = 0; i < 5; ++i) squares.triangles.push_back({1, 5, 2});
     for (int i = 0; i < 20; ++i) squares.triangles.push_back({0, 1, 2});
@@ -157,7 +158,7 @@ TEST_CASE("under a mirror the outside stays outside, and normals follow the surf
   CHECK(near(at(slope, target).normal_geometric, glm::normalize(Vec3(-2, 0, 1)), 1e-15));
   CHECK(near(at(slope, target).normal, glm::normalize(normal - Vec3(2 * normal.z, 0, 0)), 1e-15));
 
-  // Without uv: the weights. A normal that the interpolation turns away is not used.
+  // Without uv, the hit's weights are its uv. An interpolated normal that faces away is not used.
   mesh.uv.clear();
   mesh.normals = {{1, 0, 0.01}, {-1, 0, 0.01}, {0, 0, -1}};
   Scene scene = test::empty_scene();
@@ -253,7 +254,7 @@ TEST_CASE("media of globes at random are those of their equations") {
 }
 
 TEST_CASE("a first hit says what coordinates its t comes from") {
-  // Relative to the eye, over the cosine of incidence.
+  // t_scale is relative to the eye, and divided by the cosine of incidence.
   Scene scene = one_pixel({1, 0, 5}, {1, 3, 1});
   const int paint = add(scene, make_phong({}));
   const auto t_scale = [&] { return reference::Renderer(scene).first_hit(0, 0).t_scale; };

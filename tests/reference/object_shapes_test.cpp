@@ -73,7 +73,7 @@ TEST_CASE("cylinder: side, caps, open, and rays along its axis") {
   CHECK(near(distance(*closed, {{1, 3, 0}, {0, -1, 0}}), 2, 1e-14));
   CHECK(distance(*open, {{1, 9, 0}, {0, -1, 0}}) == -1);
   CHECK(distance(*closed, {{2.001, 9, 0}, {0, -1, 0}}) == -1);
-  // Through the open end onto the side, from within.
+  // A ray through the open end hits the side from inside.
   const SurfacePoint within = surface_hit(*open, {{0, 7, 0}, {-1, -2, 0}});
   CHECK(near(within.position, Vec3(-2, 3, 0), 1e-14));
   CHECK(near(within.normal_geometric, Vec3(-1, 0, 0), 1e-14));
@@ -89,7 +89,7 @@ TEST_CASE("cone: the apex, the slope, and not its mirror image") {
   CHECK(distance(*cone, {{9, 3, 0}, {-1, 0, 0}}) == -1);  // the other nappe
   CHECK(near(distance(*cone, {{0.5, -3, 0}, {0, 1, 0}}), 3, 1e-14));
   CHECK(near(distance(*cone, {{0.5, 0.5, 0}, {0, 1, 0}}), 0.5, 1e-14));
-  // Along the side's own line, the equation is linear.
+  // For a ray along a line of the side, the equation is linear.
   CHECK(near(distance(*cone, {{-1, -2, 0}, {1, 2, 0}}), 1, 1e-13));
 
   // Reversed and cut off: the larger end is at `to`.

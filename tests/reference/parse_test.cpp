@@ -103,12 +103,12 @@ TEST_CASE("shapes refuse what they cannot be") {
           "[[triangle]]\nvertices = [[0, 0, 0], [1e12, 0, 0], [0, 1, 1e12]]\ntransform = [{ scale = 2 }]") ==
       "3: the transformed vertices are out of range (coordinates up to 1e12)");
 
-  // 5e-9 thin along x, and a hundredth of that after the map.
+  // The triangle is 5e-9 thin along x, and a hundredth of that after the map.
   CHECK(refused("[[triangle]]\nvertices = [[0, 0, 0], [0, 1, 0], [5e-9, 0.5, 0]]\ntransform = [{ scale = "
                 "[0.01, 1, 1] }]") == "3: the transform leaves the triangle without area");
 
-  // Stretched ×100 along y, the shading normal leans over the edge of the outside; but it is right where it
-  // is written.
+  // After a stretch ×100 along y, the shading normal points to the inside; but it is right in the space in
+  // which it is written.
   const std::string slope =
       "[[triangle]]\nvertices = [[0, 0, 0], [1, 1, 0], [0, 0, -1]]\nnormals = [[1, 1.5, 0], [0, 1, 0], [0, "
       "1, 0]]\n";

@@ -67,7 +67,7 @@ Vec3 direction_of(double cosine) {
   return {std::sqrt(1 - cosine * cosine), 0, cosine};
 }
 
-// The share of light from everywhere that it sends to the viewer.
+// The share of uniform light from everywhere that the BSDF scatters to the viewer.
 double albedo(const Bsdf& bsdf, double cosine) {
   const Vec3 o = direction_of(cosine);
   const ViewedBsdf viewed(bsdf, o);

@@ -49,7 +49,7 @@ TEST_CASE("disk: its hole, its rims and its uv") {
   CHECK(near(south.uv.x, 0.5, 1e-15));
   CHECK(near(south.uv.y, 0.125, 1e-15));
 
-  // Sheared: y = 2 becomes y = 2 + x, whose normal is that of −x + y.
+  // A shear turns y = 2 into y = 2 + x, whose normal is the gradient of −x + y.
   const Mat4 shear{{1, 1, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
   const auto slope = make_disk({1, 2, 3}, {0, 5, 0}, 2, 1, shear);
   CHECK(near(surface_hit(*slope, {{2.5, 9, 3}, downwards}).position, Vec3(2.5, 4.5, 3), 1e-14));
@@ -152,7 +152,8 @@ TEST_CASE("quadric: a saddle, two sheets, and a ball cut off by a box") {
   CHECK(near(far_side.position, Vec3(3.6, 0.8, 0), 1e-14));
   CHECK(near(far_side.normal, Vec3(0.6, 0.8, 0), 1e-14));
 
-  // The products each belong to their pair: 2xy + 4xz + 8yz grows by (2y + 4z, 2x + 8z, 4x + 8y).
+  // Each product belongs to its pair of coordinates: the gradient of 2xy + 4xz + 8yz is (2y + 4z, 2x + 8z, 4x
+  // + 8y).
   const QuadricValues mixed{.square = Vec3(0), .product = {2, 4, 8}, .linear = {0, 0, 0}, .constant = -1};
   const SurfacePoint twisted = surface_hit(*make_quadric(mixed, Vec3(-1), Vec3(1), true), {Vec3(0), Vec3(1)});
   CHECK(near(twisted.position, Vec3(1 / std::sqrt(14.0)), 1e-14));

@@ -113,7 +113,7 @@ TEST_CASE("rounding that takes another check at each mirror stays within the dar
     CHECK(look_with(x, darkest) == 1.875 * Vec3(0.25, 0.5, 0));
     CHECK(look_with(x, brightest) == 1.875 * Vec3(1, 1, 0));
   }
-  // Off the border by more than the rounding, each mirror has only one colour to choose.
+  // Farther from the border than the rounding, each mirror has only one colour to choose.
   for (const double x : {0.001, 0.5, -0.001}) {
     CHECK(look_with(x, darkest) == look_with(x, at_hit));
     CHECK(look_with(x, brightest) == look_with(x, at_hit));
@@ -121,7 +121,7 @@ TEST_CASE("rounding that takes another check at each mirror stays within the dar
 }
 
 TEST_CASE("the weight that ends the recursion counts absorption, and the greatest channel") {
-  // A mirror deep in dark water: exp(−1) on the way, for red alone.
+  // A mirror deep in dark water: exp(−1) of the light is left on the way, and only of red.
   Scene scene = one_pixel({0, -1, 0}, {0, -2, 0});
   scene.render.background = Vec3(1);
   add(scene, make_plane({0, 0, 0}, {0, 1, 0}),
@@ -132,7 +132,7 @@ TEST_CASE("the weight that ends the recursion counts absorption, and the greates
   scene.render.min_throughput = 0.36;
   CHECK(look(scene).rays == 2);
 
-  // Up through the surface: three units of water in all.
+  // The mirrored ray leaves through the surface, after three units of water in all.
   scene.render.min_throughput = 0;
   CHECK(look(scene).color.x == doctest::Approx(std::exp(-3)));
   CHECK(look(scene).color.y == doctest::Approx(std::exp(-27)));
@@ -169,7 +169,7 @@ TEST_CASE("a glass sphere in a uniform world loses no light") {
     CHECK(near(look(scene).color, Vec3(1, 0.5, 0.25), 1e-12));
   }
 
-  // One ray deep, only the light that the front mirrors comes back.
+  // With a depth of one ray, only the light that the front mirrors comes back.
   scene.camera.target = {0, 0, 0};
   scene.render.max_depth = 1;
   CHECK(near(look(scene).color, 0.04 * Vec3(1, 0.5, 0.25), 1e-15));
@@ -184,15 +184,15 @@ TEST_CASE("light dims with the way through the medium") {
   scene.camera.target = {0.6, 0, 0};
   CHECK(near(look(scene).color, Vec3(1, std::exp(-1.6), std::exp(-3.2)), 1e-12));
 
-  // From inside, only the way that is left.
+  // From inside, only the rest of the way dims the light.
   scene.camera.eye = {0, 0, 0.5};
   scene.camera.target = {0, 0, 0};
   CHECK(near(look(scene).color, Vec3(1, std::exp(-1.5), std::exp(-3)), 1e-12));
 }
 
 TEST_CASE("refracted rays obey Snell, and Fresnel splits the light") {
-  // Water that swallows green fills y < 0. A dot of light lies where the law puts it, another, green, where
-  // the mirror sends the ray: that one never was in the water.
+  // Water that absorbs green fills y < 0. A red dot of light lies where Snell's law puts it. A green dot lies
+  // in the mirrored direction, whose ray never was in the water.
   const double n = 1.33;
   for (double degrees = 5; degrees < 90; degrees += 10) {
     CAPTURE(degrees);
@@ -209,7 +209,7 @@ TEST_CASE("refracted rays obey Snell, and Fresnel splits the light") {
         add(scene, glowing({0, 1, 0})));
     CHECK(near(look(scene).color, Vec3(1 - mirrored, mirrored, 0), 1e-12));
 
-    // The reverse way, from a point in the water that is on the line.
+    // The reverse way, from a point in the water on the refracted ray.
     scene.camera.eye = 0.5 * Vec3(std::sin(refracted), -std::cos(refracted), 0);
     scene.shapes.pop_back();
     add(scene, make_sphere(100.0 * Vec3(-std::sin(incident), std::cos(incident), 0), 1e-9),
@@ -219,7 +219,7 @@ TEST_CASE("refracted rays obey Snell, and Fresnel splits the light") {
 }
 
 TEST_CASE("beyond the critical angle the surface of water is a mirror") {
-  Scene scene = one_pixel({0, -1, 0}, {std::tan(glm::radians(49.0)), 0, 0});  // critical: 48.75°
+  Scene scene = one_pixel({0, -1, 0}, {std::tan(glm::radians(49.0)), 0, 0});  // the critical angle is 48.75°
   scene.render.ambient = Vec3(1);
   add(scene, make_plane({0, 0, 0}, {0, 1, 0}), add(scene, make_dielectric({.ior = 1.33})));
   add(scene, make_plane({0, -9, 0}, {0, 1, 0}), add(scene, glowing({1, 0, 0})));
@@ -245,7 +245,8 @@ TEST_CASE("a hollow glass ball: four surfaces, each between glass and air") {
 }
 
 TEST_CASE("media that overlap are left in any order") {
-  // Enter A, enter B, leave A, leave B: from A to B nothing changes where their iors agree.
+  // The ray enters A, enters B, leaves A and leaves B. Between A and B nothing changes, because their iors
+  // agree.
   Scene scene = one_pixel({0, 0, 5}, {0, 0, 0});
   scene.render.ambient = Vec3(1);
   scene.render.max_depth = 4;
@@ -272,7 +273,7 @@ TEST_CASE("a fifth nested medium is not entered, and says so") {
 
 namespace {
 
-// Knows only that it is not hit before `sure_until`.
+// A shape whose search gives up: it only knows that no hit is before `sure_until`.
 class GivesUp final : public Shape {
  public:
   explicit GivesUp(double sure_until) : sure_until_(sure_until) {}
@@ -305,7 +306,7 @@ TEST_CASE("a shape that gives up is no hit, and flagged where it might have been
     }
   }
 
-  // Light that is away by 2, from where the ray strikes.
+  // The light is at a distance of 2 from the point that the ray hits.
   scene.shapes.resize(1);
   scene.shapes.push_back(nullptr);
   add_point_light(scene, {0, 0, 3}, Vec3(1));
@@ -339,7 +340,7 @@ TEST_CASE("media_at lists the media around a point, outermost first") {
   CHECK(reference::media_at(scene, {0, -3.2, 0}) == Media{water, glass});
   CHECK(reference::media_at(scene, {0.1, -5, 0.2}) == Media{water, glass, air});
 
-  // A ceiling of water, which the ray ahead does not leave.
+  // A ceiling of glass, which the ray that media_at() sends ahead does not leave.
   add(scene, make_plane({0, 50, 0}, {0, -1, 0}), glass);
   CHECK(reference::media_at(scene, {0, 60, 0}) == Media{glass});
   CHECK(reference::media_at(scene, {0, 20, 0}) == Media{});

@@ -22,7 +22,7 @@ TEST_CASE("a Chebyshev series knows how far it stays from zero, and whether it t
   const ChebyshevSeries cubic = series([](double x) { return 3 + x * x * x; });
   CHECK(cubic.ends(1e-14));
   CHECK(cubic.clearance() == doctest::Approx(2));
-  CHECK_FALSE(cubic.monotone());  // flat in the middle
+  CHECK_FALSE(cubic.monotone());  // its slope is 0 in the middle
   CHECK(series([](double x) { return 3 * x + x * x * x / 2; }).monotone());
   CHECK(series([](double x) { return x * x - 0.5; }).clearance() < 0);
   CHECK(series([](double x) { return std::exp(x); }).ends(1e-12));

@@ -57,7 +57,7 @@ TEST_CASE("sphere: uv run eastward and northward") {
   CHECK(uv(*sphere, {0, -1, 0}).y == 0);
   CHECK(near(uv(*sphere, {1, 0, 0}).y, 0.5, 1e-15));
 
-  // The map turns, and is mirrored, with the sphere.
+  // The uv turn and are mirrored with the sphere.
   const auto turned = make_sphere({0, 0, 0}, 1, glm::rotate(Mat4(1.0), glm::radians(90.0), Vec3(0, 1, 0)));
   CHECK(near(uv(*turned, {0, 0, -1}).x, 0.5, 1e-15));
   const auto mirrored = make_sphere({0, 0, 0}, 1, glm::scale(Mat4(1.0), Vec3(1, 1, -1)));
@@ -255,7 +255,8 @@ TEST_CASE("prism: caps and walls, from outside, inside and through its notch") {
   CHECK(distance(*prism, {{1, 5, 1.5}, {0, -1, 0}}) == -1);
   CHECK(distance(*prism, {{-1, 3, 0.5}, {1, 0, 0}}) == -1);
 
-  // Swept down the body is below, and outside stays outside; so it does in a hole, and under a mirror.
+  // If the outline is swept down, the body is below it, and outside stays outside: in a hole and under a
+  // mirror too.
   const auto sunk = make_prism(region, {0, -2, 0}, glm::scale(Mat4(1.0), Vec3(-1, 1, 1)));
   CHECK(near(surface_hit(*sunk, {{-1, 5, 0.5}, {0, -1, 0}}).normal, Vec3(0, 1, 0), 1e-15));
   CHECK(near(distance(*sunk, {{-1, 5, 0.5}, {0, -1, 0}}), 5, 1e-14));

@@ -17,8 +17,8 @@ struct Count {
   int rehits = 0;
 };
 
-// Sends a ray at `shape`, and others on from where it strikes. Whatever leaves a surface must not hit that
-// surface at once: not that shape, and not a copy of it.
+// Shoots a ray at `shape`, and spawns others at the hit. A ray that leaves a surface must not hit that
+// surface again at once: neither the shape nor a copy of it.
 void spawn(const Shape& shape, const Shape& copy, const Ray& ray, double size, Dice& dice, Count& count) {
   const auto hit = shape.intersect(ray);
   if (!hit) return;
@@ -61,7 +61,8 @@ TEST_CASE("a ray that leaves a surface does not hit it again") {
     spawn(*triangle, *make_triangle({.vertices = {a, c, b}}), {eye, (a + b + c) / 3.0 - eye}, size, dice,
           triangles);
 
-    // Both stand for all shapes in object space. From the apex and the edges, rays may go on close by.
+    // The cone and the box stand for all shapes in object space. From the apex and the edges, rays may hit
+    // them again close by.
     Mat4 map = glm::translate(Mat4(1.0), center);
     for (int axis = 0; axis < 3; ++axis) map[axis] = Vec4(size * dice.direction(), 0);
     if (why_singular(map).empty()) {
@@ -72,7 +73,8 @@ TEST_CASE("a ray that leaves a surface does not hit it again") {
       spawn(*box, *make_box(Vec3(-1), Vec3(1), map), {eye, center - eye}, 1e-4 * size, dice, boxes);
     }
 
-    // So rough is a needle's normal that turned over, it is another needle.
+    // A needle's normal is so imprecise that the reversed needle would be another one, so the copy is not
+    // reversed.
     const Corners needle{
         a, b, glm::mix(a, b, dice.between(-1, 2)) + size * dice.scale(-8, -2) * c / glm::length(c)};
     if (thickness(needle) < thinnest_triangle) continue;
@@ -149,7 +151,8 @@ TEST_CASE("a surface that float32 cannot distinguish from the nearest one is coi
 }
 
 TEST_CASE("crossings end, whatever a shape says") {
-  // Hit again and again: every so far along the ray, or at one point that no step gets away from.
+  // A shape that is hit again and again: after each `step` along the ray, or at one point that no step gets
+  // away from.
   struct Endless {
     double step;
     std::optional<Intersection> intersect(const Ray&) const { return Intersection{step}; }

@@ -1,4 +1,4 @@
-// Tangents that meshes of a normal-mapped material are given.
+// Tests of the tangents that meshes of a normal-mapped material get.
 #include "host/scene/tangents.hpp"
 #include "tests/support/scenes.hpp"
 

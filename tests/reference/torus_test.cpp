@@ -17,7 +17,7 @@ TEST_CASE("torus: four crossings, one after the other, the hole and the pole") {
   CHECK(distance(*torus, {{9, 2, 3}, {-1, 0, 0}}) == -1);
   CHECK(distance(*torus, {{9, 3.49, 3}, {-1, 0, 0}}) == -1);
   CHECK(near(distance(*torus, {{9, 4, 3}, {-1, 0, 0}}), 7.5, 1e-13));
-  // Perpendicular to that, through the hole's middle plane: (y − 2)² = (2 ± 0.5)² − 1.
+  // A ray in the middle plane of the hole, at distance 1 from the axis: (y − 2)² = (2 ± 0.5)² − 1.
   CHECK(near(distance(*torus, {{1, 12, 4}, {0, -1, 0}}), 10 - std::sqrt(5.25), 1e-13));
   CHECK(near(distance(*torus, {{1, 2, 4}, {0, -1, 0}}), std::sqrt(1.25), 1e-13));
 
@@ -63,7 +63,7 @@ TEST_CASE("torus: a point aimed at is a point hit, however thin, from all distan
     const Vec3 from = around + normal * (minor * dice.between(0, 0.99));
     const double expected = glm::length(target - from);
     worst = std::max(worst, std::abs(distance(*torus, {from, normal}) - expected));
-    // The line on from there, from afar: something of the torus is hit, there or before.
+    // A ray back along the same line from afar hits the torus, at the target or before it.
     const double far = dice.scale(0, 4);
     const double first = distance(*torus, {target + normal * far, -normal});
     CHECK(first > 0);

@@ -16,7 +16,8 @@ namespace {
 
 constexpr double target = 0.05;
 
-// Grey pixels of brightness 0.5: even ones on the left, and from column 40 on with noise of a known width.
+// Grey pixels of brightness 0.5: without noise on the left, and from column 40 on with noise of a known
+// width.
 class NoisyExecutor final : public FakeExecutor {
  public:
   using FakeExecutor::FakeExecutor;
@@ -46,7 +47,7 @@ RenderOptions until(double noise, int rows, int width) {
 }  // namespace
 
 TEST_CASE("pixels stop where they are good: at once, after what their variance wants, or at the most") {
-  // (1.96 σ / (target · 0.51))² samples, at the next judgement; σ² = 0.9²/12.
+  // A pixel needs (1.96 σ / (target · 0.51))² samples, where σ² = 0.9²/12, and stops at the next judgement.
   constexpr int wanted = 512;
   for (const int most : {16384, 300}) {
     CAPTURE(most);
@@ -69,7 +70,7 @@ TEST_CASE("pixels stop where they are good: at once, after what their variance w
       for (int x = 0; x < 81; ++x) {
         const int taken = samples[size_t(y * 81 + x)];
         sum += uint64_t(taken);
-        // A block beside noisy ones waits for them.
+        // A block beside noisy blocks waits for them.
         if (x < 32) CHECK(taken == 64);
         if (x >= 40) CHECK(taken == std::min(wanted, most));
       }
@@ -99,7 +100,7 @@ TEST_CASE("the reported noise is the actual noise") {
       }
     }
   });
-  // A 95 % interval, of 69 120 pixels: 0.1 % is one standard error.
+  // The share within the 95 % interval, from 69 120 pixels, has a standard error of 0.1 %.
   CHECK(double(within) / all == doctest::Approx(0.95).epsilon(0.005));
 }
 

@@ -61,7 +61,7 @@ TEST_CASE("rows are handed on from the top down, each once, in a crop too") {
       CHECK(finished.first == next);
       CHECK(finished.color.width() == 20);
       next += finished.color.height();
-      // The formula of the fake, averaged: hits are the row and the number of the sample.
+      // The mean of the fake executor's formula: hits are the row plus the number of the sample.
       CHECK(*finished[options.channels[0]].pixel(7, 0) == float(crop.y + finished.first) + 1.5f);
     });
     CHECK(next == 21);

@@ -1,4 +1,4 @@
-// Renders that are interrupted and taken up again; and other files in place of a checkpoint.
+// Renders that are interrupted and resumed; and other files in place of a checkpoint.
 #include "host/render/checkpoint.hpp"
 
 #include "fake_executor.hpp"
@@ -42,7 +42,7 @@ Rendering render_rest(const Scene& scene, int band_rows, const std::string& file
   return rest;
 }
 
-// True if it is refused as damaged.
+// True if the checkpoint is refused as damaged.
 bool refused(const Scene& scene, int band_rows, const std::string& file) {
   try {
     render_rest(scene, band_rows, file);
@@ -73,7 +73,7 @@ TEST_CASE("interrupted anywhere and resumed, a picture is the uninterrupted one"
       CHECK((rest.samples_resumed > 0) == (stop > 0));
       CHECK(folder.names().empty());
 
-      // Repeats this, with one call in each run.
+      // Resumes again from `stop`, with one call in each run.
       render_part(scene, band_rows, file, stop);
       Rendering last;
       int runs = 0;
@@ -89,7 +89,7 @@ TEST_CASE("interrupted anywhere and resumed, a picture is the uninterrupted one"
 }
 
 TEST_CASE("interrupted within a sample of a band, too" * doctest::test_suite("long")) {
-  // So wide that a band takes several calls.
+  // The picture is so wide that a band takes several calls.
   const TemporaryFolder folder;
   const std::string file = folder / "a";
   const Scene scene = scene_of(1 << 19, 10, 4);
@@ -210,7 +210,7 @@ TEST_CASE("cut anywhere or with any byte changed, a checkpoint is refused" * doc
       write_text(part, bad);
       REQUIRE(refused(scene, 3, file));
     }
-    // Rows that a killed run appended are no damage; anything behind the sums is.
+    // Rows that a killed run appended do not count as damage; bytes behind the sums do.
     write_text(part, good + "x");
     CHECK(refused(scene, 3, file) == (part == file));
     render_part(scene, 3, file + "again", 7);
@@ -229,7 +229,7 @@ TEST_CASE("a checkpoint that lies with the right checksum is refused") {
   const std::string good = read_text(file);
   const size_t position = 16 + *reinterpret_cast<const uint32_t*>(&good[12]);
 
-  // `value` in place of the n-th of RenderPosition's numbers.
+  // Writes `value` in place of the n-th number of RenderPosition.
   const auto lie = [&](size_t n, uint64_t value) {
     std::string bad = good;
     bad.replace(position + 8 * n, 8, reinterpret_cast<const char*>(&value), 8);

@@ -1,4 +1,5 @@
-// Samples from a formula: the driver's results are known exactly, also after failures.
+// An executor whose samples come from a formula, so that the driver's results are known exactly, also after
+// failures.
 #pragma once
 
 #include <bit>
@@ -58,7 +59,7 @@ inline Scene scene_of(int width, int height, int samples) {
   return scene;
 }
 
-// The bytes of sums that make bands of that many rows.
+// The memory for sums, in bytes, that makes bands of `rows` rows.
 inline size_t band_of_rows(const Scene& scene, int rows) {
   return size_t(rows) * size_t(scene.image.width) * sizeof(film::PixelTotals);
 }
@@ -71,7 +72,7 @@ inline bool same_bits(const image::Image& a, const image::Image& b) {
   return true;
 }
 
-// In everything but how long it took and whether it was resumed.
+// True if two renderings are the same in everything except their duration and whether they were resumed.
 inline bool same_rendering(const render::Rendering& a, const render::Rendering& b) {
   return same_bits(a.color, b.color) && same_bits(a.hits, b.hits) &&
          same_bits(a.rays_traced, b.rays_traced) && a.rays == b.rays && a.flags == b.flags &&

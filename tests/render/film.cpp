@@ -22,7 +22,7 @@ struct Samples {
   std::vector<AuxiliarySample> auxiliaries;
 };
 
-// `taken` of each pixel.
+// `taken` random samples of each pixel.
 std::vector<Samples> random_samples() {
   test::Random random{test::seed() + 3};
   const auto number = [&](double most) { return uint32_t(random.uniform(0, most)); };

@@ -16,8 +16,8 @@ using namespace eyeray::engine::render;
 
 namespace {
 
-// A wall that shines with 1 and goes 8 pixels a frame to the right, before nothing. At frame 0 its left edge
-// is in the middle of 32 pixels.
+// A wall of radiance 1 that moves 8 pixels a frame to the right, with nothing behind it. At frame 0 its left
+// edge is in the middle of 32 pixels.
 Scene passing_wall(double shutter, int steps, int samples, double frame = 0) {
   return loader::parse_scene(fmt::format(R"(
 [animation]
@@ -79,14 +79,15 @@ TEST_CASE("samples show all moments, all about as often, and soon some of everyw
       CHECK(furthest < 0.2);
     }
   }
-  // After the 64 samples of adaptive sampling's first judgement.
+  // The first judgement of adaptive sampling, after 64 samples, has all 16 moments.
   std::set<int> seen;
   for (int i = 0; i < 64; ++i) seen.insert(moment_of_sample(i, 16384, 16));
   CHECK(seen.size() == 16);
 }
 
 TEST_CASE("an edge that passes is blurred over its way, by as much as it was there") {
-  // In half a frame, a quarter before and after, it goes 4 pixels: from column 14 to column 18.
+  // The shutter is open for half a frame, a quarter before and after. The edge moves 4 pixels: from column 14
+  // to column 18.
   const Scene scene = passing_wall(0.5, 64, 256);
   const Rendering picture = picture_of(scene, executors::Backend::twin);
   for (int x = 0; x < 32; ++x) {

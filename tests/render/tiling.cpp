@@ -1,4 +1,4 @@
-// Tiles: every pixel is some shard's, shares are alike, and the same everywhere.
+// Tiles: every pixel belongs to a shard, and shares are alike in size and the same everywhere.
 #include "host/render/tiling.hpp"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ TEST_CASE("the shards' parts are all of the picture, and no pixel twice") {
     for (int shard = 0; shard < shards; ++shard) {
       const ShardTiles tiles(area, {shard, shards});
       pixels += tiles.pixels();
-      // Any rows of the stack at a time.
+      // Reads the stack a random number of rows at a time.
       for (int row = 0; row < tiles.height();) {
         const int height = std::min(1 + random.below(20), tiles.height() - row);
         for (const Rect& part : tiles.parts(row, height)) {
@@ -52,7 +52,7 @@ TEST_CASE("every shard has as many tiles, to within one, and they lie all over t
     for (int i = 0; i < tiling.count(); ++i) ++tiles[size_t(tiling.owner(i))];
     const auto [fewest, most] = std::ranges::minmax(tiles);
     CHECK(most - fewest <= 1);
-    // Each shard owns one tile of each round of tiles.
+    // Each shard owns one of every `shards` successive tiles.
     for (int first = 0; first + shards <= tiling.count(); first += shards) {
       std::set<int> owners;
       for (int i = first; i < first + shards; ++i) owners.insert(tiling.owner(i));
@@ -62,10 +62,11 @@ TEST_CASE("every shard has as many tiles, to within one, and they lie all over t
 }
 
 TEST_CASE("the order is what parts on disk were made by") {
-  // A part states only which share it is: its tiles must be the same in every version that reads its layout.
+  // A part states only the number of its share, so its tiles must be the same in every version that reads its
+  // layout.
   const Tiling tiling(256, 64, 4);
   CHECK(tiling.tile_width() == 256);
-  // By a transcription in another language.
+  // Values computed by a transcription into another language.
   const std::vector<int> expected{2, 0, 1, 3, 0, 1, 3, 2};
   for (size_t i = 0; i < expected.size(); ++i) CHECK(tiling.owner(int(i)) == expected[i]);
 }

@@ -69,7 +69,7 @@ class Served {
                            {"previews", previews}},
                           ""}));
   }
-  // The next message of that revision, whose rows go to the board.
+  // The next message of that revision; its rows are put on the board.
   Json next(int revision) {
     while (true) {
       const auto message = socket_.receive(600);

@@ -1,4 +1,4 @@
-// Nothing in the registries goes without a scene.
+// Every entry of the registries has a scene.
 #include <set>
 
 #include "host/cameras/registry.hpp"
@@ -18,7 +18,7 @@ using namespace eyeray::engine::records;
 
 namespace {
 
-// The kinds of shapes that a scene has, and of materials on them and their textures.
+// The kinds of a scene's shapes, of the materials on them, and of the materials' textures.
 struct Kinds {
   std::set<uint32_t> shapes;
   std::set<uint32_t> materials;

@@ -34,7 +34,7 @@ inline compare::Frame render_frame(const Scene& scene, executors::Backend backen
   return render_frame(scene, *executors::make_executor(backend, scene, options), whole(scene));
 }
 
-// Gates B and C.
+// Compares by gates B and C.
 inline compare::ReferenceComparison compare_with_reference(const Scene& scene, const compare::Frame& value) {
   const reference::Renderer renderer(scene);
   const compare::Reference around = [&](int x, int y, const Vec2& shift, rounding::Chance chance) {

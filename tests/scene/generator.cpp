@@ -45,7 +45,7 @@ class Writer {
 
  private:
   bool chance(double share) { return random_.uniform() < share; }
-  // A mishap that a legal scene does not have.
+  // True now and then, for a mistake that a legal scene does not have.
   bool mishap() { return !wildness_.legal && chance(0.001); }
   template <typename Type>
   const Type& one_of(std::span<const Type* const> types) {
@@ -63,7 +63,7 @@ class Writer {
     if (mishap()) return "\"nothing\"";
     return fmt::format("\"{}\"", key.choices[size_t(random_.below(int(key.choices.size())))]);
   }
-  // A shape of which a CSG object may be made, if it is not open.
+  // A random shape that may be a part of a CSG object, unless it is open.
   const shapes::ShapeType& closed_shape() {
 #define NAME(name, number) number,
     constexpr uint32_t kinds[] = {CLOSED_SHAPES(NAME)};
@@ -75,7 +75,7 @@ class Writer {
 
   Random& random_;
   const Wildness wildness_;
-  std::vector<const reading::TextureType*> tables_;  // kinds of texture that have one
+  std::vector<const reading::TextureType*> tables_;  // kinds of texture that have a table
   std::string text_;
 };
 
@@ -87,7 +87,7 @@ double Writer::extreme(const Key& key) {
   if (!wildness_.legal)
     return chance(0.2) ? std::array{inf, -inf, not_a_number}[size_t(random_.below(3))] : value;
 
-  // Into the range, and to where float32 arithmetic may go.
+  // Clamps the value to the key's range, and to the range of float32 arithmetic.
   const double low =
       std::max({key.min, key.type == KeyType::color || key.type == KeyType::texture ? 0.0 : -1e15, -1e15});
   const double high = std::min(key.max, 1e15);
@@ -103,7 +103,7 @@ double Writer::number(const Key& key) {
   const bool share = key.type == KeyType::color || key.type == KeyType::texture;
   const double low = share ? 0 : std::max(key.min, -3.0);
   const double high = share ? 1 : key.max <= 1000 ? key.max : 3;
-  // Neither end, which may be excluded or extreme; and of great ranges only the part that is seen well.
+  // Avoids both ends, which may be excluded or extreme, and the parts of wide ranges that would show little.
   if (key.name == "fov") return random_.uniform(20, 110);
   if (key.name == "turbulence") return random_.uniform(0, 2);
   return random_.uniform(low + (high - low) * 0.05, high - (high - low) * 0.02);
@@ -134,7 +134,7 @@ std::string Writer::texture(const Key& key) {
   const reading::TextureType& type = one_of(std::span<const reading::TextureType* const>(tables_));
   std::vector<std::string> values;
   for (Key own : type.keys) {
-    if (own.type == KeyType::formula_file) continue;  // there is none
+    if (own.type == KeyType::formula_file) continue;  // there is no file
     if (own.type == KeyType::formula) {
       values.push_back("code = \"vec3 color(vec2 uv) { return vec3(uv, 1.0 / uv.x); }\"");
       continue;
@@ -246,7 +246,7 @@ void Writer::table(const std::string& title, std::initializer_list<std::span<con
 std::string Writer::write() {
   table("[image]", {loader::find_section("image")->keys}, {}, "");
 
-  // Most often the first.
+  // The first type of camera is the most frequent.
   const double which = std::max(0.0, 1 - random_.uniform() / 0.3) * double(cameras::types().size() - 1);
   const cameras::CameraType& camera = *cameras::types()[size_t(std::ceil(which))];
   table("[camera]", {loader::find_section("camera")->keys, camera.keys}, {"type"},
@@ -268,8 +268,8 @@ std::string Writer::write() {
   }
   for (int i = 0; i < materials; ++i) {
     const materials::MaterialType& type = one_of(materials::types());
-    // Few shapes may have holes. What bends a coat asks for one, and for each other. A conductor is one of
-    // several things.
+    // Few shapes may have holes. The keys that bend a coat require a coat and each other. A conductor has one
+    // of several keys.
     std::set<std::string_view> left_out;
     if (chance(0.9)) left_out = {"alpha", "alpha_cutoff", "coat_normal", "coat_normal_scale"};
     const bool conductor = type.name == "conductor";
@@ -280,12 +280,12 @@ std::string Writer::write() {
   }
   for (int i = random_.below(6); i > 0; --i) {
     const shapes::ShapeType& type = one_of(shapes::types());
-    // A normal that points the wrong way is refused: half of all. Most triangles go without.
+    // Half of all random normals point to the wrong side and are refused, so most triangles have none.
     std::set<std::string_view> mostly;
     if (chance(0.8)) mostly = {"normals"};
-    // An uneven scale is no sphere's.
+    // A sphere cannot have an uneven scale.
     if (chance(0.5)) mostly.insert("transform");
-    // `given` writes a shape's one formula, never as a file's name.
+    // `given` writes the one formula of a shape, and never as the name of a file.
     mostly.insert({"code", "file", "ready", "lipschitz"});
     const auto given = [&](const shapes::ShapeType& shape) {
       if (shape.name != "implicit") return "";

@@ -67,8 +67,8 @@ TEST_CASE("orientation: red is right, green is up, blue is near, by every execut
       CHECK(glm::length(hit.position - object.center) < 0.6);
     }
 
-    // A test without any formula: the picture's right half has the ball of red, its left the arrow, its top
-    // the green.
+    // A test without any formula: the red ball is in the picture's right half, the arrow in its left half,
+    // the green object in its top half.
     const auto seen = [&](int primitive, Rect area) {
       int count = 0;
       for (int y = area.y; y < area.y + area.height; ++y)
@@ -87,7 +87,7 @@ TEST_CASE("orientation: red is right, green is up, blue is near, by every execut
     CHECK(seen(2, bottom) == 0);
     CHECK(seen(4, bottom) > seen(4, top));
 
-    // Colours have their channels in order.
+    // The channels of colours are in order.
     const auto color = [&](const Object& object) {
       const Place place = project(scene, object.center);
       return color_at(frame.color, place.x, place.y);
@@ -97,7 +97,7 @@ TEST_CASE("orientation: red is right, green is up, blue is near, by every execut
     CHECK(green.g > 2 * std::max(green.r, green.b));
     CHECK(blue.b > 2 * std::max(blue.r, blue.g));
 
-    // Blue stands before white.
+    // The blue object is in front of the white one.
     const Place near = project(scene, objects[3].center), far = project(scene, objects[0].center);
     CHECK(frame.first_hit(near.x, near.y).t < frame.first_hit(far.x, far.y).t - 0.5);
   }

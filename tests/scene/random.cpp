@@ -23,7 +23,8 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// Makes a scene as small as `width` × `height`, of a depth at which trees of rays end, and of few photons.
+// Makes a scene `width` × `height` pixels small, with a depth at which trees of rays end, and with few
+// photons.
 Scene shrunk(Scene scene, int width, int height) {
   scene.image.width = width;
   scene.image.height = height;
@@ -50,7 +51,7 @@ class Failures {
   std::string shown_;
 };
 
-// Why an InputError does not help its reader; empty when it does.
+// The reason why an InputError does not help its reader; empty if it does.
 std::string why_useless(const InputError& error) {
   if (error.diagnostics().empty()) return "no diagnostic";
   for (const Diagnostic& diagnostic : error.diagnostics()) {
@@ -61,7 +62,8 @@ std::string why_useless(const InputError& error) {
   return "";
 }
 
-// Scene `i` of the extreme ones, as small as they are rendered; InputError when the loader refuses it.
+// The text of extreme scene `i`, and the scene as small as it is rendered; InputError if the loader refuses
+// it.
 std::string extreme_text(int i) {
   Random random{uint64_t(i) + 10'000 * seed()};
   return random_scene_text(random,
@@ -71,8 +73,8 @@ Scene extreme_scene(const std::string& text) {
   return shrunk(parse_scene(text, "scene.toml"), 8, 6);
 }
 
-// True if nothing is unexplained. A picture of 432 pixels that is all one grazing patch has more to explain
-// than any scene that is meant.
+// True if nothing is unexplained. A picture of 432 pixels that shows only one grazing patch has more
+// explained pixels than any sensible scene.
 bool agree(const ReferenceComparison& comparison) {
   const auto sound = [](const Tally& tally) {
     return tally.unexplained == 0 && tally.explained_pixels() <= 16;
@@ -93,7 +95,8 @@ TEST_CASE("scenes with extreme values: a clear error or a sound picture") {
       for (const Backend backend : {Backend::twin, Backend::reference}) {
         const Frame frame = render_frame(scene, backend);
         Soundness soundness = inspect(frame);
-        // The scene's own doing, and reported: media in media; a patch that is 1e12 wide and bent within 1.
+        // The scene itself causes these flags, and they are reported: media in media; a patch that is 1e12
+        // wide and bent within 1.
         reached_iteration_limit += bool(soundness.flags & iteration_limit);
         soundness.flags &= ~(media_overflow | iteration_limit);
         soundness.flagged_pixels = 0;
@@ -108,7 +111,7 @@ TEST_CASE("scenes with extreme values: a clear error or a sound picture") {
       const std::string why = why_useless(error);
       if (!why.empty()) failures.add(fmt::format("{}: {}", i, why), text);
     } catch (const Error& error) {
-      // An error that only the whole scene shows: an eye inside of too many media.
+      // Only the whole scene shows this error: the eye is inside too many media.
       ++refused;
       if (error.code() != ExitCode::bad_input) failures.add(fmt::format("{}: {}", i, error.what()), text);
     }
@@ -123,7 +126,7 @@ TEST_CASE("scenes with extreme values: a clear error or a sound picture") {
   CHECK(reached_iteration_limit < count / 100);
 }
 
-// Its gradient in the world is so short that the squares are lost.
+// The formula's gradient in the world is so short that its squares underflow.
 TEST_CASE("a formula in a box 1e12 wide has normals") {
   const Scene scene = parse_scene(R"(
 image = { width = 8, height = 6 }
@@ -148,7 +151,7 @@ material = "mirror"
   CHECK(soundness.infinite == 0);
 }
 
-// A direction that the coat chooses below the body's horizon has a density, and brings nothing.
+// A direction that the coat chooses below the body's horizon has a density, but contributes no light.
 TEST_CASE("a path that brings nothing has a colour after a flight through fog") {
   for (const std::string integrator : {"path", "sppm"}) {
     CAPTURE(integrator);
@@ -250,7 +253,7 @@ TEST_CASE("scenes at random: the twin agrees with the reference, the GPU with th
                       explained, creases));
   INFO(failures.shown());
   CHECK(failures.count() == 0);
-  // In a crease, a ray may start beyond the other surface: float32 must step off its own by some 1e-6 of its
-  // size. That is about one pixel of a million here.
+  // In a crease, a ray may start beyond the other surface, because float32 must step off its own surface by
+  // some 1e-6 of its size. Here that affects about one pixel of a million.
   CHECK(creases <= 1);
 }

@@ -1,4 +1,4 @@
-// The driver that makes pictures of samples: whole samples, parts of pictures, supersampling, counts.
+// The driver that makes pictures from samples: whole samples, parts of pictures, supersampling, counts.
 #include <chrono>
 #include <thread>
 
@@ -54,7 +54,7 @@ class StoppingExecutor final : public Executor {
   int calls_left_;
 };
 
-// Wide enough that the driver asks for it in several pieces.
+// A picture so wide that the driver requests it in several pieces.
 Scene cooperative_scene() {
   Scene scene = test::empty_scene();
   scene.image = {.width = 1 << 18, .height = 10, .samples = 4};
@@ -186,7 +186,7 @@ TEST_CASE("jittered samples depend on the seed, and on nothing else") {
 }
 
 TEST_CASE("rays are counted: eye, shadow and mirrored ones") {
-  // All pixels see the floor.
+  // Scenes in which all pixels show the floor.
   const auto floor = [](std::initializer_list<const char*> changes) {
     Scene scene = parse(mirror_over_floor, changes);
     scene.shapes.erase(scene.shapes.begin());
@@ -199,7 +199,7 @@ TEST_CASE("rays are counted: eye, shadow and mirrored ones") {
   };
   Case cases[] = {{floor({}), 2},                                  // eye and shadow
                   {floor({"render.integrator=raycast"}), 1},       // no shadows
-                  {floor({"image.samples=9"}), 18},                // nine of each
+                  {floor({"image.samples=9"}), 18},                // nine rays of each kind
                   {floor({"light.0.position=[0, -1, 0]"}), 1},     // the light stands behind the floor
                   {floor({"material.floor.reflectance=0.5"}), 3},  // the mirrored ray goes to the sky
                   {floor({"material.floor.reflectance=0.5", "render.max_depth=0"}), 2},

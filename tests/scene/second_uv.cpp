@@ -18,7 +18,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// Codes from `least` to 255.
+// A picture with random codes from `least` to 255.
 std::shared_ptr<const ImageTexture> picture(Random& random, int least) {
   const auto image = std::make_shared<ImageTexture>();
   image->width = 5;
@@ -96,7 +96,7 @@ TEST_CASE("which of a mesh's two uv is its second does not show") {
 
     const Frame twin = render_frame(one, Backend::twin);
     CHECK(compare_exactly(render_frame(one, Backend::gpu), twin).passes(0));
-    // Paths agree with the reference in their mean only.
+    // Paths agree with the reference only on average.
     if (integrator != IntegratorType::path) {
       const ReferenceComparison reference = test::compare_with_reference(one, twin);
       CHECK(reference.first_hits.passes());

@@ -38,13 +38,13 @@ std::shared_ptr<const ImageTexture> random_image(Random& random) {
   return image;
 }
 
-// Squares side by side before an orthographic camera, each with its own image at random positions in uv,
-// small and far from 0; every fifth mirrors another one in a second image.
+// Squares side by side before an orthographic camera. Each has its own image at random positions in uv, near
+// 0 and far from it. One in five also mirrors, with a second image as its reflectance.
 Scene patchwork(Random& random, int across, int down) {
   Scene scene = test::empty_scene();
   scene.image = {.width = 24 * across, .height = 24 * down};
   scene.camera.projection = make_projection(OrthographicCamera{0.5 * across});
-  // A little off, so that no pixel's centre lies on an edge.
+  // The camera is slightly displaced, so that no pixel's centre lies on an edge.
   scene.camera.target = {0.5 * across + 0.0131, 0.5 * down + 0.0073, 0};
   scene.camera.eye = scene.camera.target + Vec3(0, 0, 5);
   scene.render.ambient = Vec3(0.25);
