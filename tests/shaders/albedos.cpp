@@ -1,4 +1,4 @@
-// Tables of albedos beside the integrals that they stand for, and how metals mirror.
+// Compares the tables of albedos with the integrals that they stand for, and tests the reflectance of metals.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -61,7 +61,7 @@ TEST_CASE("the directional albedo of rough glass: its table beside the integral"
 }
 
 TEST_CASE("metals mirror as tables say, and their mean is the integral") {
-  // At right angles: (n − 1)² + k² over (n + 1)² + k².
+  // At normal incidence, the reflectance is ((n − 1)² + k²) / ((n + 1)² + k²).
   for (const optics::Metal& metal : optics::metals) {
     const optics::Fresnel fresnel = optics::conductor(metal.n, metal.k);
     for (int c = 0; c < 3; ++c) {

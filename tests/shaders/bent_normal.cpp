@@ -18,11 +18,11 @@ using test::Random;
 
 namespace {
 
-// A point on some surface, in both forms.
+// A point on some surface, for the reference and for the shaders.
 struct Place {
   SurfacePoint point;
   shader::Surface surface;
-  Vec3 d;  // of the ray that sees it
+  Vec3 d;  // direction of the ray that hits the point
 };
 
 Place some_place(Random& random, bool own_tangent) {
@@ -166,7 +166,7 @@ TEST_CASE(
       ++(mirrored < 2e-3 ? low : high);
     }
   }
-  // Both are common.
+  // Both cases are common.
   CHECK(low > 1000);
   CHECK(high > 1000);
 }

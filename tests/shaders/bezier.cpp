@@ -1,5 +1,5 @@
-// Arcs of a Bézier patch's section: roots guessed from them are found again by Newton's method, but the
-// later, the worse the guess.
+// Arcs of a Bézier patch's section: Newton's method finds the roots that they guess, but takes the longer,
+// the worse the guess is.
 #include "host/twin/shader_functions.hpp"
 
 #include "tests/support/doctest.hpp"
@@ -8,7 +8,7 @@ using namespace eyeray::engine;
 
 namespace {
 
-// A section at w of a z, and of the uv that a cubic has there.
+// A section at w with this z and slope, and with the uv that a cubic has there.
 shader::BezierSection section(float w, float z, float slope) {
   shader::BezierSection at{};
   at.w = w;
@@ -19,7 +19,7 @@ shader::BezierSection section(float w, float z, float slope) {
   return at;
 }
 
-// z = depth + 1.8·s·(s − 1), and `more` of (s − ½)·s²·(1 − s)², which only z's slope half-way shows.
+// z = depth + 1.8·s·(s − 1) + more·(s − ½)·s²·(1 − s)². Only the slope of z half-way shows the last term.
 bool doubted(float depth, float more) {
   shader::BezierSection half_way = section(0.5f, depth - 0.45f, more / 16);
   return shader::bezier_arc(section(0, depth, -1.8f), section(1, depth, 1.8f), half_way, 1e-6f).doubted;
@@ -39,7 +39,7 @@ TEST_CASE("between two sections, (u, v) is the cubic with their values and slope
 }
 
 TEST_CASE("an arc is doubted that turns as near to zero as z may lead off it, and no other") {
-  // It is lowest half-way, depth − 0.45; off by a sixteenth of `more`.
+  // z is lowest half-way, at depth − 0.45, with an error of a sixteenth of `more`.
   CHECK_FALSE(doubted(0.45f + 1.1f / 16, 1));
   CHECK(doubted(0.45f + 0.9f / 16, 1));
   CHECK(doubted(0.45f - 0.9f / 16, 1));

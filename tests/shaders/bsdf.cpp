@@ -1,5 +1,5 @@
-// The lobes of BSDFs: their values for a direction against the light that they send there, in shaders and in
-// the reference. None makes or loses light.
+// The lobes of BSDFs: compares their values for a direction with the light that their samples bring there, in
+// shaders and in the reference. No lobe makes or loses light.
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -23,12 +23,13 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// The value for light from i, if the surface lies as its normal states.
+// The value for light from i, if the side of the surface is that of its shading normal.
 BsdfValue above(const ViewedBsdf& viewed, const Vec3& i) {
   return viewed.at(i, i.z > 0);
 }
 
-// The albedo for light from everywhere, by its own samples: strata of 64 × 64, for 16 of the lobe.
+// The albedo for light from everywhere, by the BSDF's own samples: 64 × 64 strata for each of 16 choices of
+// the lobe.
 Vec3 albedo(const Bsdf& bsdf, double cosine) {
   const ViewedBsdf viewed(bsdf, towards(cosine));
   constexpr int lobes = 16, side = 64;
@@ -48,8 +49,8 @@ Vec3 albedo(const Bsdf& bsdf, double cosine) {
 
 const double grazing = std::cos(89 * M_PI / 180);
 
-// ∫ of f by Gauss's three points each way; halved, at most `halvings` times, until that changes less than
-// `error`.
+// ∫ of f by Gauss's three points along each axis. Halves the area, at most `halvings` times, until that
+// changes the integral by less than `error`.
 template <typename F>
 double integral(const F& f, const Vec2& low, const Vec2& high, double error, int halvings) {
   if (low.x == high.x) return 0;
@@ -72,7 +73,7 @@ double integral(const F& f, const Vec2& low, const Vec2& high, double error, int
   return sum;
 }
 
-// Points of the lattice that counts the lost light, and how well they count it.
+// The number of points of the lattice that measures lost light, and the lattice's error.
 int lattice_points() {
   return test::amount(1 << 18, 1 << 20, 1 << 24);
 }
@@ -80,10 +81,10 @@ double lattice_error() {
   return 1e-4 * test::amount(10, 3, 1);
 }
 
-// The share of its own samples that a surface itself blocks: by a lattice of three dimensions.
+// The share of a surface's own samples that the surface itself blocks, by a lattice in three dimensions.
 double share_lost(const ViewedBsdf& viewed) {
   const int count = lattice_points();
-  // Powers of the root of x⁴ = x + 1.
+  // The lattice's steps are inverse powers of the root of x⁴ = x + 1.
   constexpr double root = 1.2207440846057596;
   int lost = 0;
   for (int n = 0; n < count; ++n) {
@@ -98,7 +99,7 @@ double share_lost(const ViewedBsdf& viewed) {
   return double(lost) / count;
 }
 
-// The z that any of so many tests exceeds by chance in one of a thousand runs.
+// The z that some test of `tests` exceeds by chance in one of a thousand runs.
 double critical_z(int tests) {
   const double p = 1 - std::pow(1 - 1e-3, 1.0 / tests);
   double low = 0, high = 10;
@@ -109,7 +110,8 @@ double critical_z(int tests) {
   return high;
 }
 
-// Cells of (angle, turn), and one for the light that goes the wrong way and is lost.
+// Tests samples by their counts in cells of (angle, turn), and in one cell for light that goes to the wrong
+// side and is lost.
 void check_samples(const std::vector<double>& roughnesses, const std::vector<double>& cosines, int samples) {
   const records::PackedScene scene = scene_with_albedos();
   const shader::Binding binding(twin::view_of(scene));
@@ -143,7 +145,8 @@ void check_samples(const std::vector<double>& roughnesses, const std::vector<dou
           const int column = std::clamp(int((turn - std::floor(turn)) * columns), 0, columns - 1);
           ++counts[size_t(row * columns + column)];
         }
-        // The density of light through glass jumps where microfacets would stand upright.
+        // The density of light through glass jumps at the angle where microfacets would have to stand
+        // upright.
         const double upright = std::acos(std::max(-1.0, -bsdf.ior_from * cosine / bsdf.ior_to));
         double sum = 0;
         for (size_t cell = 0; cell < counts.size(); ++cell) {
@@ -157,12 +160,12 @@ void check_samples(const std::vector<double>& roughnesses, const std::vector<dou
           expected[cell] = samples * share;
           sum += share;
         }
-        // Density and loss are 1 together.
+        // The integral of the density and the loss add up to 1.
         const double off = std::abs(sum + share_lost(viewed) - 1);
         CHECK(off < lattice_error());
         worst_sum = std::max(worst_sum, off);
 
-        // Few that are expected are counted together, as Pearson's test requires.
+        // Cells with few expected samples are counted as one, as Pearson's test requires.
         double statistic = 0, few = 0, few_expected = 0;
         int freedom = -1;
         for (size_t cell = 0; cell < counts.size(); ++cell) {
@@ -175,7 +178,7 @@ void check_samples(const std::vector<double>& roughnesses, const std::vector<dou
           }
         }
         CHECK(std::abs(few - few_expected) < 6 * std::sqrt(few_expected) + 10);
-        // Wilson and Hilferty: the cube root is normal.
+        // By Wilson and Hilferty, the cube root is nearly normally distributed.
         const double z =
             (std::cbrt(statistic / freedom) - (1 - 2.0 / (9 * freedom))) / std::sqrt(2.0 / (9 * freedom));
         CHECK(z < critical);
@@ -207,7 +210,7 @@ TEST_CASE("a shader's BSDF is the reference's, in value and in density") {
         shader::Bsdf record = packed(bsdf, o);
         record.adjoint = n % 4 >= 2;
         const shader::LobeShares shares = shader::lobe_shares(record);
-        // Half of them where the lobes are.
+        // Half of the directions are where the lobes are.
         const shader::vec2 u(float(random.below(1 << 24)) * 0x1p-24f,
                              float(random.below(1 << 24)) * 0x1p-24f);
         const float chance = float(random.below(1 << 24)) * 0x1p-24f;
@@ -224,7 +227,7 @@ TEST_CASE("a shader's BSDF is the reference's, in value and in density") {
         apart(double(ours.density), theirs.density);
         for (int c = 0; c < 3; ++c) apart(double(ours.value[c]), theirs.value[c]);
       }
-      // The half-way vector has 6e-8, of which a narrow lobe makes more.
+      // The half-way vector has an error of 6e-8, which a narrow lobe enlarges.
       CHECK(worst < 2e-4 + 1e-5 / (roughness * roughness));
       MESSAGE(name << ", roughness " << roughness << ": up to " << worst << " of themselves apart");
     }
@@ -293,7 +296,8 @@ TEST_CASE("light goes both ways alike: f(o, i) is a photon's f(i, o), of glass b
     for (const Named& example : examples(roughness)) {
       const std::string& name = example.name;
       const Bsdf& bsdf = example.bsdf;
-      if (name == "coated aslant") continue;  // two normals, by one of which each lobe counts cosines
+      if (name == "coated aslant")
+        continue;  // it has two normals, and each lobe takes its cosines from one of them
       CAPTURE(name);
       CAPTURE(roughness);
       double worst = 0;
@@ -304,7 +308,7 @@ TEST_CASE("light goes both ways alike: f(o, i) is a photon's f(i, o), of glass b
         Bsdf back = bsdf;
         const bool through = i.z < 0;
         if (through) std::swap(back.ior_from, back.ior_to);
-        // Seen from beyond, that side is above.
+        // For light that goes through, the other side is above.
         const Vec3 flip(1, 1, through ? -1 : 1);
         const Vec3 there = above(ViewedBsdf(bsdf, o), i).value / std::abs(i.z);
         const Vec3 again = above(ViewedBsdf(back, flip * i).adjoint(), flip * o).value / o.z;
@@ -327,16 +331,16 @@ TEST_CASE(
   const Vec3 mirrored = glm::reflect(-o, bsdf.coat_normal);
   REQUIRE(mirrored.z > 0);
   CHECK(viewed.at(mirrored, true).value.x > 1);
-  const Vec3 low = glm::normalize(Vec3(1, 0, -0.1));  // above the coat
+  const Vec3 low = glm::normalize(Vec3(1, 0, -0.1));  // above the coat, but below the body
   CHECK(viewed.at(low, true).value.x > 0);
   CHECK(viewed.at(low, false).value.x == 0);
   CHECK(viewed.faces(low, true));
   CHECK(viewed.faces(low, false));
-  const Vec3 behind = glm::normalize(Vec3(-1, 0, 0.1));  // the coat, and before the body
+  const Vec3 behind = glm::normalize(Vec3(-1, 0, 0.1));  // behind the coat, but in front of the body
   CHECK(viewed.at(behind, true).value.x > 0);
   CHECK(viewed.at(behind, false).value.x == 0);
   CHECK_FALSE(viewed.faces(behind, false));
-  // Towards the light, a photon's value is by the other cosines.
+  // The adjoint, which photons use, takes the cosines of the other direction.
   const double here = viewed.adjoint().at(mirrored, true).value.x - viewed.at(mirrored, true).value.x;
   CHECK(here != 0);
 }

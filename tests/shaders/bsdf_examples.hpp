@@ -1,4 +1,4 @@
-// BSDFs that tests of lobes go through, in the reference's form and in the shaders'.
+// The BSDFs for tests of lobes, in the reference's form and in the shaders'.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +36,7 @@ inline Bsdf pane(double color, double roughness) {
   const optics::Fresnel surface = optics::schlick(Vec3(0.08), Vec3(1));
   return {.layer = surface, .roughness = roughness, .thin = Vec3(color)};
 }
-// Half glass, half a body under a surface, the whole coated.
+// Half glass and half a body under a surface, with a coat over both.
 inline Bsdf opal(double roughness) {
   Bsdf bsdf = plastic(0.3, roughness, 0.5);
   bsdf.coat_roughness = 0.4;
@@ -74,7 +74,7 @@ inline std::vector<Named> examples(double roughness) {
           {"opal", opal(roughness)}};
 }
 
-// The shaders' record of it, towards o.
+// The shaders' record of the BSDF, seen from o.
 inline shader::Bsdf packed(const Bsdf& bsdf, const glm::vec3& o) {
   const auto fresnel = [](const optics::Fresnel& from) {
     return shader::Fresnel{glm::vec3(from.f0), glm::vec3(from.f90), glm::vec3(from.mean), from.conductor};

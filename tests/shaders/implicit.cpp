@@ -1,4 +1,4 @@
-// Results of the march along a formula for callers that count crossings.
+// Tests the march along a formula, as callers that count crossings use it.
 #include "host/twin/shader_functions.hpp"
 
 #include "tests/support/doctest.hpp"

@@ -50,7 +50,7 @@ TEST_CASE("quotient is the quotient of integers, for numerators below 2^24") {
   for (int i = 0; i < trials; ++i) {
     const auto b = uint32_t(1 + random.below(1 << int(1 + random.below(23))));
     const auto many = uint32_t(random.below((1 << 24) / b + 1));
-    // A multiple, its neighbours, and anything.
+    // A multiple of b, the multiple's neighbours, and a random number.
     for (const uint32_t a : {many * b, many * b + 1, many * b - 1, uint32_t(random.below(1 << 24))})
       if (a < 1u << 24) wrong += shader::quotient(a, b) != a / b;
   }

@@ -1,4 +1,4 @@
-// Lengths of rays in a medium that has an extent: the shaders' and the reference's beside numerical
+// Lengths of rays in a medium that has an extent: compares the shaders' and the reference's with numerical
 // integrals.
 #include "host/reference/medium_extent.hpp"
 
@@ -29,7 +29,7 @@ shader::Frame frame_of(const MediumExtent& extent) {
   return frame;
 }
 
-// Each side of the box and the scale height is there or not.
+// A random extent: each side of the box and the scale height may be missing.
 MediumExtent any_extent(Random& random) {
   MediumExtent extent;
   for (int axis = 0; axis < 3; ++axis) {
@@ -43,7 +43,8 @@ MediumExtent any_extent(Random& random) {
   return extent;
 }
 
-// Rounded to float32, which the shaders take; every fifth along an axis or across one.
+// A random ray of float32 numbers, as the shaders take it; every fifth goes along an axis or perpendicular to
+// one.
 Ray any_ray(Random& random) {
   const Vec3 o = random.point(10);
   Vec3 d = random.direction();
@@ -77,7 +78,7 @@ TEST_CASE("the length of a ray in a medium is the integral of its density") {
       CHECK(by_shader(extent, ray, t) > 1e8);
       continue;
     }
-    // A grazed corner is as long as rounding makes it; heights are rounded by 1e-6 of a coordinate.
+    // The length in a grazed corner depends on rounding; heights are rounded by 1e-6 of a coordinate.
     const double lowest = ray.o.y + std::min(0.0, t * ray.d.y);
     const double densest = std::exp((extent.base - lowest) / extent.scale_height);
     const double rounding = 1e-17 + 1e-5 * (densest + expected * (1 + 1 / extent.scale_height));
@@ -103,7 +104,7 @@ TEST_CASE("a path flies as far as it draws: each length's distance has that leng
         double(shader::extent_distance(frame_of(extent), glm::vec3(ray.o), glm::vec3(ray.d), float(length)));
     CAPTURE(t);
     CAPTURE(found);
-    // Rounding of t alone moves the length by its density there.
+    // Rounding of t alone changes the length in proportion to the density at t.
     const double density = std::exp((extent.base - ray.o.y - t * ray.d.y) / extent.scale_height);
     CHECK(std::abs(reference::medium_length(extent, ray, t) - length) <
           1e-9 * length + 1e-14 * density * (1 + t));
@@ -136,7 +137,7 @@ TEST_CASE("rays to infinity: finite where the medium ends or thins out, else not
   both(fog, {0, 3, 0}, slanted, 2 * std::exp(-1) / slanted.y);
   both(fog, {0, 3, 0}, across, infinity);
   both(fog, {0, 3, 0}, down, infinity);
-  // Hundreds of scale heights above, and below.
+  // Points hundreds of scale heights above, and below.
   both(fog, {0, 1000, 0}, up, 0);
   both(fog, {0, 1000, 0}, across, 0);
   both(fog, {0, 1000, 0}, down, infinity);
@@ -156,7 +157,7 @@ TEST_CASE("rays to infinity: finite where the medium ends or thins out, else not
   both(box, {0, 3, 0}, across, 4);
   both(box, {-9, 3, 0}, across, 5);
   both(box, {-9, 3, 0}, down, 0);
-  // Along a side, on one.
+  // A ray beside the box, parallel to a side, and rays that start on a side.
   both(box, {-9, 9, 0}, across, 0);
   both(box, {0, 5, 0}, up, 0);
   both(box, {0, 5, 0}, down, 7);

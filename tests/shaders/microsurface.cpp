@@ -1,5 +1,5 @@
-// Very rough glass and metal, beside random walks on the microsurface: Heitz, Hanika, d'Eon and Dachsbacher,
-// "Multiple-Scattering Microfacet BSDFs with the Smith Model" (SIGGRAPH 2016).
+// Compares very rough glass and metal with random walks on the microsurface: Heitz, Hanika, d'Eon and
+// Dachsbacher, "Multiple-Scattering Microfacet BSDFs with the Smith Model" (SIGGRAPH 2016).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,7 +25,7 @@ class Microsurface {
  public:
   Microsurface(double roughness, double ior) : width_(roughness * roughness), ior_(ior) {}
 
-  // The direction in which light leaves that came from direction o, o.z > 0.
+  // Light comes from direction o, o.z > 0. Returns the direction in which it leaves.
   Vec3 walk(const Vec3& o, Random& random) const {
     Vec3 d = -o;
     double height = 1;
@@ -53,7 +53,7 @@ class Microsurface {
     const double slope = width_ * width_ * (1 / (d.z * d.z) - 1);
     return (std::copysign(std::sqrt(1 + slope), d.z) - 1) / 2;
   }
-  // The height at which a ray from that height next hits the microsurface; infinite above it.
+  // The height at which a ray from `height` next hits the microsurface; infinite if it leaves upwards.
   double next_height(const Vec3& d, double height, Random& random) const {
     const double u = random.uniform();
     const double below = std::min((height + 1) / 2, 1.0);
@@ -64,7 +64,8 @@ class Microsurface {
     if (d.z > 0 && u > 1 - std::pow(below, exponent)) return infinity;
     return 2 * below / std::pow(1 - u, 1 / exponent) - 1;
   }
-  // By spherical caps (Dupuy and Benyoub, HPG 2023), which hold for o below the horizon too.
+  // Samples a visible normal by spherical caps (Dupuy and Benyoub, HPG 2023), which hold for o below the
+  // horizon too.
   Vec3 visible_normal(const Vec3& o, Random& random) const {
     const Vec3 v = glm::normalize(Vec3(width_ * o.x, width_ * o.y, o.z));
     const double turn = 2 * M_PI * random.uniform();
@@ -73,7 +74,7 @@ class Microsurface {
     const Vec3 h = Vec3(radius * std::cos(turn), radius * std::sin(turn), z) + v;
     return glm::normalize(Vec3(width_ * h.x, width_ * h.y, h.z));
   }
-  // Fresnel's, for light that is refracted by sine · eta.
+  // Fresnel's reflectance; refraction multiplies the sine by eta.
   static double reflectance(double cosine, double eta) {
     const double squared = 1 - eta * eta * (1 - cosine * cosine);
     if (squared <= 0) return 1;
@@ -90,7 +91,7 @@ int walks() {
   return amount(1 << 18, 1 << 18, 1 << 22);
 }
 
-// The share of light that is mirrored towards o, of light from everywhere: by walks, and of the BSDF.
+// The share of light from everywhere that is mirrored towards o: by random walks, and by the BSDF.
 struct Mirrored {
   double walked, found;
 };
@@ -112,14 +113,15 @@ Mirrored mirrored(double roughness, double cosine) {
   return {sums.walked / walks(), sums.found / walks()};
 }
 
-// Cells of equal projected solid angle: 4 by the angle from the normal, 4 by that from the plane of o.
+// Cells of equal projected solid angle: 4 by the angle from the normal, times 4 by the angle from the plane
+// of o.
 using Cells = std::array<double, 16>;
 size_t cell_of(const Vec3& o, const Vec3& d) {
   const double turn = std::abs(std::atan2(o.x * d.y - o.y * d.x, o.x * d.x + o.y * d.y)) / M_PI;
   return size_t(std::min(3.0, 4 * d.z * d.z)) * 4 + size_t(std::min(3.0, 4 * turn));
 }
 
-// The share of a white metal's light that it sends elsewhere than walks go.
+// The share of light that a white metal's BSDF scatters into other cells than random walks do.
 double sent_elsewhere(double roughness, double cosine) {
   const Vec3 o = towards(cosine);
   const Microsurface surface(roughness, 0);
@@ -142,7 +144,7 @@ double sent_elsewhere(double roughness, double cosine) {
 
 }  // namespace
 
-// docs/rendering.md has these figures.
+// docs/rendering.md states these figures.
 TEST_CASE(
     "glass of high roughness mirrors as much as the documents say, beside random walks on the microsurface") {
   struct Expected {

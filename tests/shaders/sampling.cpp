@@ -1,4 +1,4 @@
-// Random numbers of samples, and points on emitters: the shaders' beside the reference's.
+// Random numbers of samples, and points on emitters: compares the shaders' with the reference's.
 #include <set>
 
 #include "host/pack/emitter_records.hpp"
@@ -75,7 +75,7 @@ TEST_CASE("two pairs, and the two numbers of one, do not depend on each other") 
   for (const auto& [first, second] : {std::pair(4u, 5u), std::pair(5u, 9u), std::pair(6u, 7u)}) {
     double sums[3] = {};
     for (int i = 0; i < count; ++i) {
-      // One sample each of many pixels, so that no stratification helps.
+      // One sample each of many pixels, so that no stratification hides a correlation.
       const auto a = shader::sobol_pair(seeded(3), uint32_t(i), uint32_t(i % 7), first);
       const auto b = shader::sobol_pair(seeded(3), uint32_t(i), uint32_t(i % 7), second);
       sums[0] += (double(a.x) - 0.5) * (double(b.x) - 0.5);
@@ -96,7 +96,7 @@ TEST_CASE("places on emitters and their densities are those of the reference") {
     map[0] = {b, 0};
     map[2] = {c, 0};
     map[3] = {a, 1};
-    // Not too flat, or float32 has few digits left of the way back.
+    // The map is not too flat, so that its inverse keeps enough digits in float32.
     Mat4 solid(1.0);
     for (int axis = 0; axis < 3; ++axis) solid[axis] = Vec4(anywhere(random, 0.2), 0);
     for (int axis = 0; axis < 3; ++axis) solid[axis][axis] += random.uniform(0.5, 1);
@@ -131,7 +131,7 @@ TEST_CASE("places on emitters and their densities are those of the reference") {
     }
   }
   MESSAGE("places are up to " << apart << " apart, densities to " << denser << " of themselves");
-  // At a sphere's rim points run like a square root.
+  // At a sphere's rim, points move like a square root.
   CHECK(apart < 1e-4);
   CHECK(denser < 4e-6);
 }
@@ -167,7 +167,7 @@ TEST_CASE("light from all around, its density and places in it are those of the 
       const reference::EnvironmentSample theirs = reference::sample_environment(*map, Vec2(u));
       apart = std::max(apart, glm::length(Vec3(ours.direction) - theirs.d));
       denser = std::max(denser, std::abs(double(ours.density) / theirs.density - 1));
-      // The density of a direction is that of its choice, but on the border of two cells.
+      // The density of a direction is that with which it was chosen, except on the border of two cells.
       const auto differs = [](double a, double b) { return std::abs(a / b - 1) > 1e-5; };
       elsewhere +=
           differs(double(shader::environment_density(frame, ours.direction)), double(ours.density)) ||
@@ -193,7 +193,7 @@ TEST_CASE("light from all around, its density and places in it are those of the 
 
 namespace {
 
-// Points of pixel filters, from the middle, in widths, by the shaders.
+// Points of pixel filters by the shaders, relative to the filter's middle and in units of its width.
 std::vector<Vec2> filtered_places(PixelFilter filter, uint32_t count) {
   shader::Frame frame = seeded(3);
   frame.pixel_filter = uint32_t(filter);
@@ -238,8 +238,8 @@ TEST_CASE("a pixel's filter: shaders and reference take a sample to the same pla
       mean += apart / count;
     }
     CHECK(mean < 1e-6);
-    CHECK(worst < 1e-3);  // far out, where the filter is next to nothing
-    // The middle stays, and a point drawn on one side of it stays on that side.
+    CHECK(worst < 1e-3);  // at the filter's edge, where it is nearly 0
+    // The middle stays the middle, and a point drawn on one side of it stays on that side.
     CHECK(Vec2(shader::filtered(frame, {0.5f, 0.5f})) == Vec2(0.5));
     CHECK(shader::filtered(frame, {0.25f, 0.5f}).x < 0.5f);
     CHECK(shader::filtered(frame, {0.5f, 0.75f}).y > 0.5f);

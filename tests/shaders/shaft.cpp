@@ -1,4 +1,4 @@
-// kernels/cooperative/shaft.glsl: a shaft around rays hits every box that one of them hits.
+// kernels/cooperative/shaft.glsl: a shaft around rays hits every box that one of the rays hits.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ bool meets(const shader::Ray& ray, double t_max, const Box& box) {
   return near <= far;
 }
 
-// Rays from about one point in about one direction, all along one axis; how far apart they are varies.
+// Rays from about one point in about one direction, with one major axis; their spread is random.
 std::vector<shader::Ray> bundle(Random& random, double scale) {
   const Vec3 start = random.point(2 * scale);
   const Vec3 direction = random.direction();
@@ -50,7 +50,7 @@ std::vector<shader::Ray> bundle(Random& random, double scale) {
   return rays;
 }
 
-// Around the rays up to t_max, as kernels/cooperative/packet.glsl makes it.
+// The shaft around the rays up to t_max, as kernels/cooperative/packet.glsl makes it.
 shader::Shaft around(const std::vector<shader::Ray>& rays, float t_max, float reach) {
   const uint32_t major = rays[0].major;
   const float forward = std::signbit(rays[0].d[int(major)]) ? -1.0f : 1.0f;
@@ -89,7 +89,7 @@ TEST_CASE("a shaft around 32 rays hits every box that one of them hits, and not 
     const auto t_max = float(random.log_uniform(0.1, 10) * scale);
     const shader::Shaft shaft = around(rays, t_max, float(16 * scale));
     for (int i = 0; i < 20; ++i) {
-      // About a point of a ray or beside it, flat now and then.
+      // A box around a point on a ray or beside the ray, sometimes flat.
       const shader::Ray& ray = rays[random.below(32)];
       const double size = random.log_uniform(1e-5, 1) * scale;
       const Vec3 middle =

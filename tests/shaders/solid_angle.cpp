@@ -21,14 +21,15 @@ shader::Emitter record_of(const EmitterForm& form) {
   return packer.scene.emitters[0];
 }
 
-// Van Oosterom, Strackee: The Solid Angle of a Plane Triangle, 1983; corners from where the point is.
+// The solid angle of a triangle by van Oosterom, Strackee: The Solid Angle of a Plane Triangle, 1983. Corners
+// are relative to the point.
 double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
   const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
   return 2 * std::atan2(std::abs(glm::dot(a, glm::cross(b - a, c - a))),
                         la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
 }
 
-// The solid angle of a rectangle in the plane z, seen from the origin: a sum over its corners.
+// The solid angle of a rectangle in the plane at z, seen from the origin: a sum over its corners.
 double solid_angle_of_rectangle(const Vec2& low, const Vec2& high, double z) {
   const auto corner = [&](double x, double y) {
     return std::atan(x * y / (z * std::sqrt(x * x + y * y + z * z)));
@@ -62,7 +63,7 @@ CutEmitter cut(const ParallelogramForm& it, const Vec3& from) {
   return emitter;
 }
 
-// By lines through the first corner and lines along the opposite edge.
+// Cuts a triangle by lines through the first corner and lines along the opposite edge.
 CutEmitter cut(const TriangleForm& it, const Vec3& from) {
   CutEmitter emitter{it,
                      [](const Vec2& weights) {
@@ -95,7 +96,7 @@ double excess(const CutEmitter& emitter, const std::function<Vec2(const shader::
         uv_of({float(random.below(1 << 24)) * 0x1p-24f, float(random.below(1 << 24)) * 0x1p-24f}))];
   double all = 0, chi_squared = 0, degrees = -1;
   for (const double one : emitter.solid_angles) all += one;
-  // Cells that few points fall on count as one.
+  // Cells with few expected points count as one.
   double few_expected = 0, few_found = 0;
   const auto add = [&](double expected, double places) {
     chi_squared += (places - expected) * (places - expected) / expected;
@@ -162,7 +163,7 @@ TEST_CASE("their density is 1 / solid angle, by closed forms") {
   int by_angle = 0;
   for (int i = 0; i < 20'000; ++i) {
     const Vec3 from(shader::vec3(anywhere(2)));
-    // In a plane across z, where a rectangle's solid angle has its own formula.
+    // A rectangle in a plane perpendicular to z, where its solid angle has a closed form.
     const Vec2 low(random.uniform(-2, 2), random.uniform(-2, 2)),
         size(random.uniform(0.1, 3), random.uniform(0.1, 3));
     const double z = random.uniform(-2, 2);
@@ -176,7 +177,7 @@ TEST_CASE("their density is 1 / solid angle, by closed forms") {
         {ParallelogramForm{a, b, c}, solid_angle(a - from, a + b - from, a + b + c - from) +
                                          solid_angle(a - from, a + b + c - from, a + c - from)}};
     for (const auto& [form, omega] : forms) {
-      // Edge-on it is as dense as its numbers are rounded.
+      // Seen edge-on, the density depends on rounding.
       if (!(omega > 0.011 && omega < 6)) continue;
       ++by_angle;
       const Vec3 nowhere(1e3, 1e3, 1e3);

@@ -27,8 +27,8 @@ shader::Primitive make_sphere(const Vec3& centre, double radius) {
   return sphere;
 }
 
-// The distance of the ray's line from the centre over the radius, and the nearest t > 0, of the float32
-// inputs in float64.
+// The distance of the ray's line from the centre, divided by the radius, and the nearest t > 0: in float64,
+// from the float32 inputs.
 struct Exact {
   double ray_offset;
   double t;
@@ -70,7 +70,7 @@ TEST_CASE("rays at a unit sphere: no wrong answer but at the very rim, whatever 
         const float t = shader::sphere_intersect(sphere, ray, uv);
         const bool hit = t > 0;
         if (hit != (exact.ray_offset < 1 && exact.t > 0)) {
-          // The line passes at this share of the radius from the rim: how far float32 can see it there.
+          // If the line passes this close to the rim, in radii, float32 cannot decide.
           (std::fabs(exact.ray_offset - 1) < 4e-7 * distance ? rim : wrong) += 1;
           continue;
         }

@@ -24,7 +24,7 @@ using Texel = std::array<uint8_t, 4>;
 constexpr Filter filters[] = {Filter::bilinear, Filter::nearest};
 constexpr Wrap wraps[] = {Wrap::repeat, Wrap::mirror, Wrap::clamp};
 
-// Linear codes, so that expected values can be written down.
+// An image of linear codes, so that expected values can be written down.
 std::shared_ptr<ImageTexture> linear_image(int width, int height, std::vector<Texel> texels, Filter filter,
                                            Wrap wrap) {
   const auto image = std::make_shared<ImageTexture>();
@@ -37,7 +37,7 @@ std::shared_ptr<ImageTexture> linear_image(int width, int height, std::vector<Te
   return image;
 }
 
-// The colour of `texture` by the shader.
+// The colour that the shader computes for `texture` at uv.
 Vec3 shaded(const TexturePtr& texture, const Vec2& uv) {
   Packer packer(Vec3(0));
   const uint32_t index = texture->pack(packer);
@@ -77,14 +77,14 @@ TEST_CASE("(0, 0) is the lower left corner, (1, 1) the upper right, and the file
 }
 
 TEST_CASE("a row of texels goes on beyond its edges as `wrap` says, and bilinear mixes row_image the seam") {
-  // Codes that are 0, 1/5 … 1, once in a row and once in a column, there from bottom to top.
+  // Codes 0, 1/5 … 1, once in a row, and once in a column from bottom to top.
   std::vector<Texel> row, column;
   for (int i = 0; i < 6; ++i) {
     const auto code = uint8_t(51 * i);
     row.push_back({code, code, code, 255});
     column.insert(column.begin(), row.back());
   }
-  // By hand: the texel shown at i = −7 … 12, in fifths.
+  // The expected texel at i = −7 … 12, in fifths, worked out by hand.
   constexpr int from = -7;
   constexpr std::array<int, 20> expected[] = {
       {5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5, 0},   // repeat
@@ -202,7 +202,7 @@ TEST_CASE("200 000 points of random images: the shader agrees with the formulas 
 }
 
 TEST_CASE("no uv whatever leaves the image") {
-  // Between two images that are red, one without red: any red is a texel of theirs.
+  // A scene of three images, the middle one without red: any red comes from a texel of its neighbours.
   constexpr float inf = std::numeric_limits<float>::infinity();
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   Random random(4);

@@ -29,7 +29,7 @@ struct ClosedMesh {
   std::vector<std::array<int, 3>> faces;
 };
 
-// An icosahedron, each face split in four, on a sphere; stretched along y.
+// A sphere made from an icosahedron with each face split in four, stretched along y.
 ClosedMesh closed_mesh(const Vec3& centre, double radius, double stretch) {
   const double g = (1 + std::sqrt(5.0)) / 2;
   std::vector<Vec3> v = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
@@ -171,8 +171,8 @@ TEST_CASE("both methods find t and the weights of random triangles to float32") 
 }
 
 TEST_CASE("a ray along an edge of a sliver hits the sliver, or nothing, by both methods") {
-  // Seen along the ray, which lies in its plane, all its y are 0: by Moeller and Trumbore's weights, rounded,
-  // it is hit.
+  // The ray lies in the triangle's plane: seen along the ray, all corners have y = 0. Moeller and Trumbore's
+  // rounded weights report a hit.
   shader::Primitive sliver{};
   sliver.extra = NONE;
   sliver.a = {0.836856663F, -1.32419038F, 0.496149808F, -0.328005642F};
@@ -200,7 +200,7 @@ TEST_CASE("2 million rays that leave a triangle, size 1e-4 to 1e4: none hits it 
       for (int i = 0; i < 2'000'000 / chunks; ++i) {
         const double size = random.log_uniform(1e-4, 1e4);
         const Vec3 centre = random.point(10 * size);
-        // One in three is flat on the floor, where only the height's rounding may matter.
+        // One in three lies flat on the floor, where only the rounding of the height may matter.
         const Vec3 reach = size * (random.below(3) == 0 ? Vec3(1, 0, 1) : Vec3(1));
         const auto vertex = [&] { return glm::vec3(centre + random.point(1) * reach); };
         const shader::Primitive triangle = make_triangle(vertex(), vertex(), vertex());

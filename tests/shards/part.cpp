@@ -32,13 +32,12 @@ PartHeader header_of_shard(const render::Shard& shard) {
   return header;
 }
 
-// A value for each channel of each pixel of each plane.
+// A value that differs for each channel of each pixel of each plane.
 float value_at(size_t plane, int x, int y, int channel) {
   return float(plane) * 1000 + float(x) + float(y) / 64 + float(channel) / 8192;
 }
 
-// Writes a part as a render does: the picture as a stack, and the AOVs, which stand for those of first hits,
-// as tiles.
+// Writes a part as a render does: the picture as a stack, and the AOVs as tiles, like those of first hits.
 std::string write_part(const TemporaryFolder& folder, const PartHeader& header) {
   const render::ShardTiles tiles(header.area, header.shard);
   const std::string file = folder / fmt::format("{}-{}.eyeray", header.shard.index + 1, header.shard.count);
@@ -157,7 +156,7 @@ TEST_CASE("sound bytes in a wrong place are found") {
   const std::string sound = read_text(file);
   REQUIRE(other.size() == sound.size());
 
-  // All planes of another picture.
+  // A part with all the planes of another picture.
   const size_t planes = part_prefix_bytes + to_text(header).size() + 4;
   const render::ShardTiles tiles(area, header.shard);
   size_t pixels_and_sums = 0;
@@ -168,7 +167,7 @@ TEST_CASE("sound bytes in a wrong place are found") {
   write_text(file, mixed);
   CHECK(reason_for(file) == "it is damaged: its checksum is wrong");
 
-  // The first two tiles of the picture, each as the other.
+  // The first two tiles of the picture, exchanged.
   REQUIRE(tiles.tiles()[0].pixels() == tiles.tiles()[1].pixels());
   const auto tile = size_t(tiles.tiles()[0].pixels()) * 3 * 4 + 4;
   mixed = sound;
@@ -176,7 +175,7 @@ TEST_CASE("sound bytes in a wrong place are found") {
   write_text(file, mixed);
   CHECK(reason_for(file) == "it is damaged: its checksum is wrong");
 
-  // The picture's plane for that of the normals, of as many channels.
+  // The picture's plane in place of the normals' plane, which has as many channels.
   const auto plane = size_t(tiles.pixels()) * 3 * 4 + tiles.tiles().size() * 4;
   mixed = sound;
   mixed.replace(planes, plane, sound, planes + pixels_and_sums - plane, plane);

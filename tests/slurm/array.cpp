@@ -17,7 +17,7 @@ namespace {
 using Words = std::vector<std::string>;
 using Json = nlohmann::json;
 
-// One for all cases: it takes seconds to start.
+// One cluster for all cases, because it takes seconds to start.
 Cluster& cluster() {
   static Cluster one;
   return one;
@@ -33,7 +33,7 @@ bool happens(const Condition& condition) {
   return true;
 }
 
-// A scene, and how Slurm is to render it.
+// A scene, and the options with which Slurm renders it.
 class ArrayOf {
  public:
   explicit ArrayOf(Words options, const std::string& folder = "work") : options_(std::move(options)) {
@@ -49,14 +49,14 @@ class ArrayOf {
     for (const Words& words : {options_, more}) command.insert(command.end(), words.begin(), words.end());
     return run_eyeray(command, environment);
   }
-  // Its report on the picture.
+  // The command's report on the picture, as JSON.
   Json said(const Words& more = {}, const Environment& environment = {}) const {
     const ProcessResult result = run(more, environment);
     CAPTURE(result.err);
     REQUIRE(result.code == 0);
     return Json::parse(result.out).at("pictures").at(0);
   }
-  // Until none of its jobs is in the queue.
+  // Waits until no job of the array is in the queue.
   Json ended() const {
     Json last;
     CHECK(happens([&] { return (last = said({"--no-submit"})).at("queue").empty(); }));
@@ -64,7 +64,7 @@ class ArrayOf {
   }
   bool is_whole() const {
     Words render{"render", folder_.scene(), "--quiet", "-o", folder_ / "whole.pfm"};
-    render.insert(render.end(), options_.begin(), options_.end() - 2);  // but its -o
+    render.insert(render.end(), options_.begin(), options_.end() - 2);  // without the options' -o
     REQUIRE(run_eyeray(render).code == 0);
     return read_text(folder_ / "whole.pfm") == read_text(options_.back());
   }
@@ -77,7 +77,7 @@ class ArrayOf {
   Words options_;
 };
 
-// A picture that is rendered at once, and one that takes long enough to be hit.
+// A picture that is rendered at once, and one that takes long enough to be interrupted.
 const Words quick{"--backend", "twin"};
 const Words slow{"--backend", "twin", "-s", "240x160", "--spp", "64", "-D", "image.pattern=jittered"};
 
@@ -124,7 +124,7 @@ TEST_CASE("cancelled and requeued, an array goes on by the same command" * docte
 TEST_CASE("near its limit on time a share waits in the queue again" * doctest::test_suite("long")) {
   ArrayOf array({"--backend", "twin", "-s", "640x480", "--spp", "65536"});
   array.add(array.merged());
-  // A warning 60 s before the end of a minute comes at once.
+  // With a time limit of one minute, a warning 60 s before the end comes at once.
   const Json first = array.said({"--", "--time=1"});
   CHECK(happens([&] {
     const auto jobs =

@@ -1,5 +1,5 @@
-// A cluster of one node on this machine: its own munged, slurmctld and slurmd, all of it in a temporary
-// folder and on ports that nobody has.
+// A cluster of one node on this machine, with separate munged, slurmctld and slurmd, all in a temporary
+// folder and on free ports.
 #pragma once
 
 #include <fmt/format.h>
@@ -76,7 +76,7 @@ PartitionName=main Nodes={0} Default=YES State=UP
     }
   }
 
-  // For whoever is to see it.
+  // The environment of programs that use this cluster.
   Environment environment() const { return {{"SLURM_CONF", conf()}}; }
   ProcessResult ask(const std::vector<std::string>& words) const {
     return run_process(words, environment(), 120);
@@ -92,7 +92,7 @@ PartitionName=main Nodes={0} Default=YES State=UP
     return text.substr(0, text.find('.'));
   }
 
-  // One that was free a moment ago.
+  // A port that was free a moment ago.
   static int free_port() {
     const int socket_of_any = ::socket(AF_INET, SOCK_STREAM, 0);
     sockaddr_in address{};

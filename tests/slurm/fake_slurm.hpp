@@ -1,5 +1,5 @@
-// Programs that give the answers of a test. Real ones take minutes for these, or give them only if something
-// breaks.
+// Programs that give the answers that a test chooses. Real programs take minutes for such answers, or give
+// them only if something breaks.
 #pragma once
 
 #include <cstdlib>
@@ -8,7 +8,7 @@
 
 namespace eyeray::engine::test {
 
-// Shell scripts that are first in this process's PATH as long as this lives; $folder has their files.
+// Shell scripts that are first in this process's PATH as long as the object lives; $folder has their files.
 class FakePrograms {
  public:
   FakePrograms() { ::setenv("PATH", (folder_.path().string() + ":" + path_).c_str(), 1); }

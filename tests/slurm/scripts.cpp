@@ -20,7 +20,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// Jobs of a picture of two shares in a folder, without Slurm.
+// The jobs of a picture in two shares, run in a folder without Slurm.
 struct Jobs {
   SceneFolder folder;
   Array array;
@@ -40,7 +40,7 @@ struct Jobs {
     write_text(file("merge.sh"), merge_script(array));
   }
   std::unique_ptr<Process> start(int number) const {
-    // By one processor, so that it takes long enough to be ended on any machine.
+    // The job has one processor, so that it takes long enough to be interrupted on any machine.
     cpu_set_t set;
     REQUIRE(sched_getaffinity(0, sizeof set, &set) == 0);
     int first = 0;
@@ -119,7 +119,7 @@ TEST_CASE("a share that is ended, killed and begun again goes on, and leaves not
   for (const auto& entry : std::filesystem::directory_iterator(jobs.array.folder))
     names.insert(entry.path().filename());
   CHECK(names == std::set<std::string>{"1-of-2.eyeray", "2-of-2.eyeray", "share.sh", "merge.sh"});
-  // Begun once more, one that is done does nothing.
+  // A finished job that is started once more does nothing.
   const auto written = std::filesystem::last_write_time(jobs.file("1-of-2.eyeray"));
   CHECK(jobs.run(1) == 0);
   CHECK(std::filesystem::last_write_time(jobs.file("1-of-2.eyeray")) == written);
@@ -134,7 +134,7 @@ TEST_CASE("a share that is ended, killed and begun again goes on, and leaves not
 
 TEST_CASE("a job's program gets the words that were given, from any folder, whatever they hold") {
   for (const std::string& text : nasty_strings) {
-    if (text.find('\0') != std::string::npos) continue;  // no word holds it
+    if (text.find('\0') != std::string::npos) continue;  // no argument can contain it
     CAPTURE(text);
     const TemporaryFolder folder;
     Array array;

@@ -1,4 +1,4 @@
-// Tests of the submitted jobs, for all states of Slurm and of the folder.
+// Tests of the jobs that are submitted, for all states of Slurm and of the folder.
 #include <fmt/format.h>
 
 #include "fake_slurm.hpp"
@@ -14,7 +14,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// A picture in shares under a fake Slurm, whose answers a case chooses.
+// A picture in shares under a fake Slurm, whose answers each test case chooses.
 struct Farm {
   FakeSlurm slurm;
   SceneFolder folder;
@@ -31,7 +31,7 @@ struct Farm {
   }
 
   std::string file(const std::string& name) const { return array.folder / name; }
-  // Starts anew, as each command does: it knows only the folder's contents.
+  // The state as a new command finds it, which knows only the folder's contents.
   ArrayState state() const {
     Array now = array;
     prepare(now);
@@ -48,7 +48,7 @@ struct Farm {
     CAPTURE(result.err);
     REQUIRE(result.code == 0);
   }
-  // The sentence that it ends with.
+  // The message of the error with which the command ends.
   std::string failure(ExitCode code) const {
     try {
       submit();
@@ -101,7 +101,7 @@ TEST_CASE("only missing shares are submitted, and the merge behind them, until a
   REQUIRE(run_process({"sh", farm.file("merge.sh")}, {}, 600).code == 0);
   CHECK(farm.state().done);
 
-  // A part that is damaged is rendered again, and then they are merged again.
+  // A damaged part is rendered again, and then the parts are merged again.
   std::string part = read_text(farm.file("2-of-3.eyeray"));
   part[part.size() / 2] = char(part[part.size() / 2] ^ 1);
   write_text(farm.file("2-of-3.eyeray"), part);

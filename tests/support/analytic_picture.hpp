@@ -1,7 +1,6 @@
 // A picture known in closed form at every point, to try the comparisons on. It is an ideal reference
 // picture, with one discontinuity of each kind. All edges lie 0.00003 pixels beyond a row or column of pixel
-// centres, so that rays moved by 0.00005 pixels cross them: a small honest difference, as
-// float32 makes them.
+// centres, so that rays moved by 0.00005 pixels cross them: a small honest difference, like those of float32.
 #pragma once
 
 #include <cmath>
@@ -16,7 +15,7 @@ inline constexpr double beyond = 3e-5;
 // Pixels along each of the four edges.
 inline constexpr int edge_pixels = 8;
 
-// The hit of a ray along −z with a primitive that has the material of its number.
+// The hit of a ray along −z with primitive `number`, whose material has the same number.
 inline FirstHit hit_of(double t, const Vec3& position, const Vec3& normal, const Vec2& uv, int32_t number) {
   return {.t = t,
           .position = position,
@@ -29,8 +28,8 @@ inline FirstHit hit_of(double t, const Vec3& position, const Vec3& normal, const
 }
 
 // The picture at a point in pixels from its top left corner: a ball (primitive 1) before a wall (primitive
-// 0), an opening in the wall, a shadow and a checker's edge on it. A mirror (primitive 2) is there too, where
-// two colours touch.
+// 0), an opening in the wall, a shadow and a checker's edge on it. There is also a mirror (primitive 2),
+// which shows two adjacent colours.
 inline compare::Neighbour picture_at(double x, double y) {
   const auto between = [](double value, double low, double high) { return value >= low && value < high; };
   compare::Neighbour neighbour;
@@ -78,7 +77,7 @@ inline compare::Neighbour picture_reference(int x, int y, const Vec2& shift,
   return picture_at(x + 0.5 + shift.x, y + 0.5 + shift.y);
 }
 
-// The picture as an executor would give it, rays moved by `shift`.
+// The picture as an executor would return it, with rays moved by `shift`.
 inline compare::Frame picture_frame(const Vec2& shift = Vec2(0.0),
                                     const compare::Reference& picture = picture_reference) {
   compare::Frame frame;

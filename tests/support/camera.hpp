@@ -5,7 +5,8 @@
 
 namespace eyeray::engine::test {
 
-// The camera in terms of a PerspectiveCamera or another form; std::bad_variant_access where it is no such.
+// The scene's camera as a PerspectiveCamera or another form; throws std::bad_variant_access if it has a
+// different form.
 template <typename Form>
 Form camera_as(const Scene& scene) {
   return std::get<Form>(scene.camera.projection->form());

@@ -1,4 +1,4 @@
-// Environments of which every texel is known.
+// Environments whose texels are all known.
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,8 @@
 
 namespace eyeray::engine::test {
 
-// radiance(d) of the direction of each texel's centre, where nothing is turned.
+// Each texel is radiance(d), where d is the direction of the texel's centre in an environment that is not
+// turned.
 template <typename Radiance>
 std::shared_ptr<EnvironmentMap> environment(int width, int height, const Radiance& radiance,
                                             double turn = 0) {

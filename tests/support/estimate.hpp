@@ -16,8 +16,8 @@ struct Estimate {
   double error;  // standard
 };
 
-// An estimate from the first channel, of which every pixel estimates the same value. Takes an eighth of the
-// samples if a test has time for few.
+// An estimate from the first channel, in which all pixels estimate the same value. Takes an eighth of the
+// samples under EYERAY_FEW_TESTS.
 inline Estimate estimate(const Scene& scene, executors::Backend backend,
                          const executors::ExecutorOptions& options = {}) {
   const auto executor = executors::make_executor(backend, scene, options);
@@ -36,7 +36,7 @@ inline Estimate estimate(const Scene& scene, executors::Backend backend,
   return {mean, std::sqrt(squares / double(pixels * (pixels - 1)))};
 }
 
-// The share of a mean that estimates' standard errors stay below.
+// The limit of an estimate's standard error, as a share of the mean.
 inline double greatest_error() {
   return 0.005 * amount(8, 1, 1);
 }

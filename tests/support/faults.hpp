@@ -8,8 +8,8 @@
 
 namespace eyeray::engine::test {
 
-// In a shader's file the text `from` becomes `to`. docs/gates.md describes the effect of each, and its
-// line in the report.
+// A fault replaces the text `from` by `to` in a shader's file. docs/gates.md describes the effect of each,
+// and its line in the report.
 struct Fault {
   std::string_view name;
   const char* file;
@@ -127,7 +127,7 @@ inline constexpr Fault faults[] = {
      "  PROBE(ior,"},
     {"light", "lights/light.glsl", "LIGHTS(SAMPLE_OF)",
      "LIGHTS(SAMPLE_OF)\n  s.color = vec3(0.0f, 0.0f, 0.0f);"},
-    // Along the line to the eye, which is the origin.
+    // A displacement along the line to the eye, which is the origin.
     {"near_light", "lights/point.glsl", "vec3 way = point_position(light) - p;",
      "vec3 way = 0.999f * point_position(light) - p;"},
     {"bit", "lights/point.glsl", "vec3 way = point_position(light) - p;",

@@ -1,5 +1,5 @@
-// Formulas at random with their results, computed here in float32 and 32 bits by the rules of
-// docs/formulas.md alone: nothing of eyeray's reads these texts.
+// Random formulas with their results, computed here in float32 and in 32 bits by the rules of
+// docs/formulas.md alone: no code of eyeray reads these texts for that.
 #pragma once
 
 #include <fmt/format.h>
@@ -51,7 +51,7 @@ class KnownFormula {
   struct Known {
     char type;  // f, i, u, b
     std::string text;
-    uint32_t bits;  // of a float; a whole number; 0 or 1
+    uint32_t bits;  // bits of a float; or a whole number; or 0 or 1
   };
 
   bool chance(int one_in) { return random_.below(one_in) == 0; }
@@ -219,7 +219,7 @@ class KnownFormula {
       case 3:
         return infix("/", y == 0 ? 0 : uint32_t(x / y));
       case 4: {
-        // With the sign of y.
+        // The remainder has the sign of y.
         const int64_t rest = y == 0 ? 0 : x % y;
         return infix("%", uint32_t(rest != 0 && (rest < 0) != (y < 0) ? rest + y : rest));
       }
@@ -249,7 +249,7 @@ class KnownFormula {
 
   Random random_;
   std::vector<Known> globals_, locals_;
-  const std::vector<Known>* known_ = nullptr;  // the locals, where they may be named
+  const std::vector<Known>* known_ = nullptr;  // the local variables, where they may be used
   std::string constants_, text_;
   bool is_float_ = false;
   uint32_t expected_ = 0;

@@ -44,7 +44,7 @@ inline Mesh globe(uint32_t columns, uint32_t rows) {
   Mesh mesh;
   for (uint32_t row = 0; row <= rows; ++row) {
     for (uint32_t column = 0; column <= columns; ++column) {
-      // The seam's two columns and the poles are the same points to the last bit: the mesh is closed.
+      // Vertices at the seam and at the poles coincide to the last bit, so the mesh is closed.
       const double longitude = 2 * std::numbers::pi * (column % columns) / columns;
       const double latitude = std::numbers::pi * row / rows;
       const double radius = row == 0 || row == rows ? 0 : std::sin(latitude);
@@ -88,7 +88,7 @@ inline Corners corners(const Mesh& mesh, size_t triangle) {
   return {mesh.positions[a], mesh.positions[b], mesh.positions[c]};
 }
 
-// Adds the mesh as [[triangle]] shapes would stand in a file.
+// Adds the mesh as separate triangles, like [[triangle]] tables in a file.
 inline void add_triangles(Scene& scene, const Mesh& mesh, int material, const Mat4& transform = Mat4(1.0)) {
   const auto three = [](const auto& values, const std::array<uint32_t, 3>& at) {
     return std::array{values[at[0]], values[at[1]], values[at[2]]};

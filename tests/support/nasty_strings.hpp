@@ -1,4 +1,4 @@
-// Forty texts that do harm where they are shown without being escaped: a file or its name may hold them.
+// Forty texts that do harm if they are shown unescaped; a file or its name may contain them.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ inline const std::vector<std::string> nasty_strings = {
     "##[##[",
     "a,title=b::c",
     "%0A::error::x",
-    // Control characters: of terminals, in Unicode's second block too, and within others.
+    // Control characters of terminals, also those of Unicode's second block, and within other text.
     "\x1b[2J",
     "\x1b]0;title\x07",
     "\x1b_Ga=T\x1b\\",
@@ -31,7 +31,7 @@ inline const std::vector<std::string> nasty_strings = {
     "a\r\nb",
     "a\vb\f",
     std::string("a\0b", 3),
-    // HTML, and JSON in it.
+    // HTML, and JSON in HTML.
     "<script>alert(1)</script>",
     "</script>",
     "<!--<script>",

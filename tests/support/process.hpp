@@ -21,8 +21,8 @@ inline std::string eyeray_binary() {
   return path ? path : "eyeray";
 }
 
-// Runs eyeray with `arguments`. The limit only ensures that it ends at all, however busy the machine
-// is.
+// Runs eyeray with `arguments`. The time limit only ensures that the program ends at all, however busy the
+// machine is.
 inline ProcessResult run_eyeray(std::vector<std::string> arguments, const Environment& environment = {},
                                 double timeout_seconds = 3600, int signal_after_ms = -1) {
   arguments.insert(arguments.begin(), eyeray_binary());
@@ -46,7 +46,7 @@ class TemporaryFolder {
 
   const std::filesystem::path& path() const { return path_; }
   std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-  // The names in it, sorted.
+  // The names of the files in the folder, sorted.
   std::set<std::string> names() const {
     std::set<std::string> result;
     for (const auto& entry : std::filesystem::directory_iterator(path_))
@@ -68,7 +68,8 @@ inline std::string read_text(const std::filesystem::path& path) {
   return text.str();
 }
 
-// Waits until a process is gone with all its threads, or a zombie that its parent has not reaped yet.
+// Waits until a process and all its threads have ended: it is gone, or a zombie that its parent has not
+// reaped yet.
 inline bool wait_until_ended(pid_t pid, double seconds = 600) {
   const Stopwatch watch;
   while (watch.seconds() < seconds) {

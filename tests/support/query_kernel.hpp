@@ -1,4 +1,4 @@
-// The query entry on a device, for one packed scene and one way to make its kernel; and the same rays on the
+// Runs the query entry on a device, for one packed scene and one specialisation, and the same rays on the
 // twin.
 #pragma once
 
@@ -20,8 +20,8 @@ namespace eyeray::engine::test {
 
 class QueryKernel {
  public:
-  // With a `collapsed`, by kernels/cooperative/bvh4.comp.glsl; else in packets or each ray alone, as the
-  // profile sets.
+  // With `collapsed`, kernels/cooperative/bvh4.comp.glsl traces the rays. Otherwise they are traced in
+  // packets or one by one, as the profile sets.
   QueryKernel(gpu::Device& device, const records::PackedScene& scene,
               const executors::Specialisation& specialisation, const pack::CollapsedBvh* collapsed = nullptr)
       : device_(device), scene_(scene), specialisation_(specialisation) {
@@ -38,7 +38,7 @@ class QueryKernel {
     }
   }
 
-  // True if rays are traced together, as the gpu executor would.
+  // True if rays are traced in packets, by the gpu executor's rule.
   bool traces_packets() const {
     return specialisation_.profile.packets && scene_.has_bvh && scene_.quantised_nodes &&
            scene_.instances.empty() && scene_.leaf_uses.empty();
@@ -85,7 +85,7 @@ class QueryKernel {
   std::string defines_;
   DiskCache cache_ = DiskCache::of_user();
   std::vector<std::pair<uint32_t, gpu::Buffer>> buffers_;
-  std::unique_ptr<gpu::Kernel> kernels_[2];  // by whether any hit will do
+  std::unique_ptr<gpu::Kernel> kernels_[2];  // index 1: for queries that any hit answers
 };
 
 inline std::vector<shader::QueryHit> query_twin(const records::PackedScene& scene,

@@ -1,5 +1,5 @@
-// Reproducible random numbers for property tests: a stream per seed, so that parallel parts do not depend on
-// each other.
+// Reproducible random numbers for property tests: each seed has a separate stream, so that parallel parts do
+// not depend on each other.
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,7 @@ class Random {
 
   // SplitMix64 (Steele, Lea, Flood 2014).
   uint64_t bits() { return hash(state_ += 0x9e3779b97f4a7c15u); }
-  // In [low, high).
+  // Uniform in [low, high).
   double uniform(double low = 0, double high = 1) {
     return low + (high - low) * double(bits() >> 11) * 0x1p-53;
   }

@@ -1,5 +1,4 @@
-// Formulas at random, over a grammar of their parts: arrays, indices, loops, calls, shadowing, odd
-// literals.
+// Random formulas from a grammar of their parts: arrays, indices, loops, calls, shadowing, odd literals.
 #pragma once
 
 #include <fmt/format.h>
@@ -13,8 +12,8 @@ namespace eyeray::engine::test {
 
 class RandomFormula {
  public:
-  // `tame`: with nothing that GLSL leaves undefined, and in the operations alone that any compiler computes
-  // to the same bits.
+  // `tame`: the formula has nothing that GLSL leaves undefined, and only operations that every compiler
+  // computes to the same bits.
   RandomFormula(uint64_t seed, bool tame) : random_(seed), tame_(tame) {}
 
   std::string text() {
@@ -33,7 +32,7 @@ class RandomFormula {
  private:
   struct Variable {
     std::string type, name;
-    int length;  // of an array; 0: none; -1: a constant
+    int length;  // length of an array; 0: not an array; -1: a constant
   };
   struct Function {
     std::string type, name;
@@ -72,7 +71,8 @@ class RandomFormula {
     return !tame_ && chance(6) ? pick(odd) : pick(plain);
   }
 
-  // A variable of the type, or an element or part of one; "" where there is none. `stored`: to be written to.
+  // A variable of the type, or an element or part of one; "" where there is none. `stored`: the variable can
+  // be written to.
   std::string place(const std::string& type, bool stored, int depth) {
     std::vector<std::string> found;
     for (size_t scope = 0; scope < scopes_.size(); ++scope) {
@@ -103,7 +103,8 @@ class RandomFormula {
         if (v.name == name) return true;
     return false;
   }
-  // A swizzle of `count` of a vector's letters; "" if distinct letters are wanted and the vector has too few.
+  // A swizzle of `count` letters for a vector of `of` components; "" if the letters must be distinct and the
+  // vector has too few.
   std::string swizzle(int of, int count, bool distinct) {
     if (distinct && count > of) return "";
     std::string letters = std::string("xyzw").substr(0, size_t(of)), result;

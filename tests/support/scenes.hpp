@@ -69,7 +69,7 @@ inline bool near(const Vec3& a, const Vec3& b, double tolerance) {
 inline SurfacePoint surface_hit(const Shape& shape, const Ray& ray) {
   return shape.surface(ray, shape.intersect(ray).value());
 }
-// Along the ray; -1 if it hits nothing.
+// The distance to the hit along the ray; -1 if the ray hits nothing.
 inline double distance(const Shape& shape, const Ray& ray) {
   const auto hit = shape.intersect(ray);
   return hit ? hit->t : -1;

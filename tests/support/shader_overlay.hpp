@@ -5,7 +5,7 @@
 
 namespace eyeray::engine::test {
 
-// `text` with its only occurrence of `before` replaced; throws where there is none, or another.
+// `text` with its only occurrence of `before` replaced; throws if there is no occurrence, or more than one.
 inline std::string replaced(std::string text, const std::string& before, const std::string& after) {
   const size_t at = text.find(before);
   if (at == std::string::npos) throw std::runtime_error("no '" + before + "' in the text");
@@ -14,12 +14,12 @@ inline std::string replaced(std::string text, const std::string& before, const s
   return text.replace(at, before.size(), after);
 }
 
-// FILE as eyeray has it, "shapes/sphere.glsl".
+// The text of eyeray's own shader `file`, as "shapes/sphere.glsl".
 inline std::string own_shader(const std::string& file) {
   return read_text("shaders/" + file);
 }
 
-// Writes it below `folder`.
+// Writes `text` as the shader `file` below `folder`.
 inline void lay_shader(const std::filesystem::path& folder, const std::string& file,
                        const std::string& text) {
   std::filesystem::create_directories((folder / file).parent_path());

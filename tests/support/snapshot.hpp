@@ -11,8 +11,8 @@
 
 namespace eyeray::engine::test {
 
-// Fails where `text` differs from the file's, at the first line that does. `scripts/test --bless` writes the
-// files anew instead.
+// Fails if `text` differs from the file's text, and shows the first line that differs. `scripts/test --bless`
+// writes the files anew instead.
 inline void check_snapshot(const std::string& file, const std::string& text) {
   if (std::getenv("EYERAY_BLESS")) {
     std::filesystem::create_directories(std::filesystem::path(file).parent_path());

@@ -8,8 +8,8 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// Irradiance at the floor's origin from a convex body of radiance 1 above the floor: that of the facets that
-// face it. `at(u, v)` is a point of the body's surface, which u and v in [0, 1] cover.
+// Irradiance at the floor's origin from a convex body of radiance 1 above the floor: the sum over the facets
+// that face the origin. `at(u, v)` is a point of the body's surface, which u and v in [0, 1] cover.
 double irradiance_of_body(const std::function<Vec3(double, double)>& at, const Vec3& middle) {
   constexpr int steps = 400;
   double sum = 0;
@@ -84,7 +84,8 @@ TEST_CASE("a cylinder, and a tube that stands upright, above the floor") {
     const auto place = [&](double radius, double turn, double y) {
       return Vec3(map * Vec4(radius * std::cos(2 * M_PI * turn), y, radius * std::sin(2 * M_PI * turn), 1));
     };
-    // Up to the axis at the bottom, along the side, and at the top back to it.
+    // As v grows, the point goes from the axis along the bottom, up the side, and along the top back to the
+    // axis.
     const double expected = irradiance_of_body(
         [&](double u, double v) {
           if (v < 0.25) return place(v, u, -0.3);
@@ -94,8 +95,8 @@ TEST_CASE("a cylinder, and a tube that stands upright, above the floor") {
         Vec3(map[3]));
     check(scene, shown(expected), 2e-4);
   }
-  // The surroundings above are seen through the tube. Its own light is that of a disk as wide at its foot,
-  // less that of one at its head.
+  // The surroundings above are visible through the tube. The tube's own light is that of an equally wide disk
+  // at its foot, less that of such a disk at its head.
   Scene tube = floor(1024);
   add(tube, make_cylinder({0, 1, 0}, {0, 3, 0}, 0.5, true), emissive(tube));
   check(tube, shown(M_PI * (0.25 / 1.25 - 0.25 / 9.25)));
@@ -139,7 +140,7 @@ TEST_CASE("a one-sided area light shines in front, and is dark from behind") {
   lit(make_disk({0, -1.3, 0}, {0, 1, 0}, 0.8, 0, glm::rotate(Mat4(1.0), M_PI, Vec3(1, 0, 0))), of_disk);
   lit(make_sphere({0, 1.6, 1.2}, 0.7), M_PI * 0.7 * 0.7 * 0.8 / 4);
 
-  // A mesh, as it is and mirrored.
+  // The mesh as it is, and mirrored.
   for (const Mat4& map : {Mat4(1.0), mirror})
     for (const bool away : {false, true}) {
       Scene scene = floor();
@@ -155,7 +156,7 @@ TEST_CASE("a one-sided area light shines in front, and is dark from behind") {
       check(scene, away ? 0 : shown(irradiance_of(corners)));
     }
 
-  // Seen from behind it shows nothing.
+  // From behind, the area light is dark.
   Scene behind = patch({0, 2, 0}, {0.1, 1.3, 0}, 4);
   const int front = emissive(behind);
   behind.materials[size_t(front)]->emits_in_front = true;
@@ -178,7 +179,8 @@ TEST_CASE("area lights next to the floor: Lambert's formula, with little noise")
       CHECK(noise < most);
     }
   };
-  // Before it, over its corner, and right above it; one that leans, and a triangle.
+  // The floor's point is before the light, under its corner, and under its middle; then the light leans, or
+  // is a triangle.
   const Vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
   const auto both = [&](const Vec3& a, const Vec3& u, const Vec3& v) {
     lit(make_parallelogram(a, u, v), {a, a + u, a + u + v, a + v});
@@ -203,7 +205,7 @@ TEST_CASE("a textured area light: each part is as bright as its texel") {
   add(scene, make_parallelogram(a, u, v), picture(scene, {0.5, 1}));
   check(scene, shown(4 * left + 0.5 * right), 1e-4);
 
-  // The area light as a mesh, its uv rotated by a right angle, and with colours.
+  // The area light as a mesh with colours, its uv rotated by a right angle.
   Scene mesh = floor(1024);
   mesh.meshes.push_back({.name = "",
                          .positions = {a, a + u, a + u + v, a + v},
@@ -215,7 +217,7 @@ TEST_CASE("a textured area light: each part is as bright as its texel") {
       {.mesh = 0, .transform = Mat4(1.0), .material = picture(mesh, {1, 0.5}), .position = {}});
   check(mesh, shown(2 * left + 0.25 * right), 1e-4);
 
-  // The picture on second uv: the first are all in the dark half.
+  // The picture reads the second uv; all first uv are in its dark half.
   Scene second = floor(1024);
   const auto halves = std::make_shared<ImageTexture>();
   halves->width = 2;
@@ -233,7 +235,7 @@ TEST_CASE("a textured area light: each part is as bright as its texel") {
           make_phong({.diffuse = gray(0), .emission = textures::make_image(halves, Vec3(4), Vec2(1), true)}));
   second.instances.push_back({.mesh = 0, .transform = Mat4(1.0), .material = glow, .position = {}});
   check(second, shown(4 * left + 0.8 * right), 1e-4);
-  // Seen itself, it shines as it lights.
+  // If the camera sees the area light itself, its radiance is the one with which it lights the floor.
   for (const IntegratorType integrator : {IntegratorType::path, IntegratorType::whitted})
     for (const auto& [share, radiance] : {std::pair(0.3, 4.0), std::pair(0.7, 0.8)}) {
       Scene seen = patch({0, 0, 0}, a + share * u + 0.5 * v, 4);
@@ -245,7 +247,7 @@ TEST_CASE("a textured area light: each part is as bright as its texel") {
       check(seen, radiance);
     }
 
-  // A globe whose southern half is seen by the floor.
+  // A globe whose southern half faces the floor.
   Scene globe = floor(1024);
   add(globe, make_sphere({0, 2, 0}, 0.5), picture(globe, {2, 0.5}));
   check(globe, shown(4 * M_PI * 0.25 / 4), 1e-4);

@@ -1,5 +1,5 @@
-// Surfaces of alpha_mode "blend": pictures are on average those of alpha compositing (Porter and Duff,
-// "Compositing Digital Images", SIGGRAPH 1984), under every integrator.
+// Surfaces of alpha_mode "blend": under every integrator, pictures equal on average those of alpha
+// compositing (Porter and Duff, "Compositing Digital Images", SIGGRAPH 1984).
 #include "patch.hpp"
 #include "tests/support/meshes.hpp"
 //
@@ -10,7 +10,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// A material that blends, black but for its own light.
+// A material that blends, and is black except for its own light.
 int blended(Scene& scene, double alpha, double radiance = 0) {
   const int made = emissive(scene, radiance);
   scene.materials[size_t(made)]->mask = AlphaMask{.alpha = gray(alpha), .blends = true};
@@ -59,7 +59,7 @@ TEST_CASE("instances of one mesh blend independently of each other") {
     square.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
     square.triangles = {{0, 1, 2}, {0, 2, 3}};
     square.colors.assign(4, Vec3(1));
-    square.alphas = {0.5, 0.5, 0.5, 0.5};  // times that of the material
+    square.alphas = {0.5, 0.5, 0.5, 0.5};  // multiplied by the material's alpha
     const int mesh = add(scene, std::move(square));
     const int material = blended(scene, 0.8);
     for (const double z : {0.0, -1.0, -2.0}) add_instance(scene, mesh, material, translation({0, 0, z}));

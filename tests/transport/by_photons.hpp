@@ -8,7 +8,7 @@
 
 namespace eyeray::engine::test {
 
-// The mean of the pixels of `tile`, by as many samples as the scene has.
+// An estimate of the mean of the pixels of `tile`, from the scene's number of samples.
 inline Estimate by_samples(const Scene& scene, Backend backend, const Rect& tile = {0, 0, 1, 1}) {
   const auto executor = executors::make_executor(backend, scene, {});
   const int count = std::max(8, scene.image.samples * amount(1, 4, 4) / 4);
@@ -48,8 +48,8 @@ inline void check_photons(const Scene& scene, double expected, double greatest =
   }
 }
 
-// Bias grows with the square of the radius (Richardson): that of `radius` is a third of the difference to its
-// double's, and at most `most_bias` of the mean.
+// Bias grows with the square of the radius. So by Richardson the bias at `radius` is a third of the
+// difference between `radius` and its double; it may be at most `most_bias` of the mean.
 inline void check_as_paths(const std::function<Scene()>& make, Backend backend, int photons, double radius,
                            int samples, double greatest, double most_bias = 0.005,
                            const Rect& tile = {0, 0, 1, 1}) {

@@ -1,7 +1,7 @@
-// Path tracing against known answers: the formula itself, which all executors share, cannot be tested by
-// comparing them.
-// Each picture is of one small patch, so that its pixels are 64 estimates of one value, independent of each
-// other. A test whose error is above half a percent could not fail, and is an error itself.
+// Compares path tracing with known answers: all executors share its formula, so comparing the executors with
+// each other cannot test it. Each picture shows one small patch, so that its pixels are 64 estimates of one
+// value, independent of each other. A test whose error is above half a percent could not fail, and is an
+// error itself.
 #include "host/formula/formula.hpp"
 #include "patch.hpp"
 #include "tests/support/environments.hpp"
@@ -113,7 +113,7 @@ TEST_CASE("polygons above the horizon (Lambert 1760): a triangle, a parallelogra
 }
 
 TEST_CASE("opposite and adjacent faces of a closed cube: their form factors") {
-  // The mean over the face: the picture is the whole of it.
+  // The picture shows the whole face, so its mean is the mean over the face.
   const auto face = [](bool opposite) {
     Scene scene = patch({0.5, 0.5, 0.5}, {0.5, 0, 0.5}, 1024);
     scene.camera.projection = cameras::make_projection(OrthographicCamera{.size = 0.5});
@@ -177,7 +177,7 @@ TEST_CASE("an environment L cosⁿ θ above the horizon: E = 2π L / (n + 2); an
         environment(256, 512, [&](const Vec3& d) { return Vec3(3 * std::pow(std::max(0.0, d.y), n)); });
     check(scene, shown(2 * M_PI * 3 / (n + 2)), 2e-4);
   }
-  // About the x axis, by which it is turned from −z: before a wall, whose light is that of a floor above.
+  // The lobe, defined around −z and turned to the x axis, lights a wall as a lobe above lights a floor.
   Scene scene = patch({2, 0.3, 0.2}, {0, 0, 0});
   add(scene, make_plane({0, 0, 0}, {1, 0, 0}), add(scene, make_phong({.diffuse = gray(albedo)})));
   scene.environment = environment(
@@ -204,8 +204,8 @@ TEST_CASE("one bright texel of many is found, and no more than it is") {
   image::Image picture(64, 32, 3);
   std::fill_n(picture.pixel(40, 9), 3, 5000.0f);
   scene.environment = std::make_shared<EnvironmentMap>(std::move(picture), 0.1);
-  // ∫ of its tent by cos θ sin θ: the integral over the rows is by Simpson's rule, that over columns a
-  // texel's width.
+  // ∫ of the texel's tent function times cos θ sin θ. The integral over rows is by Simpson's rule; the one
+  // over columns is a texel's width.
   double sum = 0;
   constexpr int steps = 2000;
   for (int i = 0; i <= steps; ++i) {
@@ -247,7 +247,7 @@ TEST_CASE("glass takes nothing: a ball of it in a furnace, and a pane before an 
   add(ball, make_sphere({0, 0, 0}, 1), add(ball, make_dielectric({.ior = 1.5})));
   check(ball, 1, 1e-5);
 
-  // T = (1 − R)² / (1 − R²), straight on.
+  // At normal incidence, T = (1 − R)² / (1 − R²).
   Scene pane = patch({0, 0, 4}, {0, 0, 0}, 1024);
   pane.render.max_depth = 64;
   add(pane, make_box({-1, -1, 0}, {1, 1, 0.1}), add(pane, make_dielectric({.ior = 1.5})));
@@ -307,7 +307,7 @@ TEST_CASE("half a sphere behind an edge is half its light") {
 }
 
 TEST_CASE("a thin lens: a straight bright edge out of focus, (arccos x − x √(1 − x²)) / π") {
-  // The eye looks along −z. Rays that intersect in (0, 0, −focus) are spread over a disk in the plane z = −2.
+  // The eye looks along −z. Rays that intersect at (0, 0, −focus) are spread over a disk in the plane z = −2.
   const auto edge = [](double e, const Aperture& aperture) {
     Scene scene = patch({0, 0, 0}, {0, 0, -1}, 1024);
     scene.camera.projection =
@@ -324,10 +324,10 @@ TEST_CASE("a thin lens: a straight bright edge out of focus, (arccos x − x √
             (std::acos(x) - x * std::sqrt(1 - x * x)) / M_PI, 1e-4);
     }
   }
-  // Through a square that stands upright, as far as its sides are from its middle.
+  // A square aperture with upright sides: the blur reaches as far as the sides are from the middle.
   const double side = 0.4 * std::sqrt(0.5) * 0.5;
   check(edge(0.3 * side, {.radius = 0.4, .focus = 4, .blades = 4, .blade_rotation = M_PI / 4}), 0.35, 1e-4);
-  // Through a triangle with a corner at the right: its blur is mirrored if the edge lies behind the focus.
+  // A triangular aperture with a corner at the right. The blur is mirrored if the edge lies behind the focus.
   const auto triangle = [&](double focus) {
     return edge(0.4 * 0.5 * 0.25, {.radius = 0.4, .focus = focus, .blades = 3});
   };

@@ -1,4 +1,5 @@
-// Tests of the probability of each cell of an environment: by whole numbers, which every executor shares.
+// Tests of the probability of each cell of an environment, which is in whole numbers that every executor
+// shares.
 #include <numeric>
 
 #include "host/scene/whole_shares.hpp"

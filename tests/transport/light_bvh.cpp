@@ -1,4 +1,4 @@
-// The BVH by which one of many lights is chosen: its contents, and how likely each light is.
+// The BVH by which one of many lights is chosen: its contents, and the probability of each light.
 #include "host/scene/light_bvh.hpp"
 
 #include <set>
@@ -19,10 +19,10 @@ using executors::Backend;
 
 namespace {
 
-// Triangles, some of which shine to one side, spots and points, in heaps.
+// Clusters of triangles, spots and point lights; some triangles shine to one side.
 struct Lights {
   std::vector<LightBounds> bounds;
-  std::vector<TriangleForm> triangles;  // of those that are one
+  std::vector<TriangleForm> triangles;  // of the lights that are triangles
 
   Lights(Random& random, size_t count) {
     Vec3 heap(0);
@@ -129,7 +129,7 @@ TEST_CASE("what may light a point is important to it, and to each node above") {
       const reference::LitPoint point{random.point(7), random.direction()};
       const auto light = size_t(random.below(60));
       const LightBounds& bounds = lights.bounds[light];
-      // A point of it, and whether it shines here.
+      // A point of the light, and whether the light shines here.
       Vec3 place = bounds.center;
       if (bounds.radius > 0) {
         const auto& [a, b, c] = lights.triangles[light].vertices;

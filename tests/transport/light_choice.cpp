@@ -1,4 +1,4 @@
-// Tests of the probability of each light: by whole numbers, which every executor shares.
+// Tests of the probability of each light, which is in whole numbers that every executor shares.
 #include <numeric>
 
 #include "host/core/error.hpp"
@@ -32,7 +32,7 @@ TEST_CASE("lights are chosen by power, and all shares are one together") {
   REQUIRE(choice.ends.size() == 4);
   CHECK(choice.ends.back() == 1u << 24);
   CHECK(emitters(scene).unsampled.empty());
-  // A sixteenth is shared evenly.
+  // A sixteenth of the probability is shared evenly.
   const double powers[] = {4 * M_PI, 2 * M_PI * 4 * M_PI * 4, 2 * M_PI * M_PI * 4, 2 * M_PI * 2 * 0.001};
   const double sum = std::accumulate(std::begin(powers), std::end(powers), 0.0);
   for (size_t i = 0; i < 4; ++i)

@@ -33,7 +33,7 @@ void check(const Scene& scene, double expected, double least_error) {
   }
 }
 
-// By Simpson's rule.
+// The integral of f by Simpson's rule.
 template <typename Function>
 double integral(double from, double to, const Function& f) {
   constexpr int steps = 20000;
@@ -94,7 +94,7 @@ TEST_CASE("a white medium within an area light: shadow rays and paths share one 
   }
 }
 
-// ∫ σₛ p(cos θ) e^(−σ (t + d)) π I / d² dt along a ray that passes a point of light at distance 1.
+// ∫ σₛ p(cos θ) e^(−σ (t + d)) π I / d² dt along a ray that passes a point light at distance 1.
 TEST_CASE("light of a point that fog scatters once") {
   for (const double g : {0.0, 0.7, -0.4}) {
     CAPTURE(g);
@@ -106,7 +106,7 @@ TEST_CASE("light of a point that fog scatters once") {
     add_point_light(scene, {0, 1, 0}, Vec3(2), Falloff::inverse_square);
     const double expected = integral(0, 60, [&](double t) {
       const double along = ahead - t, d = std::sqrt(1 + along * along);
-      // The ray goes on along −z; light comes along from the point.
+      // The ray goes along −z, and light comes straight from the point.
       const double phase = henyey_greenstein(g, along / d);
       return scattering * phase * std::exp(-(scattering + absorption) * (t + d)) * M_PI * 2 / (d * d);
     });
@@ -114,8 +114,8 @@ TEST_CASE("light of a point that fog scatters once") {
   }
 }
 
-// Chandrasekhar, Radiative Transfer, 1950: 1/H(μ) = √(1 − ϖ) + ½ϖ ∫ μ' H(μ') / (μ + μ') dμ'. Light that comes
-// evenly from everywhere is sent back as 1 − H(μ) √(1 − ϖ).
+// Chandrasekhar, Radiative Transfer, 1950: 1/H(μ) = √(1 − ϖ) + ½ϖ ∫ μ' H(μ') / (μ + μ') dμ'. If light comes
+// evenly from everywhere, the half space returns 1 − H(μ) √(1 − ϖ).
 TEST_CASE("half of space, filled with what scatters evenly, in light from everywhere") {
   const double albedo = 0.8, mu = 0.6, root = std::sqrt(1 - albedo);
   constexpr int steps = 400;

@@ -1,4 +1,5 @@
-// [medium] with an extent, in the light of a sun, a sky and all that is around: against numerical integrals.
+// [medium] with an extent, in the light of a sun, a sky and the surroundings, compared with numerical
+// integrals.
 #include "patch.hpp"
 #include "tests/support/environments.hpp"
 #include "tests/support/medium_column.hpp"
@@ -28,7 +29,7 @@ std::vector<Case> extents() {
   return all;
 }
 
-// Up to where next to nothing is left of it.
+// The length of the ray in the medium, up to a point beyond which next to no medium is left.
 double to_infinity(const MediumExtent& extent, const Vec3& o, const Vec3& d) {
   return length_in(extent, {o, d}, 40, 400);
 }
@@ -110,7 +111,7 @@ TEST_CASE("a sun is weakened by [medium] between interfaces too, and not within 
   check(scene, albedo * 2 * std::sqrt(0.5) * std::exp(-absorption * depth), 1e-4);
 }
 
-// A mirror turns a vertical sun's light towards a wall, which photons alone find.
+// A mirror turns a vertical sun's light towards a wall: only photons find that light.
 TEST_CASE("photons of a sun are weakened before they start, on their way, and to the eye") {
   const double absorption = 0.2;
   for (const bool box : {false, true}) {

@@ -1,4 +1,4 @@
-// Panes, which paths pass straight, and frosted glass, where the answer is known.
+// Panes, through which paths go straight, and frosted glass: compared with known answers.
 #include "patch.hpp"
 //
 #include "tests/support/doctest.hpp"
@@ -18,11 +18,11 @@ TEST_CASE("panes: R' = 2R / (1 + R), and what is left goes straight on, seen and
   const int window = add(seen, make_dielectric({.thin = true}));
   for (const double z : {0.0, 1.0}) add(seen, make_disk({0, 0, z}, {0, 0, 1}, 1), window);
   add(seen, make_disk({0, 0, -1}, {0, 0, 1}, 1), emissive(seen));
-  // Between both light goes to and fro.
+  // Light goes to and fro between the two panes.
   seen.render.max_depth = 64;
   check(seen, through * through / (1 - mirrored * mirrored), 1e-5);
 
-  // A point's light, through the one pane alone and at right angles: T'; a tinted one's, by its layer.
+  // The light of a point through one pane, at normal incidence: T'. A tinted pane's T' depends on its layer.
   Scene lit = floor(16);
   add_point_light(lit, {0, 2, 0}, Vec3(3), Falloff::inverse_square);
   Scene tinted = floor(16);
@@ -34,7 +34,7 @@ TEST_CASE("panes: R' = 2R / (1 + R), and what is left goes straight on, seen and
                       {.color = gray(0.5), .roughness = gray(0), .transmission = gray(1), .thin = true})));
   check(tinted, albedo * 3 / 4 * 0.5 * 0.96, 1e-3);
 
-  // All light of an area light comes through nine panes as through eight, whichever strategy finds it.
+  // All the light of an area light comes through nine panes like through eight, whichever strategy finds it.
   for (const int panes : {1, 8, 9}) {
     CAPTURE(panes);
     Scene behind = floor(panes == 9 ? 2560 : 256);

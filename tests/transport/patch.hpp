@@ -18,7 +18,7 @@ using executors::Backend;
 
 inline constexpr double albedo = 0.8;
 
-// Seen from `eye`, so narrowly that the picture is a point of it.
+// A scene seen from `eye`, so narrowly that the picture shows one point of it.
 inline Scene patch(const Vec3& eye, const Vec3& target, int samples = 256) {
   Scene scene = one_pixel(eye, target);
   scene.image = {.width = 8, .height = 8, .samples = samples, .pattern = SamplePattern::sobol};

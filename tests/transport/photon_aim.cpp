@@ -1,4 +1,4 @@
-// Tests of the targets of photons, and that aiming changes only the noise.
+// Tests the targets of photons, and that aiming changes only the noise.
 #include "host/reference/photon_source.hpp"
 #include "host/reference/renderer.hpp"
 #include "host/reference/rng.hpp"
@@ -53,8 +53,8 @@ Scene above_balls(Aiming aiming, bool glass, std::span<const PhotonTarget> those
 }
 
 struct Flux {
-  Estimate all, at_balls;  // the sent flux, and the part that heads for a ball
-  double share;            // of the photons that do so
+  Estimate all, at_balls;  // the emitted flux, and its part that goes towards a ball
+  double share;            // of the photons that go towards a ball
 };
 
 bool heads_for(const Ray& ray, const PhotonTarget& ball) {
@@ -101,7 +101,7 @@ bool holds(const PhotonTarget& outer, const PhotonTarget& inner) {
 TEST_CASE("aimed photons bring what others bring, to glass and past it, with less noise there") {
   for (const Aiming aiming : all_lights) {
     CAPTURE(int(aiming));
-    // Random numbers are independent, so that errors are known.
+    // The photons' random numbers are independent, so that standard errors are known.
     const Flux by_chance = flux_of(above_balls(aiming, false)), by_aim = flux_of(above_balls(aiming, true));
     for (const auto of : {&Flux::all, &Flux::at_balls}) {
       const Estimate &a = by_chance.*of, &b = by_aim.*of;
@@ -110,9 +110,9 @@ TEST_CASE("aimed photons bring what others bring, to glass and past it, with les
       CHECK(b.error < 0.005 * b.mean);
       CHECK(std::abs(a.mean - b.mean) < 5 * std::hypot(a.error, b.error) + 1e-9 * a.mean);
     }
-    // A narrow spot heads for them by itself.
+    // Without aiming, a narrow spot shines at the balls already.
     if (aiming != Aiming::spot) CHECK(by_aim.at_balls.error < 0.7 * by_chance.at_balls.error);
-    // Some points of an area light see no ball.
+    // No ball is visible from some points of an area light.
     CHECK(by_aim.share > 0.25);
   }
 }

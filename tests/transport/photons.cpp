@@ -1,4 +1,4 @@
-// Photon mapping where the answer is known, and where `path` knows it.
+// Photon mapping, compared with known answers and with `path`.
 #include "host/scene/photons.hpp"
 #include "by_photons.hpp"
 #include "host/optics/fresnel.hpp"
@@ -55,7 +55,7 @@ void check_wall(WallLight light, Backend backend, int photons, int samples, doub
   check_as_paths([light] { return beside_wall(light); }, backend, photons, 0.08, samples, greatest);
 }
 
-// The flux of all photons at surfaces after `depth` others; at all surfaces if `depth` is below 0.
+// The flux of the photons that have hit `depth` surfaces before; of all photons if `depth` is below 0.
 double brought(const reference::PhotonMap& map, int depth) {
   double sum = 0;
   for (const reference::Photon& photon : map.photons())
@@ -69,7 +69,7 @@ TEST_CASE("light scattered by one surface is as in paths: no photon counts twice
   Scene scene = by_photons(floor(), 256, 0.1, 64, 0);
   add_point_light(scene, {0, 2, 0}, Vec3(3), Falloff::inverse_square);
   check_photons(scene, albedo * 3 / 4, 1e-4);
-  // Nothing stands around that would light the floor a second time.
+  // No other object could light the floor a second time.
   scene.render.max_depth = 4;
   check_photons(scene, albedo * 3 / 4, 1e-4);
 }
@@ -82,7 +82,7 @@ TEST_CASE("a sun through a slab of glass: E = π I cos θ (1 − R)²") {
     scene.camera.eye = {0.2, 0.3, 0.1};
     add(scene, make_box({-2, 0.4, -2}, {2, 0.6, 2}), add(scene, make_dielectric({.ior = 1.5})));
     add_sun(scene, {std::sin(theta), std::cos(theta), 0}, Vec3(0.5));
-    // Photons that are reflected back and forth in the slab come later.
+    // This depth leaves out photons that are reflected back and forth in the slab.
     scene.render.max_depth = 3;
     const double r = optics::dielectric_reflectance(std::cos(theta), 1, 1.5);
     check_photons(scene, albedo * 0.5 * std::cos(theta) * (1 - r) * (1 - r), 0.01, 1e-3);
@@ -105,7 +105,7 @@ TEST_CASE("in a ball that shines: L / (1 − ρ); where it is full of what absor
     Scene ball = by_photons(patch({0, 0, 0}, {0, 0, -1}), 1 << 16, 0.18, 32, 200);
     ball.medium.absorption = Vec3(absorption);
     add(ball, make_sphere({0, 0, 0}, 1), add(ball, make_phong({.diffuse = gray(0.5), .emission = gray(1)})));
-    // T is the mean of e^(−σd) over the ways from one point of the ball to others.
+    // T is the mean of e^(−σd) over the distances d from one point of the ball to the others.
     const double x = 2 * absorption;
     const double mean = x > 0 ? 2 * (1 - (1 + x) * std::exp(-x)) / (x * x) : 1;
     check_photons(ball, std::exp(-absorption) / (1 - 0.5 * mean));
@@ -134,7 +134,7 @@ TEST_CASE("photons bring what lights send: none is lost on the way, in glass and
     }
     return scene;
   };
-  // Sent: 4π² I. Of that all comes to the wall, half goes on, and so on.
+  // The emitted flux is 4π² I. All of it reaches the wall, which scatters half of it, and so on.
   const double sent = 4 * M_PI * M_PI;
   const Scene plain_scene = closed(false), glass_scene = closed(true);
   const reference::Renderer empty(plain_scene);
@@ -159,7 +159,7 @@ TEST_CASE("the radius shrinks as the first sample's, times the root of Π (i + 2
   CHECK(settings.count == 1024);
   CHECK(photon_radius(settings, 0) == 0.25);
   CHECK(photon_radius(settings, 1) == doctest::Approx(0.25 * std::sqrt(5.0 / 6)));
-  // The radius falls as n^(−1/6), up to a factor.
+  // Up to a factor, the radius decreases as n^(−1/6).
   const double ratio = photon_radius(settings, 4000) / photon_radius(settings, 500);
   CHECK(ratio == doctest::Approx(std::pow(8, -1.0 / 6)).epsilon(1e-3));
 }

@@ -1,6 +1,6 @@
-// Photons in glass. Flux is radiance times area times solid angle, and behind a surface that refracts solid
-// angles shrink by the square of the index. Paths carry radiance / index², so the light that photons show
-// there has to be divided by that.
+// Photons in glass. Flux is radiance times area times solid angle. Behind a surface that refracts, solid
+// angles shrink by the square of the index. Paths carry radiance / index², so the light of photons there has
+// to be divided by index².
 #include "by_photons.hpp"
 #include "tests/support/environments.hpp"
 //
@@ -16,7 +16,7 @@ constexpr Rect picture{0, 0, 8, 8};
 // The object between two disks.
 enum class Between { glass, nested, hollow, principled, interface, frosted, rough, opal, frosted_pane };
 
-constexpr double upper = 0, lower = -1.4;  // heights of the disks: one within, one without
+constexpr double upper = 0, lower = -1.4;  // heights of the disks: one inside the object, one outside
 
 // In thermal equilibrium everything has the radiance 1 / index² = 1, however surfaces mirror, refract or
 // scatter it: each surface emits as much as it absorbs (Kirchhoff).
@@ -70,7 +70,8 @@ void check_equilibrium(std::initializer_list<Between> all, int photons, double g
   struct View {
     Vec3 eye, target;
   };
-  // From within, onto the disk there; from without, onto the surface between and the disk beyond it.
+  // Views from inside onto the disk there, and from outside onto the object's surface and onto the other
+  // disk.
   const View views[] = {
       {{0.1, 0.5, 0.1}, {0, upper, 0}}, {{0.1, 2, 0.1}, {0, 1, 0}}, {{0.1, lower + 0.2, 0.1}, {0, lower, 0}}};
   for (const Between between : all) {
@@ -93,7 +94,7 @@ Scene disk_in_ball() {
   return scene;
 }
 
-// Glass that shines, around a matte disk and above another: light starts on both of its sides.
+// Glass that shines, around a matte disk and above another: light starts on both sides of its surface.
 Scene shining_box(double disk) {
   Scene scene = patch({0.1, disk + 0.3, 0.1}, {0, disk, 0}, 1024);
   scene.render.max_depth = 16;
@@ -116,7 +117,8 @@ Scene frosted_slab(const Vec3& eye, const Vec3& target) {
   return scene;
 }
 
-// A ball of frosted glass below an area light, seen from under it where its light falls on a floor.
+// A ball of frosted glass below an area light; the camera below the ball looks towards the floor that the
+// ball lights.
 Scene below_frosted_ball() {
   Scene scene = patch({-0.5, 0.15, 0.6}, {0, 0, 0}, 1024);
   scene.render.max_depth = 12;

@@ -1,4 +1,4 @@
-// The sky's light: its properties that are known without a picture of it.
+// Tests the properties of the sky's light that are known without rendering a picture.
 #include <cmath>
 
 #include "host/lights/sky.hpp"
@@ -17,13 +17,13 @@ Sky sky_at(double degrees, const SkySettings& settings = {}) {
   return make_sky(all);
 }
 
-// A texel by its angle from the zenith and from the sun's azimuth.
+// The texel at these angles from the zenith and from the sun's azimuth, in degrees.
 Vec3 at(const Sky& sky, double polar, double azimuth) {
   const int x = int((0.5 + azimuth / 360) * sky.map->width()), y = int(polar / 180 * sky.map->height());
   return sky.map->texel(std::min(x, sky.map->width() - 1), y);
 }
 
-// The irradiance of a level surface from the sky alone, π times a light's intensity.
+// The irradiance of a level surface from the sky alone; it corresponds to π times a light's intensity.
 Vec3 irradiance(const Sky& sky) {
   Vec3 sum(0);
   const int width = sky.map->width(), height = sky.map->height();
@@ -68,7 +68,7 @@ TEST_CASE("the sky is finite, the same on both sides of the sun, blue above and 
   CHECK(zenith.y > 1.2 * zenith.x);
   CHECK(horizon.y > zenith.y);
   CHECK(horizon.z / horizon.x < zenith.z / zenith.x);
-  // Red about the setting sun; and darker away from it.
+  // The sky is red around the setting sun, and darker away from it.
   CHECK(at(evening, 88, 1).x > 1.5 * at(evening, 88, 1).z);
   CHECK(at(evening, 88, 1).x > 3 * at(evening, 88, 180).x);
 }
@@ -81,7 +81,7 @@ TEST_CASE("a sky brings a share of the sun's light, less than the air takes from
     const Vec3 diffuse = irradiance(sky) / M_PI, direct = sky.sun->intensity * sine;
     for (int c = 0; c < 3; ++c) {
       CHECK(diffuse[c] > 0.03 * sine);
-      // Light that the ground throws back comes down again in part.
+      // Part of the light that the ground reflects comes down again.
       CHECK(diffuse[c] + direct[c] < 1.1 * sine);
     }
     CHECK(diffuse.z > diffuse.x);
@@ -93,7 +93,7 @@ TEST_CASE("a sky brings a share of the sun's light, less than the air takes from
 
 TEST_CASE("a sky is turned to its sun") {
   const Sky sky = make_sky({.to_sun = glm::normalize(Vec3(1, 1, 0))});
-  // Its middle is where the sun is: in +x, a quarter turn to the right of −z.
+  // The map's middle shows the sun: towards +x, a quarter turn to the right of −z.
   CHECK(sky.map->turn() == doctest::Approx(0.75));
   CHECK(sky.sun->to_light.x > 0.7);
 }

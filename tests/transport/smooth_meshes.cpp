@@ -78,12 +78,12 @@ TEST_CASE("wild normals do not let light through a wall a quarter of an edge awa
       scene.render.integrator = integrator;
       scene.render.max_depth = 0;
       const int white = add(scene, make_phong({.diffuse = gray(1)}));
-      // Normals of a ball on the face z = 0 of a cube of edge 1, whose longest edges are its diagonals.
+      // The face z = 0 of a cube of edge 1, with the normals of a ball. Its longest edge is the diagonal.
       Mesh face =
           make_mesh({{-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0.5, 0.5, 0}, {-0.5, 0.5, 0}}, {{0, 1, 2}, {0, 2, 3}});
       for (const Vec3& p : face.positions) face.normals.push_back(glm::normalize(p + Vec3(0, 0, 0.5)));
       add_instance(scene, add(scene, std::move(face)), white);
-      // The camera is between the face and the wall that the sun is behind.
+      // The camera is between the face and a wall in front of the sun.
       const double off = 0.26 * std::sqrt(2.0);
       add(scene, shapes::make_box({-9, -9, off}, {9, 9, off + 0.01}), white);
       add_sun(scene, {0, 0.6, 1}, Vec3(1));

@@ -1,4 +1,4 @@
-// The page of `verify --report`: no text of a scene leaves the JSON that it stands in.
+// The page of `verify --report`: no text of a scene escapes from the page's JSON.
 #include "host/verify/page.hpp"
 
 #include <nlohmann/json.hpp>

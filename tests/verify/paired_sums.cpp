@@ -1,4 +1,4 @@
-// Gate D's sums on a real scene: how often they fail where nothing is wrong, and how small a bias they find.
+// Gate D's sums on a real scene: the rate of false alarms, and the smallest bias that they find.
 #include "host/compare/paired_sums.hpp"
 
 #include "host/executors/executors.hpp"
@@ -13,7 +13,7 @@ using executors::Backend;
 
 namespace {
 
-// The Cornell box, 16 × 16 pixels; `diffuse` of its white walls.
+// The Cornell box in 16 × 16 pixels; `white` is the `diffuse` of its white walls.
 Scene box(const std::string& white, uint32_t seed) {
   std::string text = test::read_text("scenes/path/cornell_box.toml");
   const std::string own = "diffuse = [0.73, 0.71, 0.68]";
@@ -40,7 +40,7 @@ compare::Frame traced(const Scene& scene, Backend backend) {
   return frame;
 }
 
-// The number of seeds from 1 to `seeds` that fail.
+// The number of seeds from 1 to `seeds` with which the gate fails.
 int failing(int seeds, const std::string& white) {
   int count = 0;
   for (int seed = 1; seed <= seeds; ++seed)
@@ -50,7 +50,7 @@ int failing(int seeds, const std::string& white) {
   return count;
 }
 
-// The caustic of a ball of glass, where a disk of photons is as wide as a tile.
+// The caustic of a ball of glass, rendered with photons' disks that are as wide as a tile.
 struct Caustic {
   compare::Frame value, exact;
   double radius;

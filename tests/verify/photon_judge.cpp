@@ -1,5 +1,5 @@
-// Photons that go another way than the reference's: those that rounding explains, and those that nothing
-// does.
+// Photons that go another way than the reference's: rounding explains some of them, and nothing explains
+// others.
 #include "host/verify/photon_judge.hpp"
 
 #include <functional>
@@ -46,7 +46,7 @@ TEST_CASE("a photon that no rounding explains fails, though many may part") {
   CHECK(sound.tally.unexplained == 0);
   CHECK(sound.tally.passes());
 
-  // Found where rounding parts none.
+  // Finds a photon whose way rounding does not change.
   uint32_t number = 7;
   while (std::ranges::binary_search(sound.left_out.of(0), number)) ++number;
   const verify::JudgedPhotons diverged = judge(box(), [&](auto& ways) { ways[number].trail ^= 1; });
@@ -66,7 +66,7 @@ TEST_CASE("a photon that no rounding explains fails, though many may part") {
 }
 
 TEST_CASE("where surfaces coincide float32 takes either, and the reference knows of it") {
-  // Light from below comes to the floor and to the shape on it at the same point.
+  // Light from below reaches the floor and the shape that stands on it at the same point.
   const verify::JudgedPhotons judged = judge(scene_of("scenes/cameras/formula.toml"), [](auto&) {});
   CHECK(judged.tally.diverged > 4);
   CHECK(judged.tally.unexplained == 0);
