@@ -1,5 +1,5 @@
-# build_facts.cpp: what --version and --help print of the build. Written anew when the HEAD of the clone moves; no other file is compiled then.
-# So it is when a source changes: their sum, with the compiler and its flags, is what checkpoints and parts know the program by.
+# build_facts.cpp: the facts about the build that --version and --help print. It is written anew if the clone's HEAD moves; no other file is compiled then.
+# It is also written anew if a source changes: checkpoints and parts identify the program by a sum of the sources, the compiler and its flags.
 find_package(Git QUIET)
 set(head "")
 if(GIT_FOUND)

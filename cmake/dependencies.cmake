@@ -1,5 +1,5 @@
 # Every dependency is a package of Debian, 12's or 13's; nothing is vendored. A line eyeray_needs…(PACKAGE …) names the package that holds it:
-# scripts/setup installs the packages that these lines name, and what is missing is reported by its package's name, all at once.
+# scripts/setup installs the packages that these lines name. All missing packages are reported at once, by their names.
 
 # eyeray_needs(PACKAGE NAME): CMake's package NAME.
 macro(eyeray_needs package name)
@@ -58,7 +58,7 @@ eyeray_needs(libopenexr-dev OpenEXR)
 eyeray_needs(libdraco-dev draco)
 eyeray_needs(libmeshoptimizer-dev meshoptimizer)
 eyeray_needs(libvulkan-dev VulkanHeaders)
-# CMake's files of glslang-dev end the configuration where this program is missing, although that package does not depend on it.
+# The CMake files of glslang-dev end the configuration if this program is missing, although that package does not depend on it.
 eyeray_needs_program(glslang-tools glslangValidator)
 if(glslangValidator)
   eyeray_needs(glslang-dev glslang)

@@ -1,5 +1,5 @@
-# eyeray_embed(TARGET FUNCTION NAMES PATHS): the files PATHS, called NAMES, in the target: `std::span<const EmbeddedFile> FUNCTION()` gives them
-# (host/core/embedded_file.hpp). eyeray_embed_folder(TARGET FUNCTION FOLDER): all of a folder, by their paths below it.
+# eyeray_embed(TARGET FUNCTION NAMES PATHS): embeds the files PATHS in the target by the names NAMES: `std::span<const EmbeddedFile> FUNCTION()` returns them
+# (host/core/embedded_file.hpp). eyeray_embed_folder(TARGET FUNCTION FOLDER): embeds all files of a folder, by their paths below it.
 if(NOT CMAKE_SCRIPT_MODE_FILE)
   function(eyeray_embed target function names paths)
     string(REPLACE "::" "_" file ${function})

@@ -1,10 +1,10 @@
-# Our own code: warnings are errors, floats are never contracted, sanitizers as asked for.
+# Options for our own code: warnings are errors, floats are never contracted, and EYERAY_SANITIZE chooses sanitizers.
 add_library(eyeray_warnings INTERFACE)
 target_compile_options(eyeray_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wdouble-promotion -Wnon-virtual-dtor
   -Werror -ffp-contract=off)
 target_include_directories(eyeray_warnings INTERFACE ${CMAKE_SOURCE_DIR})
-# GCC collects its garbage often: with some more memory it takes a tenth less time.
+# GCC collects its garbage often. If it may use some more memory, it takes a tenth less time.
 target_compile_options(eyeray_warnings INTERFACE
   $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-expand=400> $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=262144>)
 if(EYERAY_SANITIZE)

@@ -6,7 +6,7 @@ if(NOT EYERAY_LIBRARY)
   return()
 endif()
 
-# Until 1.0 any minor version may break programs, which SOVERSION says.
+# Until 1.0 any minor version may break programs, so SOVERSION contains it.
 set(soversion ${PROJECT_VERSION_MAJOR})
 if(soversion EQUAL 0)
   set(soversion 0.${PROJECT_VERSION_MINOR})

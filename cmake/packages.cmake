@@ -9,7 +9,7 @@ set(CPACK_RESOURCE_FILE_LICENSE ${CMAKE_SOURCE_DIR}/LICENSE)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)  # what is linked; the rest is said here
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)  # finds the linked packages; DEPENDS names the others
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_BINARY_DIR})
 
 # package(COMPONENT NAME SECTION DEPENDS DESCRIPTION)
@@ -22,7 +22,7 @@ function(package component name section depends description)
   install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name} RENAME copyright COMPONENT ${component})
 endfunction()
 
-# The loader is opened at run time, so nothing links it. Without a driver nothing renders: any will do, and where there is none, Mesa's,
+# The loader is opened at run time, so nothing links it. Rendering needs a driver: any driver will do, and if none is installed, Mesa's,
 # which has one for the processor.
 set(vulkan "libvulkan1, mesa-vulkan-drivers | vulkan-icd")
 set(CPACK_COMPONENTS_ALL program)

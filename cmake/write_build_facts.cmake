@@ -1,5 +1,5 @@
 # cmake -D GIT=… -D SOURCE=… -D COMPILER=… -D INSTALLED=… -D TREE=… -D VERSION=… -D OUTPUT=… -P write_build_facts.cmake: OUTPUT defines
-# host/build/build_facts.hpp. A clone that only surrounds SOURCE, as where a source package was unpacked in one, is another project's.
+# host/build/build_facts.hpp. A clone that only surrounds SOURCE, for example if a source package was unpacked inside it, belongs to another project.
 set(commit "")
 if(GIT)
   execute_process(COMMAND ${GIT} rev-parse --show-toplevel WORKING_DIRECTORY ${SOURCE}

@@ -1,4 +1,4 @@
-"""Figures that pages tell and code decides are the same in both.
+"""Figures that pages state and the code decides are the same in both.
 Usage: figures.py, from the source tree's root."""
 import pathlib
 import re

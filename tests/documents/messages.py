@@ -40,7 +40,7 @@ def literals(text):
 
 
 def is_shown(text, begin):
-    """Not the name of a file that is included, and not the reason of an assertion at compile time."""
+    """False for the name of an included file, and for the reason of an assertion at compile time."""
     before = text[:begin].rpartition("\n")[2].lstrip()
     return not before.startswith("#include") and "static_assert(" not in re.split("[;{}]", text[:begin])[-1]
 

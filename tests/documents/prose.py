@@ -67,7 +67,7 @@ def plain(text):
 
 
 def sentences(blocks):
-    """Of (line, text): (line, sentence), the line being that on which it begins."""
+    """From (line, text) yields (line, sentence), where line is the sentence's first line."""
     for line, text in blocks:
         start = 0
         for end in [*(each.end() for each in re.finditer(r"[.!?][)\"*]*\s+(?=[\"“*`(\[]*(?:[A-Z0-9`]|eyeray|lavapipe|gl(?:TF|slang|ibc)))", text)), len(text)]:
@@ -156,7 +156,7 @@ def files():
 
 
 def findings():
-    """Of each file with prose, its findings."""
+    """The findings of each file with prose."""
     words, found = banned_words(), {}
     for path in files():
         if not path.exists():
@@ -217,7 +217,7 @@ def help_texts(eyeray, command=()):
 
 
 def without_allowance(eyeray):
-    """What messages and --help have of the habits."""
+    """The findings in messages and --help, which have no allowance."""
     words, wrong = banned_words(), []
     if MESSAGES.exists():
         for number, line in enumerate(MESSAGES.read_text().splitlines(), 1):

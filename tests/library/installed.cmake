@@ -4,7 +4,7 @@ cmake_minimum_required(VERSION 3.25)
 set(prefix ${SCRATCH}/usr)
 set(examples ${SCRATCH}/examples)
 
-# run(CODE COMMAND …): must end with that code; `out` and `err` are what it said.
+# run(CODE COMMAND …): the command must end with that code; `out` and `err` get its output.
 function(run code)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE said ERROR_VARIABLE complained)
   if(NOT result EQUAL code)
@@ -25,7 +25,7 @@ foreach(component IN ITEMS library development program)
   run(0 ${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix} --component ${component})
 endforeach()
 
-# The library shows its own symbols alone.
+# The library exports only its own symbols.
 file(GLOB library ${prefix}/*/libeyeray.so)
 run(0 nm -DC --defined-only ${library})
 string(REGEX MATCHALL "[^\n]+" symbols "${out}")
@@ -35,7 +35,7 @@ if(symbols OR count LESS 30)
   message(FATAL_ERROR "${count} symbols, of them not of the header: ${symbols}")
 endif()
 
-# --help names the documents that were installed with the program, a program that is only built those of its sources.
+# --help names the documents that were installed with the program. In a program that is only built, it names those of the sources.
 file(GLOB documents ${prefix}/share/doc/eyeray*/docs/command-line.md)
 cmake_path(GET documents PARENT_PATH documents)
 cmake_path(GET documents PARENT_PATH documents)

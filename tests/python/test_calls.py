@@ -1,4 +1,4 @@
-"""Calls that take long: they let Python go on, tell of their progress, and end when they are asked to."""
+"""Calls that take long: they let Python go on, report their progress, and end on request."""
 import os
 import signal
 import subprocess
@@ -62,7 +62,7 @@ def test_python_goes_on_meanwhile():
     counter = threading.Thread(target=count)
     counter.start()
     at_first = []
-    # Until it has, however busy the machine is.
+    # Waits until it has, however busy the machine is.
     eyeray.render(eyeray.Scene.read(SMALL, defines=LONG), progress=lambda share: at_first.append(turns) or at_first[-1] == at_first[0])
     done.set()
     counter.join()
@@ -147,7 +147,7 @@ def test_ctrl_c():
 
 
 def test_ctrl_c_does_not_wait_for_a_driver():
-    """A progress callback that takes its time stands for a driver that compiles: nobody waits for either."""
+    """A slow progress callback stands for a driver that compiles: an interrupt does not wait for either."""
     code = f"""
 import eyeray, signal, threading, time
 scene = eyeray.Scene.read({SMALL!r}, defines={LONG})

@@ -1,4 +1,4 @@
-"""Text of files and names in Python: whatever it holds, an error is eyeray's own, and names the file that open() takes."""
+"""Text of files and names in Python: for any text, an error is eyeray's own, and names the file as open() takes it."""
 import ast
 import os
 import pathlib
@@ -12,7 +12,7 @@ SMALL = pathlib.Path("tests/library/small.toml").read_text()
 
 
 def nasty_strings():
-    """Those of the C++ tests, as bytes."""
+    """The nasty strings of the C++ tests, as bytes."""
     text = pathlib.Path("tests/support/nasty_strings.hpp").read_text()
     listed = re.sub(r"^ *//.*$", "", text.split("nasty_strings = {")[1].split("\n};")[0], flags=re.MULTILINE)
     listed = re.sub(r'std::string\(("[^"]*"), \d+\)', r"\1", listed)
@@ -29,7 +29,7 @@ def test_there_are_forty():
 @pytest.mark.parametrize("text", NASTY)
 def test_files_of_any_name(text, tmp_path):
     if b"\0" in text:
-        return  # no name holds it
+        return  # no name can contain it
     file = pathlib.Path(os.fsdecode(os.fsencode(tmp_path) + b"/x" + text + b".toml"))
     with pytest.raises(eyeray.FileError) as missing:
         eyeray.Scene.read(file)

@@ -1,4 +1,4 @@
-"""docs/python.md does what it shows: its blocks, one after the other, as a notebook shows it."""
+"""The code of docs/python.md works: its blocks run one after the other, as in a notebook."""
 import contextlib
 import io
 import pathlib

@@ -1,18 +1,18 @@
 # `eyeray verify` as tests: gates A, B and C on every scene file (ctest -L scene), in every mode (ctest -L mode) and under the
-# validation layers (ctest -L validation). What a failing gate leaves behind lies in the build folder.
+# validation layers (ctest -L validation). The files of a failing gate are in the build folder.
 file(GLOB_RECURSE SCENES CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/scenes/*.toml)
 list(FILTER SCENES EXCLUDE REGEX "/include/")
 # Scenes of path tracing have many samples a pixel: a few samples show two executors' agreement as well.
 set(PATHS ${SCENES})
 list(FILTER PATHS INCLUDE REGEX "^scenes/path/")
 list(REMOVE_ITEM SCENES ${PATHS})
-# Their kernels take seconds to compile.
+# The kernels of these scenes take seconds to compile.
 set(SHOWCASE ${SCENES})
 list(FILTER SHOWCASE INCLUDE REGEX "^scenes/(showcase/|gallery|five_ways)")
 list(REMOVE_ITEM SCENES ${SHOWCASE})
 set(SHAPE_SCENES ${SCENES})
 list(FILTER SHAPE_SCENES INCLUDE REGEX "^scenes/shapes/")
-# The gallery has what the others have, in one kernel that takes seconds to make, and the Mandelbulb takes seconds to trace: once is enough.
+# The gallery has the shapes of the other scenes, in one kernel that takes seconds to compile. The Mandelbulb takes seconds to trace. One run of each is enough.
 list(FILTER SHAPE_SCENES EXCLUDE REGEX "/(gallery|mandelbulb)")
 
 # eyeray_verify(NAME LABEL [QUICK|STAND_IN|NIGHTLY] ARGUMENT …): one process for all its scenes. QUICK: it is in what `scripts/test` alone
@@ -61,7 +61,7 @@ list(FILTER quick EXCLUDE REGEX "^scenes/edges/|/(gallery|group_shapes|mandelbul
 eyeray_verify(scenes.small scene STAND_IN ${quick} -s 48x36)
 eyeray_verify(scenes.edges scene STAND_IN ${EDGES})
 
-# Every scene as its file says.
+# Every scene as its file defines it.
 foreach(scene IN LISTS SCENES)
   string(REGEX REPLACE "^scenes/(.*)\\.toml$" "\\1" name ${scene})
   string(REPLACE "/" "." name ${name})
@@ -72,7 +72,7 @@ endforeach()
 set(by_bvh --tune acceleration=bvh --tune constants=off)
 set(by_packets ${by_bvh} --tune rays=packets)
 
-# Paths, traced in every way and by every sampler.
+# Scenes of path tracing, traced in every way and with every sampler.
 set(few_samples -s 96x72 --spp 4)
 eyeray_verify(scenes.paths scene QUICK ${PATHS} ${few_samples})
 eyeray_verify(scenes.paths.large scene NIGHTLY ${PATHS} -s 320x240 --spp 4)
@@ -83,7 +83,7 @@ eyeray_mode(paths.random PATHS ${few_samples} --seed 7 -D image.pattern=random)
 eyeray_mode(paths.jittered PATHS ${few_samples} --seed 7 -D image.pattern=jittered)
 
 # Photons in every scene that has a light and a surface for them; tests/loader/refused_by_sppm.txt has the others, and why, and
-# tests/loader/photons.cpp holds each to that. What takes long to make or to trace is seen at night.
+# tests/loader/photons.cpp holds each to that. Scenes that take long to compile or to trace run only at night.
 file(STRINGS ${CMAKE_SOURCE_DIR}/tests/loader/refused_by_sppm.txt refused)
 list(FILTER refused INCLUDE REGEX "^scenes/")
 list(TRANSFORM refused REPLACE " .*" "")
@@ -98,7 +98,7 @@ set(photons -s 24x18 --spp 1 --integrator sppm -D render.photons=4096 --tune con
 eyeray_mode(photons GATHERED ${photons})
 eyeray_verify(mode.photons.long mode NIGHTLY ${gathered_long} ${photons})
 
-# Samples that lie outside of their pixels, too.
+# Filters whose samples also lie outside their pixels.
 foreach(filter IN ITEMS gaussian blackman-harris)
   eyeray_verify(mode.filter.${filter} mode scenes/whitted.toml scenes/cameras/fisheye.toml scenes/path/lamps.toml -s 96x72 --spp 4 -D image.filter=${filter})
 endforeach()
@@ -115,13 +115,13 @@ eyeray_verify(mode.slow-kernels.packets mode ${slow} scenes/shapes/implicit.toml
   ${by_packets})
 set(jittered --spp 4 -D image.pattern=jittered --seed 7 --max-explained 0.02)
 eyeray_verify(mode.slow-kernels.jittered mode scenes/shapes/implicit.toml scenes/shapes/sculpture.toml scenes/forest.toml -s 96x72 ${jittered})
-# A march takes up to 4096 steps a ray: 64 rays of glass in a row are more than Mesa 22.3.6 grants, and say so (docs/lavapipe.md).
+# A march takes up to 4096 steps a ray. For 64 rays of glass in a row that is more than Mesa 22.3.6 allows, which is reported (docs/lavapipe.md).
 set(deep --max-depth 64 -D render.min_throughput=0.01)
 eyeray_verify(mode.slow-kernels.deep-jittered mode ${slow} ${deep} ${jittered})
-# Without constants the kernels are the same for many modes, and made once.
+# Without constants, many modes share kernels, which are compiled once.
 eyeray_mode(no-constants small -s 96x72 --tune constants=off)
 eyeray_verify(mode.no-constants.edges mode QUICK ${EDGES} --tune constants=off)
-# However hits are found, they are the same. The GPU's profile runs on any device.
+# Every way of finding hits finds the same hits. The GPU's profile runs on any device.
 set(searched scenes/meshes.toml scenes/sphereflake.toml scenes/cornell.toml scenes/inside_glass.toml -s 96x72)
 eyeray_verify(mode.no-optimiser mode ${searched} --tune optimiser=off)
 set(groups scenes/group_instances.toml scenes/group_shapes.toml)
@@ -142,7 +142,7 @@ eyeray_mode(packets small -s 96x72 ${by_packets})
 set(bounces scenes/sphereflake.toml scenes/cornell.toml scenes/textures.toml)
 eyeray_verify(mode.cooperative mode QUICK ${bounces} -s 48x36 ${by_packets} --tune incoherent=cooperative)
 eyeray_mode(packets.edges EDGES ${by_packets})
-# Vectors as big pictures have them, wherever there is such a processor.
+# Vectors as wide as for big pictures, if the processor has them.
 eyeray_verify(mode.wide-vectors mode ${few} scenes/shapes/torus.toml scenes/shapes/csg.toml)
 set_tests_properties(mode.wide-vectors PROPERTIES ENVIRONMENT LP_NATIVE_VECTOR_WIDTH=512)
 eyeray_mode(raycast small -s 96x72 --integrator raycast)
@@ -151,7 +151,7 @@ eyeray_mode(eye-rays views -s 96x72 --max-depth 0)
 eyeray_mode(deep small -s 96x72 --tune constants=off ${deep})
 eyeray_verify(mode.moller-trumbore mode scenes/cornell.toml scenes/whitted.toml scenes/shapes/triangle.toml -s 96x72
   --triangle moller-trumbore)
-# A pixel of n samples is n times as likely to have one at a jump.
+# A pixel of n samples is n times as likely to have a sample at a jump.
 eyeray_mode(supersampled views -s 96x72 --spp 4 --max-explained 0.02)
 eyeray_mode(jittered small -s 96x72 --tune constants=off --spp 9 -D image.pattern=jittered --seed 7 --max-explained 0.02)
 
@@ -163,10 +163,10 @@ eyeray_mode(raster drawn -s 96x72 --raster --backends gpu --integrator raycast)
 # Cylinders as triangles that are a hundredth of a pixel wide.
 eyeray_verify(mode.raster.slivers mode QUICK scenes/shapes/cylinder.toml -s 160x79 --raster --backends gpu)
 eyeray_verify(validation.raster validation ${some} -s 96x72 --raster --backends gpu --validate core)
-# Scenes of Whitted's integrator are paths' too.
+# Scenes of Whitted's integrator, rendered by path tracing.
 eyeray_mode(paths.whitted small -s 48x36 --spp 2 --tune constants=off --integrator path --max-explained 0.05)
 
-# Pictures that no workgroup fits, and parts of pictures.
+# Pictures whose sizes are no multiples of a workgroup's, and parts of pictures.
 foreach(size 1x1 7x3 1x300 300x1 17x33)
   eyeray_verify(mode.size-${size} mode QUICK ${some} -s ${size})
 endforeach()
@@ -196,19 +196,19 @@ eyeray_verify(mode.unlit mode QUICK tests/loader/warned/unlit.toml)
 eyeray_verify(mode.crop mode QUICK ${some} -s 200x150 --crop 51,37,83,71)
 eyeray_verify(mode.crop-jittered mode ${some} -s 200x150 --crop 199,0,1,150 --spp 4 -D image.pattern=jittered)
 
-# Nothing is broken, whatever the seed; scripts/false-alarms asks more.
+# No seed may cause a false alarm; scripts/false-alarms tests more cases.
 set(of_seed -s 48x36 --spp 4 -D image.pattern=jittered --max-explained 0.02 --backends twin)
 eyeray_verify(mode.seed-1 mode ${quick} ${EDGES} ${of_seed} --seed 1)
 foreach(seed 2 3)
   eyeray_verify(mode.seed-${seed} mode NIGHTLY ${quick} ${EDGES} ${of_seed} --seed ${seed})
 endforeach()
 
-# A second driver with its own compiler: SwiftShader (docs/lavapipe.md, another driver), within 8 GiB. None takes 60 s of a processor; how
+# A second driver with its own compiler: SwiftShader (docs/lavapipe.md, another driver), within 8 GiB. No test takes 60 s of processor time; how
 # long that is depends on what else the machine does.
 set(SWIFTSHADER /usr/lib/chromium/vk_swiftshader_icd.json CACHE FILEPATH "The manifest of the driver that the label `driver` asks")
 set(driver ${SCENES})
 list(FILTER driver INCLUDE REGEX "^scenes/shapes/")
-# eyeray_driver(NAME COMMAND…): on that driver alone.
+# eyeray_driver(NAME COMMAND…): runs a command with only that driver.
 function(eyeray_driver name)
   add_test(NAME driver.${name} COMMAND prlimit --as=8589934592 $<TARGET_FILE:eyeray> ${ARGN} WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
   set_tests_properties(driver.${name} PROPERTIES LABELS "driver;full" TIMEOUT 600
@@ -218,7 +218,7 @@ foreach(scene IN LISTS driver ITEMS scenes/whitted.toml scenes/cornell.toml scen
   get_filename_component(name ${scene} NAME_WE)
   eyeray_driver(${name} verify ${scene} -s 24x18 --quiet --timeout 600)
 endforeach()
-# Its profile, on any device.
+# That driver's profile, on any device.
 eyeray_verify(mode.profile-small mode QUICK ${few} --tune profile=small)
 
 # Every message of a validation layer is a failure; tests/gpu proves that the layers are there and speak. `core` reads the kernels too,

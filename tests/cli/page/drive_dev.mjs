@@ -19,7 +19,7 @@ page.on('request', request => assert.ok(request.url().startsWith(address) || req
 
 const body = name => page.evaluate(key => document.body.dataset[key], name);
 const stage = () => page.locator('#stage').evaluate(canvas => canvas.toDataURL());
-// Until the view's picture is done and shown as it is now.
+// Waits until the view's picture is complete and shown.
 async function done(view) {
   await page.waitForFunction(name => {
     const { state, shown, wanted } = document.body.dataset;
@@ -40,7 +40,7 @@ await done('gpu');
 const first = await stage();
 await page.screenshot({ path: `${folder}/light.png` });
 
-// An edit is seen; a broken one leaves the picture and says where; mended, all is as it was.
+// An edit changes the picture. A broken edit keeps the picture and reports the position; once mended, all is as before.
 const pixel = `${shaders}/kernels/pixel.glsl`, good = readFileSync(pixel, 'utf8');
 const with_code = code => {
   const edited = good.replace('  return sample_result(', `  ${code}\n  return sample_result(`);
@@ -85,7 +85,7 @@ await page.locator('#probe details').first().waitFor();
 assert.match(await page.locator('#probe').textContent(), /gpu, twin, reference agree/);
 assert.match(await page.locator('#pixel').textContent(), /^\d+,\d+ {2}[\d.]+/);
 
-// Rays of a picture that has changed since say so.
+// Rays of a picture that has changed since are marked as such.
 const scene_file = `${folder}/scene.toml`, scene = readFileSync(scene_file, 'utf8');
 assert.ok(await page.locator('#stale').isHidden());
 await next('gpu', () => writeFileSync(scene_file, scene.replace(/^radius = .*$/m, 'radius = 0.5')));
@@ -108,7 +108,7 @@ assert.notEqual(await next('gpu', () => slider('sphere.0.radius').fill('0.5')), 
 assert.match(await page.locator('#tunables').textContent(), /^kernels\/pixel\.glslGLOW.*sphereradius/);
 await page.screenshot({ path: `${folder}/tunables.png` });
 
-// Two pages show the same: what one moves, the other shows moved.
+// Two pages show the same: a control moved on one also moves on the other.
 const other = await browser.newPage({ viewport: { width: 1280, height: 900 } });
 await other.goto(address);
 const there = name => other.locator(`#tunables input[id$="${name}"]`);
