@@ -136,7 +136,7 @@ vec3 prism_cap_inward(Primitive s, vec3 p, float room) {
   return inward;
 }
 
-// The step along a wall, from p, to the inside of the walls that it meets at less than 180 degrees. `n`, `along`: the wall's unit normal, and its
+// The step along a wall, from p, to the inside of the walls that join it at less than 180 degrees. `n`, `along`: the wall's unit normal, and its
 // way from end to end.
 vec3 prism_wall_inward(Primitive s, vec3 p, vec3 n, vec3 along, float room) {
   vec3 inward = vec3(0.0f, 0.0f, 0.0f);
