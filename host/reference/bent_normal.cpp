@@ -52,7 +52,8 @@ Vec3 bumped(const BumpMap& map, const SurfacePoint& point, const Vec3& n) {
   const auto along = [&](const Vec2& d) {
     return rise(map, {point.uv - map.width * d, point.position}, {point.uv + map.width * d, point.position});
   };
-  // Blinn's n + (h_u n × p_v − h_v n × p_u) / |p_u × p_v|, n being that of the surface that u and v span.
+  // Blinn's n + (h_u n × p_v − h_v n × p_u) / |p_u × p_v|, where n in the products is the normal of the
+  // surface that u and v span.
   const Vec3 across = glm::cross(point.along_u, point.along_v);
   const double area = glm::length(across);
   if (!(area > 0 && std::isfinite(area))) return n;
@@ -64,8 +65,9 @@ Vec3 bumped(const BumpMap& map, const SurfacePoint& point, const Vec3& n) {
   return usable(bent) ? glm::normalize(bent) : n;
 }
 
-// From the viewer's side: up from below the horizon, then half way between the viewer and a mirrored view
-// that is just above it.
+// Bends n back until the mirrored view is above the surface, on the viewer's side. A normal below the horizon
+// is first raised above it. If the mirrored view is then too low, n becomes the direction half way between
+// the viewer and a mirrored view just above the horizon.
 Vec3 lifted(Vec3 n, const SurfacePoint& point, const Vec3& d) {
   const Vec3 to_viewer = -glm::normalize(d);
   const double side = glm::dot(to_viewer, point.normal_geometric) > 0 ? 1 : -1;

@@ -6,11 +6,11 @@
 
 namespace eyeray::engine::reference {
 
-// Bends the shading normal of `point`, which is on the side of its geometric one, as the material does where
-// a ray in direction d hits. It bends by its normal map, then by its bumps (Blinn: Simulation of Wrinkled
-// Surfaces, SIGGRAPH 1978), then so far back that the mirrored view is above the surface (Keller et al.: The
-// Iray Light Transport Simulation and Rendering System, 2017, appendix). A coat has the normal before that
-// bending, bent by the coat's own map.
+// Bends the shading normal of `point` as the material sets it, for a ray that hits in direction d. At first
+// this normal is on the side of the geometric one. The normal map bends it, then the bump map (Blinn:
+// Simulation of Wrinkled Surfaces, SIGGRAPH 1978). Then it is bent back until the mirrored view is above the
+// surface (Keller et al.: The Iray Light Transport Simulation and Rendering System, 2017, appendix). A coat's
+// normal starts from the unbent shading normal, and only the coat's own map bends it before that last step.
 void bend_normals(const Material& material, SurfacePoint& point, const Vec3& d);
 
 }  // namespace eyeray::engine::reference

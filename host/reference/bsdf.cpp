@@ -56,7 +56,8 @@ Vec3 ggx_normal(const Vec3& o, double width, const Vec2& u) {
   return glm::normalize(stretch * (v + Vec3(radius * std::cos(turn), radius * std::sin(turn), z)));
 }
 
-// Light that microfacets send from i to o, each a perfect mirror, and the density with which i is found.
+// The light that microfacets, each a perfect mirror, reflect from i to o, and the density with which i is
+// sampled.
 BsdfValue reflection(const Vec3& o, const Vec3& i, double width) {
   if (i.z <= 0) return {};
   const Vec3 h = glm::normalize(o + i);
@@ -65,7 +66,8 @@ BsdfValue reflection(const Vec3& o, const Vec3& i, double width) {
   return {Vec3(ggx(h, width) * both / (4 * o.z)), ggx(h, width) * masking * along_o / o.z / (4 * along_o)};
 }
 
-// After more than one microfacet, by the share of light that is left over then.
+// The reflectance by more than one microfacet, as a factor of the share of light that one microfacet leaves
+// over.
 Vec3 often(const Fresnel& fresnel, const GgxAlbedo& albedo) {
   return fresnel.mean * fresnel.mean * albedo.mean_once / (1.0 - fresnel.mean * (1 - albedo.mean_once));
 }
@@ -74,7 +76,7 @@ Vec3 once(const Fresnel& fresnel, double once, double edge) {
   return fresnel.f0 * (once - edge) + fresnel.f90 * edge;
 }
 
-// The reflection of layer and metal together: by one microfacet, and by more.
+// The reflectance of layer and metal together: at one angle, by one microfacet, and by more than one.
 Vec3 mirrored_at(const Bsdf& bsdf, double cosine) {
   return bsdf.layered * bsdf.layer.at(cosine) + bsdf.metallic * bsdf.metal.at(cosine);
 }
@@ -107,7 +109,7 @@ double through_sheen(const Vec3& sheen, double roughness, double cosine) {
   return sheen == Vec3(0) ? 1 : 1 - largest(sheen) * tables::sheen_albedo(cosine, roughness).albedo;
 }
 
-// EON, without the light's cosine.
+// The EON model of rough diffuse reflection, without the light's cosine.
 Vec3 rough_diffuse(const Vec3& color, double r, const Vec3& o, const Vec3& i) {
   const double a = 1 / (1 + r * (0.5 - 2 / (3 * M_PI)));
   const auto albedo = [&](double cosine) {
@@ -276,9 +278,9 @@ ViewedBsdf::Layers ViewedBsdf::layers(const Vec3& w) const {
           through_sheen(bsdf_.sheen, bsdf_.sheen_roughness, w.z)};
 }
 
-// A layer takes from the lobes under it as much light as it sends to the viewer (Khronos:
-// KHR_materials_clearcoat, KHR_materials_sheen), so that a white surface stays white. A photon's viewer is in
-// i; seen from behind, layers lie there.
+// The layers that dim light from i. A layer takes as much light from the lobes under it as it reflects to the
+// viewer (Khronos: KHR_materials_clearcoat, KHR_materials_sheen), so that a white surface stays white. For a
+// photon, i points to the viewer; if that is behind the surface, the layers count as on that side.
 ViewedBsdf::Layers ViewedBsdf::layers_between(const Vec3& i) const {
   return layers(!adjoint_ ? o_ : i.z < 0 ? -i : i);
 }
@@ -309,7 +311,7 @@ bool ViewedBsdf::faces(const Vec3& i, bool before) const {
 Vec3 ViewedBsdf::direction(Lobe lobe, double part, const Vec2& u) const {
   const double spread = lobe == thin ? tables::ggx_albedo(o_.z, bsdf_.roughness).once : 0;
   if (lobe == diffuse || lobe == multiple || lobe == sheen || (lobe == thin && part >= spread)) {
-    // Evenly on the disk, then up to the half sphere: Malley's.
+    // Malley's method: a uniform point on the disk, projected up to the half sphere.
     const double radius = std::max(std::abs(2 * u.x - 1), std::abs(2 * u.y - 1));
     const double up = std::sqrt(1 - radius * radius);
     return {on_disk(u), lobe == thin ? -up : up};
@@ -332,7 +334,7 @@ Vec3 ViewedBsdf::direction(Lobe lobe, double part, const Vec2& u) const {
 }
 
 BsdfSample ViewedBsdf::sample(double chance, const Vec2& u) const {
-  // The last lobe whose numbers begin at or before `chance`.
+  // Choose the last lobe whose range of numbers begins at or before `chance`.
   double begin = 0, below = 0;
   Lobe chosen = diffuse;
   for (int lobe = 0; lobe < lobes; ++lobe) {

@@ -1,5 +1,5 @@
-// BSDFs in float64: the sum of all lobes for a direction, and directions by their density. Directions
-// are unit, in the surface's own frame, whose z is the normal on the viewer's side.
+// BSDFs in float64: the sum of all lobes for a direction, and the sampling of directions. Directions are unit
+// vectors in the surface's own frame, whose z is the normal on the viewer's side.
 #pragma once
 
 #include "host/reference/local_frame.hpp"
@@ -8,16 +8,16 @@
 namespace eyeray::engine::reference {
 
 struct BsdfValue {
-  Vec3 value{0};       // BSDF · |cosine| of the light, of radiance / index²
-  double density = 0;  // by solid angle, with which sample() finds that direction
+  Vec3 value{0};       // BSDF · |cosine of the light|, for radiance / index²
+  double density = 0;  // with which sample() chooses that direction, by solid angle
 };
 
 struct BsdfSample {
   enum class Kind { lobe, mirrored, refracted, passed };
   Kind kind;
-  Vec3 i;         // of a lobe: where light may come from; 0 where the surface itself stands in the way
-  Vec3 weight;    // of a single direction: its throughput by how likely it was chosen, but for layers
-  uint32_t lobe;  // as the shaders number them
+  Vec3 i;         // of a lobe: the direction from which light may come; 0 if the surface itself blocks it
+  Vec3 weight;    // of a single direction: throughput / probability; without layers, unless passed
+  uint32_t lobe;  // its number in the shaders
 };
 
 // A BSDF towards one viewer.
@@ -26,27 +26,28 @@ class ViewedBsdf {
   // o: towards the viewer, o.z > 0.
   ViewedBsdf(const Bsdf& bsdf, const Vec3& o) : ViewedBsdf(bsdf, o, false) {}
 
-  // The value for light from i, summed over all lobes except the mirrored and the refracted direction.
-  // `before`: whether the light is in front of the surface. A lobe whose normal, which may be bent, puts the
-  // light on the other side does not count.
+  // The value for light from i, summed over all lobes except the single directions (mirrored, refracted,
+  // passed). `before`: true if the light is in front of the surface. A lobe does not count if its normal,
+  // which may be bent, puts the light on the other side.
   BsdfValue at(const Vec3& i, bool before) const;
   // True if any lobe counts for light from i.
   bool faces(const Vec3& i, bool before) const;
   // `chance` and u: random numbers in [0, 1). The BSDF must not be black.
   BsdfSample sample(double chance, const Vec2& u) const;
-  // Its wide lobes alone, or the sharp ones, each followed as often as before (shaders/bsdf/parts.glsl).
+  // The BSDF's wide lobes alone, or its sharp ones alone. Each lobe keeps the probability that it has in the
+  // whole BSDF (shaders/bsdf/parts.glsl).
   ViewedBsdf part(bool wide) const;
   // The probability that one of its lobes is followed: 1, or less for a partial BSDF.
   double followed() const;
   // The share of light that goes straight on.
   Vec3 passed() const { return bsdf_.passed * passed_; }
-  // About the share of the light that it sends towards the viewer.
+  // About the share of light that the BSDF scatters towards the viewer.
   Vec3 albedo() const { return glm::min(albedo_, Vec3(1)); }
   // True if light leaves in single directions alone.
   bool specular() const { return shares_[mirror] + shares_[transmitted] + shares_[straight] > 0 && !rough(); }
   // The BSDF for photons, which come from o and are weighed by the surface's normal.
   ViewedBsdf adjoint() const { return {bsdf_, o_, true}; }
-  // The share of light in a single direction, mirrored or refracted, that coat and sheen leave.
+  // The share of light that coat and sheen leave, for light in the mirrored or the refracted direction i.
   double through_layers(const Vec3& i) const;
   // True if it scatters no light at all.
   bool black() const { return sum_ == 0; }
@@ -54,7 +55,7 @@ class ViewedBsdf {
  private:
   ViewedBsdf(const Bsdf& bsdf, const Vec3& o, bool adjoint);
 
-  // In the order in which they are chosen.
+  // The lobes, in the order in which they are chosen.
   enum Lobe { diffuse, glossy, multiple, coat, glass, sheen, thin, mirror, transmitted, straight, lobes };
 
   bool rough() const {
@@ -79,7 +80,7 @@ class ViewedBsdf {
   double shares_[lobes] = {};
   double sum_ = 0;
   Vec3 albedo_{0};
-  Vec3 passed_;  // share that layers leave of light that goes straight on
+  Vec3 passed_;  // the share of light going straight on that the layers leave
 };
 
 }  // namespace eyeray::engine::reference

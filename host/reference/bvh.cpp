@@ -10,7 +10,7 @@ namespace eyeray::engine::reference {
 namespace {
 
 constexpr uint32_t most_in_leaf = 4;
-constexpr uint32_t worth_a_thread = 4096;  // leaves
+constexpr uint32_t worth_a_thread = 4096;  // a subtree with fewer leaves gets no thread of its own
 
 Bounds joined(const Bounds& a, const Bounds& b) {
   return {glm::min(a.min, b.min), glm::max(a.max, b.max)};
@@ -26,7 +26,7 @@ Bvh::Bvh(uint32_t count, const std::function<Bounds(uint32_t)>& box, Acceleratio
   std::vector<Key> keys(count);
   parallel_for(0, int(count), [&](int i) {
     const Bounds bounds = box(uint32_t(i));
-    keys[size_t(i)] = {bounds.min + bounds.max, uint32_t(i)};  // twice the centre, which sorts as well
+    keys[size_t(i)] = {bounds.min + bounds.max, uint32_t(i)};  // twice the centre: the order is the same
   });
   leaves_ = 1;
   while (count > uint64_t(leaves_) * most_in_leaf) leaves_ *= 2;

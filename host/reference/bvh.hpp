@@ -1,13 +1,14 @@
-// Finds the boxes that a ray may hit: the reference's own BVH, the simplest possible. Every box is halved at
-// the median of its contents until a few are left, so that the BVH is complete and its shape follows from the
-// number of boxes alone.
+// The reference's own BVH, as simple as possible. It finds the boxes that a ray may hit. Every node is halved
+// at the median of its boxes until a few are left. So the BVH is a complete tree, and its shape follows from
+// the number of boxes alone.
 //
-// That nothing is lost to rounding rests on two facts. A ray sees every box wider by the same margin, so that
-// a point that a primitive's own intersection counts as a hit lies in its box. And `BoxRay::entry` is
-// monotone: each of its steps (subtract, multiply, compare) is, in floating-point arithmetic too, so that the
-// entry into a box is never beyond that into a box within it, bit for bit. Hence a hit that is taken only
-// where the ray enters the primitive's own box, and never nearer than there, is found by every search that
-// leaves out no more than boxes entered beyond the nearest hit so far, in any order.
+// Rounding loses no hit, for two reasons. First, every box is widened by the same margin for a ray. So a
+// point that a primitive's own intersection counts as a hit lies in the primitive's box. Second,
+// `BoxRay::entry` is monotone, because each of its steps (subtract, multiply, compare) is, also in
+// floating-point arithmetic. So the entry into a box is never beyond the entry into a box within it, bit for
+// bit. A hit counts only if the ray enters the primitive's own box, and is never nearer than that entry.
+// Hence every search finds it, in any order, if the search skips only boxes entered beyond the nearest hit so
+// far.
 #pragma once
 
 #include <array>
@@ -27,10 +28,10 @@ namespace eyeray::engine::reference {
 // of 2⁻⁵³. The intersections of triangles and spheres take no more than 20.
 inline constexpr double rounding = 0x1p-47;
 
-// A ray as boxes see it.
+// A ray, prepared for the intersection with boxes.
 class BoxRay {
  public:
-  // `margin` > 0: how much farther out every face of a box lies.
+  // `margin` > 0: the distance by which every face of a box is moved outwards.
   BoxRay(const Ray& ray, double margin)
       : inverse_(1.0 / ray.d), ahead_(ray.o + margin), behind_(ray.o - margin) {}
 
@@ -45,8 +46,8 @@ class BoxRay {
   }
 
  private:
-  // Cuts [entry, exit] to the part between two planes. A ray along one of them (0 · ∞) is between them: the
-  // comparisons leave a NaN out.
+  // Cuts [entry, exit] to the part between two planes. A ray in one of the planes gives 0 · ∞, a NaN. The
+  // comparisons ignore it, so such a ray counts as between the planes.
   static void clip(double to_min, double to_max, double inverse, double& entry, double& exit) {
     const double near = (inverse < 0 ? to_max : to_min) * inverse;
     const double far = (inverse < 0 ? to_min : to_max) * inverse;
@@ -60,14 +61,14 @@ class BoxRay {
 
 class Bvh {
  public:
-  Bvh() = default;  // of no boxes
+  Bvh() = default;  // without boxes
   // Builds a BVH of the boxes 0 … count − 1, all finite. `box` is called from many threads. Takes O(n log n),
   // on all cores.
   Bvh(uint32_t count, const std::function<Bounds(uint32_t)>& box, Acceleration acceleration);
 
-  // Calls visit(i, limit) for the boxes that the ray may enter at t ≤ limit, the nearer ones first as far as
-  // that costs nothing; all of them under brute force. Each call returns the limit from there on; a negative
-  // one ends the search.
+  // Calls visit(i, limit) for each box that the ray may enter at t ≤ limit, nearer boxes first as far as that
+  // costs nothing. Under brute force it visits all boxes. Each call returns the new limit; a negative one
+  // ends the search.
   template <typename Visit>
   void search(const BoxRay& ray, double limit, const Visit& visit) const;
 
@@ -83,7 +84,7 @@ class Bvh {
   uint32_t count_ = 0;
   uint32_t leaves_ = 0;          // a power of two; leaf i has the boxes from first_of(i) to first_of(i + 1)
   std::vector<Bounds> nodes_;    // the children of node i are 2i + 1 and 2i + 2, the leaves come last
-  std::vector<uint32_t> boxes_;  // leaf by leaf
+  std::vector<uint32_t> boxes_;  // indices of boxes, leaf by leaf
 };
 
 template <typename Visit>
@@ -97,11 +98,11 @@ void Bvh::search(const BoxRay& ray, double limit, const Visit& visit) const {
     size_t node;
     double entry;
   };
-  std::array<Pending, 32> stack;  // one a level
+  std::array<Pending, 32> stack;  // one node per level
   size_t pending = 0;
   Pending at{0, ray.entry(nodes_[0])};
   for (;;) {
-    // A box that is entered at the limit itself may have an equal hit of a lower index.
+    // A box that is entered exactly at the limit may have a hit with the same t and a lower index.
     if (at.entry <= limit && at.entry < std::numeric_limits<double>::infinity()) {
       if (at.node + 1 < leaves_) {
         Pending near{2 * at.node + 1, ray.entry(nodes_[2 * at.node + 1])};

@@ -7,7 +7,8 @@
 namespace eyeray::engine::reference {
 namespace {
 
-// Evenly on the polygon with its corners on the circle of radius 1: where along its border, and how far out.
+// A uniform point on the polygon with its corners on the circle of radius 1. u.x: the position along its
+// border; u.y: how far out.
 Vec2 on_polygon(const Vec2& u, int corners, double rotation) {
   const double side = std::floor(u.x * corners);
   const auto corner = [&](double i) {

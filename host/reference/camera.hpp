@@ -1,4 +1,4 @@
-// From a point in the picture to a ray, by the formulas of docs/conventions.md.
+// Camera rays through points of the picture, by the formulas of docs/conventions.md.
 #pragma once
 
 #include "host/scene/scene.hpp"
@@ -9,16 +9,17 @@ class CameraRays {
  public:
   CameraRays(const Camera& camera, const ImageSettings& image);
 
-  // The ray through `place`, in pixels from the picture's top left corner, and from `lens`, to the right and
-  // up of the lens' middle; its direction is unit.
+  // The ray from a point of the lens through a point of the picture; its direction is unit. `place`: the
+  // point of the picture, in pixels from its top left corner. `lens`: the point of the lens, to the right and
+  // up of its middle.
   Ray ray(const Vec2& place, const Vec2& lens = Vec2(0.0)) const;
-  // True if anything is seen there; else there is no ray.
+  // True if the camera sees anything there; else ray() has no ray.
   bool sees(const Vec2& place, const Vec2& lens = Vec2(0.0)) const;
   // A point on the lens. u: two random numbers in [0, 1).
   Vec2 lens_point(const Vec2& u) const;
 
  private:
-  // To the right and up, in half widths.
+  // The offset of `place` from the picture's middle, to the right and up, in half widths of the picture.
   Vec2 from_middle(const Vec2& place) const;
 
   CameraAxes axes_;

@@ -12,7 +12,7 @@ namespace eyeray::engine::reference {
 
 namespace {
 
-// A point on the sphere, which is a little larger, is not outside: it sees the inside.
+// True if the point is outside of the sphere enlarged a little. So a point on the sphere counts as inside.
 bool outside(const SphereForm& sphere, const Vec3& from) {
   const Vec3 way = sphere.center - from;
   return glm::dot(way, way) > 1.0002 * sphere.radius * sphere.radius;
@@ -53,24 +53,24 @@ EmitterSample on_sphere(const SphereForm& sphere, const Vec3& from, const Vec2& 
     const double b = glm::dot(way, d);
     const double c = glm::dot(way, way) - sphere.radius * sphere.radius;
     const double near = b - std::sqrt(std::max(0.0, b * b - c));
-    // From so far away that the radius is lost, the point is the nearest.
+    // If `from` is so far away that rounding loses the radius, take the nearest point of the sphere.
     const Vec3 out = near * d - way;
     normal = glm::length(out) > 0 ? glm::normalize(out) : -d;
   }
   return {sphere.center + sphere.radius * normal, normal, globe(glm::transpose(sphere.axes) * normal)};
 }
 
-// The faces of a box, those of its x first.
+// One face of a box. In arrays of faces the two faces across the box's x axis come first.
 struct Face {
   Vec3 center, half_u, half_v, normal;  // outward
-  double weight;                        // by which it is chosen
+  double weight;                        // the probability of the face is proportional to it
   int axis, sign;
 
   double area() const { return 4 * glm::length(glm::cross(half_u, half_v)); }
 };
 
-// From outside those that are turned to the point, by area · cosine / distance² of their centres; else by
-// area.
+// The faces and their weights. From outside, the weight of a face turned to the point is area · cosine /
+// distance² of its centre; other faces have the weight 0. From inside, the weight is the area.
 std::array<Face, 6> faces(const BoxForm& box, const Vec3& from, bool& outside) {
   const Mat3 m(box.to_world);
   std::array<Face, 6> all;
@@ -88,7 +88,7 @@ std::array<Face, 6> faces(const BoxForm& box, const Vec3& from, bool& outside) {
     const Vec3 across = glm::normalize(glm::cross(face.half_u, face.half_v));
     face.normal = glm::dot(across, m[axis]) * sign > 0 ? across : -across;
     const Vec3 way = from - face.center;
-    // A point on the box, which is a little larger, is not outside.
+    // The box is enlarged a little, so that a point on it does not count as outside.
     const double height = glm::dot(way, face.normal) - 0.0002 * std::abs(glm::dot(m[axis], face.normal));
     face.weight = face.area() * height / std::pow(glm::length(way), 3);
     outside = outside || face.weight > 0;
@@ -106,12 +106,13 @@ EmitterSample on_box(const BoxForm& box, const Vec3& from, const Vec2& u) {
   size_t i = 0;
   while (i < 5 && !(rest < all[i].weight)) rest -= all[i++].weight;
   const Face& face = all[i];
-  // Along the two other axes in their order.
+  // The random numbers choose the position along the two other axes, in the order of the axes.
   Vec3 p(0);
   p[face.axis] = face.sign;
   p[face.axis == 0 ? 1 : 0] = 2 * rest / face.weight - 1;
   p[face.axis == 2 ? 1 : 2] = 2 * u.y - 1;
-  // Seen from outside u runs to the right and v up; the upward direction on top is −z, below +z.
+  // Seen from outside, u runs to the right and v upwards. Upwards is −z on the top face, and +z on the bottom
+  // face.
   Vec2 uv(p.x * face.sign, p.y);
   if (face.axis == 0) uv = {-p.z * face.sign, p.y};
   if (face.axis == 1) uv = {p.x, -p.z * face.sign};
@@ -138,7 +139,7 @@ double box_density(const BoxForm& box, const Vec3& from, const EmitterSample& pl
   return of_place->weight / sum * density_of_area(of_place->area(), from, place);
 }
 
-// The unit sphere in its own space, and the same point in the world.
+// Samples a point of the unit sphere in the ellipsoid's own space, and maps it to the world.
 EmitterSample on_ellipsoid(const EllipsoidForm& it, const Vec3& from, const Vec2& u) {
   const Affine map(it.to_world), back(glm::inverse(it.to_world));
   const EmitterSample own = on_sphere({Vec3(0), 1}, back.point(from), u);
@@ -150,11 +151,11 @@ double ellipsoid_density(const EllipsoidForm& it, const Vec3& from, const Emitte
   const SphereForm own{Vec3(0), 1};
   const double determinant = std::abs(glm::determinant(back.linear));
   if (outside(own, back.point(from))) {
-    // Solid angles there and here.
+    // The density by solid angle in the ellipsoid's own space, mapped to the world.
     const double stretch = glm::length(back.linear * glm::normalize(place.position - from));
     return determinant / std::pow(stretch, 3) / (2 * M_PI * versine(own, back.point(from)));
   }
-  // Areas there and here.
+  // The ratio of an area in the world to that in the ellipsoid's own space.
   const Vec3 normal = glm::normalize(glm::transpose(map.linear) * place.normal);
   const double stretch = glm::length(map.cotangent * normal) / determinant;
   return density_of_area(4 * M_PI * stretch, from, place);
@@ -213,7 +214,7 @@ EmitterSample on_triangle(const TriangleForm& it, const Vec3& from, const Vec2& 
   return {a + weights.x * (b - a) + weights.y * (c - a), glm::normalize(glm::cross(b - a, c - a)), weights};
 }
 
-// On both sides of a diagonal.
+// The two triangles on either side of a diagonal.
 std::array<TriangleForm, 2> halves(const ParallelogramForm& it) {
   const Vec3 &a = it.corner, b = a + it.edge_u, c = b + it.edge_v, d = a + it.edge_v;
   return {TriangleForm{{a, b, c}}, TriangleForm{{a, c, d}}};
@@ -328,7 +329,7 @@ Vec2 on_disk(const Vec2& u) {
 }
 
 std::pair<Vec3, Vec3> tangents(const Vec3& n) {
-  // Axes of no symmetry that a sensible scene has.
+  // An axis that belongs to no symmetry of a sensible scene.
   const Vec3 axis = glm::normalize(Vec3(0.3141592653589793, 0.8979323846264338, 0.2718281828459045));
   const Vec3 s = glm::normalize(glm::cross(axis, n));
   return {s, glm::cross(n, s)};

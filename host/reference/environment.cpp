@@ -10,8 +10,8 @@ namespace eyeray::engine::reference {
 
 namespace {
 
-// The position of a direction in the picture: columns from the first one's centre on, in [−½, width − ½), and
-// rows likewise, with half a row at each pole.
+// The position of a direction in the picture, as a column and a row. The column is counted from the centre of
+// the first one, and is in [−½, width − ½). The row is counted likewise, with half a row at each pole.
 Vec2 place(const EnvironmentMap& environment, const Vec3& d) {
   const double u = 0.5 + std::atan2(d.x, -d.z) / (2 * M_PI) + environment.turn();
   const double polar = std::acos(std::clamp(d.y, -1.0, 1.0));
@@ -27,7 +27,7 @@ Cell cell_at(const EnvironmentMap& environment, const Vec2& place) {
   return {(column + environment.width()) % environment.width(), std::min(row, environment.height())};
 }
 
-// The cosines of a row's upper and lower border with the axis up.
+// The cosines of the angles from the axis up to a row's upper and lower border.
 Vec2 cosines(const EnvironmentMap& environment, int row) {
   const double height = environment.height();
   return {std::cos(M_PI * std::max(row - 0.5, 0.0) / height),
@@ -39,7 +39,7 @@ std::span<const uint32_t> column_ends(const EnvironmentMap& environment, int row
   return std::span(environment.cells().column_ends).subspan(size_t(row) * width, width);
 }
 
-// The i-th stretch of numbers.
+// The random numbers, from `begin` to below `end`, that choose the i-th row or column.
 struct Stretch {
   uint32_t begin, end;
   double share() const { return (end - begin) / double(choice_numbers); }
@@ -55,7 +55,7 @@ double density(const EnvironmentMap& environment, const Cell& cell) {
          (2 * M_PI / environment.width() * (heights.x - heights.y));
 }
 
-// Whose stretch has the number u, and how far on in it that is.
+// The row or column i that a random number chooses, and the relative position of the number in its stretch.
 struct Choice {
   int i;
   double within;

@@ -33,8 +33,8 @@ double integral(double x) {
   return sum / terms[0];
 }
 
-// The point where the integral reaches u, by Newton's method. From the middle it never overshoots, since the
-// window falls from there on.
+// The point at which the integral is u − ½, by Newton's method. The method starts in the middle and never
+// overshoots, since the window falls on either side.
 double blackman_harris(double u) {
   const double wanted = std::abs(u - 0.5);
   double x = 0;

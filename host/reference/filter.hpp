@@ -5,7 +5,8 @@
 
 namespace eyeray::engine::reference {
 
-// A position in the pixel, from its top left corner, drawn from its filter by `u`, one drawn evenly.
+// A random position drawn from the pixel filter, relative to the pixel's top left corner. `u`: a uniform
+// random position in the pixel.
 Vec2 filtered(const ImageSettings& image, const Vec2& u);
 
 }  // namespace eyeray::engine::reference

@@ -7,7 +7,8 @@
 
 namespace eyeray::engine::reference {
 
-// The position in the pixel of the point `in_cell` of cell `index` of `samples`, a square number.
+// The position in the pixel of the point `in_cell` of cell `index`. `samples`: the number of cells, a square
+// number.
 inline Vec2 in_grid(int samples, uint32_t index, const Vec2& in_cell) {
   const auto n = uint32_t(std::lround(std::sqrt(samples)));
   return (Vec2(index % n, index / n) + in_cell) / double(n);

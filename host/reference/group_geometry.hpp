@@ -1,4 +1,4 @@
-// A group in the world: where a ray hits it, and the surface there.
+// A group instance in the world: the hits of rays with it, and the surfaces there.
 #pragma once
 
 #include "host/reference/objects.hpp"
@@ -7,12 +7,13 @@ namespace eyeray::engine::reference {
 
 class GroupGeometry {
  public:
-  // `objects`, the group's, must outlive it. `before`: as PrimitiveIds has it for the group instance.
+  // `objects`: the group's objects, which must outlive this instance. `before`: PrimitiveIds::of_group() of
+  // this instance.
   GroupGeometry(const GroupInstance& instance, const Objects& objects, const PrimitiveIds::First& before)
       : objects_(&objects), map_(instance.transform), box_(map_.bounds(objects.bounds())), before_(before) {}
 
   const Objects& objects() const { return *objects_; }
-  // In the world: around the group's own box.
+  // A box in the world around the group's own box.
   const Bounds& bounds() const { return box_; }
   double reach() const { return map_.reach(objects_->bounds()); }
   double growth() const { return map_.growth() * objects_->growth(); }

@@ -19,8 +19,8 @@ SurfacePoint InstanceGeometry::surface(const Ray&, const TriangleHit& hit) const
   const auto& triangle = mesh.triangles[hit.triangle];
   const Corners v = mesh_->corners(hit.triangle);
 
-  // Put the point onto the plane that t comes from: a sliver's normal is so rough that the corners may lie
-  // off it by far more than their own rounding.
+  // Project the point onto the plane from which t was computed. A sliver's normal is so inaccurate that the
+  // corners may lie off that plane by far more than their own rounding.
   SurfacePoint point;
   point.normal_geometric = geometric_normal(v);
   point.position = v[0] + (v[1] - v[0]) * hit.u + (v[2] - v[0]) * hit.v;

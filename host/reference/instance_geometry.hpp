@@ -1,4 +1,5 @@
-// An instance of a mesh: the hits of a ray of the world, or of its group, and the surface there.
+// An instance of a mesh: the hits of a ray in the space of the world, or of the instance's group, and the
+// surfaces there.
 #pragma once
 
 #include "host/reference/instance_map.hpp"
@@ -8,7 +9,8 @@ namespace eyeray::engine::reference {
 
 class InstanceGeometry {
  public:
-  // `mesh`, and `material`, null for one that is there everywhere, must outlive it.
+  // `mesh` and `material` must outlive this instance. `material`: null if all of the mesh is hit, from both
+  // sides.
   InstanceGeometry(const Instance& instance, const MeshGeometry& mesh, const Material* material = nullptr)
       : mesh_(&mesh), look_(material), map_(instance.transform), material_(instance.material) {}
 
@@ -21,15 +23,15 @@ class InstanceGeometry {
     return mesh_->count_crossed(map_.into(ray), t_end, most, look_, first_id);
   }
 
-  // The surface at a hit, in the world. The ray is not needed, and there so that shapes and instances are
-  // queried alike.
+  // The surface at a hit, in the world. The ray is unused: with it, shapes and instances have the same
+  // interface.
   SurfacePoint surface(const Ray& ray, const TriangleHit& hit) const;
 
   int material() const { return material_; }
   uint32_t triangles() const { return uint32_t(mesh_->mesh().triangles.size()); }
-  // In the world: around the mesh's own box.
+  // A box in the world around the mesh's own box.
   Bounds bounds() const { return map_.bounds(mesh_->bounds()); }
-  // The reach of the map, for the mesh and for one triangle.
+  // InstanceMap::reach() for the mesh, and for one triangle.
   double reach() const { return map_.reach(mesh_->bounds()); }
   double reach(uint32_t triangle, const Vec3& eye) const;
   double growth() const { return map_.growth(); }

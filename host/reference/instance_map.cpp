@@ -4,7 +4,7 @@ namespace eyeray::engine::reference {
 
 namespace {
 
-// By component: it carries bounds of errors along.
+// The magnitude of each component: this matrix maps bounds of errors.
 Mat3 size(const Mat3& m) {
   return {glm::abs(m[0]), glm::abs(m[1]), glm::abs(m[2])};
 }
@@ -37,8 +37,9 @@ SurfacePoint InstanceMap::out(const SurfacePoint& local) const {
     point.second->tangent = out_tangent(local.second->tangent);
   }
 
-  // The next ray starts here and goes back into the space: there it may be off by the rounding of both maps,
-  // which counts across the surface. A distance e across it is e / |across| in the world.
+  // The next ray starts at this point, and is mapped back into the space. There it may be off by the rounding
+  // of both maps, of which the part across the surface counts. A distance e across the surface is e /
+  // |across| in the world.
   const double in_space =
       magnitude(size(glm::transpose(to_world_.cotangent)) * glm::abs(point.position - to_world_.offset));
   const double world_ray =

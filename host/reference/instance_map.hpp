@@ -10,16 +10,16 @@ class InstanceMap {
  public:
   explicit InstanceMap(const Mat4& to_world) : to_world_(to_world) {}
 
-  // The direction keeps its length, so that t is the same in both.
+  // Maps a ray into the object space. The direction is not normalised, so that t is the same in both spaces.
   Ray into(const Ray& world) const;
-  // A surface of the space, in the world.
+  // Maps a surface of the object space to the world.
   SurfacePoint out(const SurfacePoint& local) const;
-  // In the world: around a box of the space.
+  // A box in the world around a box of the object space.
   Bounds bounds(const Bounds& box) const;
-  // The largest terms of which a coordinate in the world, relative to `eye`, of a point of the box is the
-  // sum, …
+  // For points of the box: a bound on the magnitudes of the terms whose sum is a world coordinate relative to
+  // `eye`.
   double reach(const Bounds& box, const Vec3& eye = Vec3(0)) const;
-  // … and how many times the rounding of a point grows, at most, on its way into the space and back.
+  // The largest factor by which the rounding of a point grows on its way into the object space and back.
   double growth() const;
 
  private:

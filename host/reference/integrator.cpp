@@ -2,7 +2,7 @@
 
 namespace eyeray::engine::reference {
 
-// Each integrator's .cpp defines its own; one that is missing is a link error that bears its name.
+// Each integrator's .cpp defines its variable. If one is missing, the linker's error names it.
 #define X(name, ...) extern const Integrator name##_integrator;
 INTEGRATORS(X)
 #undef X

@@ -13,7 +13,7 @@
 
 namespace eyeray::engine::reference {
 
-// A sample: its pixel, counted along the rows, and which of the pixel's it is.
+// A sample: its pixel, counted along the rows, and its index in the pixel.
 struct SampleId {
   uint32_t pixel;
   uint32_t index;
@@ -21,15 +21,15 @@ struct SampleId {
 
 struct Integrator {
   std::string_view manual;  // Markdown
-  // The sample of the camera ray, of unit direction, which starts in `media`. `observer` already knows that
-  // ray, and is notified of the rest.
+  // Traces the sample of a camera ray, which has a unit direction and starts in `media`. `observer` has been
+  // notified of this ray already, and is notified of the rest.
   PixelSample (*sample)(const Tracer& tracer, const SampleId& id, const Ray& ray, const MediaStack& media,
                         const rounding::Displacement& displacement, const Observer& observer);
 };
 
 const Integrator& integrator(IntegratorType type);
 
-// The denoiser's auxiliary values of that sample of `path`.
+// The denoiser's auxiliary values of sample `id`, for the integrator `path`.
 AuxiliarySample path_auxiliary(const Tracer& tracer, const SampleId& id, const Ray& ray,
                                const MediaStack& media);
 

@@ -8,14 +8,15 @@ namespace eyeray::engine::reference {
 
 namespace {
 
-// One less the cosine of the angle from its middle to its rim.
+// 1 − the cosine of the angle from the disk's middle to its rim.
 double versine(const Illumination& light) {
   return 2 * std::pow(std::sin(light.angle / 2), 2);
 }
 
 }  // namespace
 
-// A floor that it stands above gets π · color of light, and from a disk of radiance 1 π · sin².
+// A floor under the light receives π · color. From a disk of radiance 1 right above, it would receive π ·
+// sin²(angle).
 Vec3 disk_radiance(const Illumination& light) {
   return light.color / std::pow(std::sin(light.angle), 2);
 }

@@ -6,9 +6,10 @@
 
 namespace eyeray::engine::reference {
 
-// `light`: as a point sees it, of an angle above 0. Of the whole disk the radiance is the same.
+// The radiance of the disk, the same all over it. `light`: the illumination of a point, with an angle above
+// 0.
 Vec3 disk_radiance(const Illumination& light);
-// By solid angle, that disk_direction chooses a direction in it.
+// The density, by solid angle, with which disk_direction chooses a direction in the disk.
 double disk_density(const Illumination& light);
 Vec3 disk_direction(const Illumination& light, const Vec2& u);
 bool in_disk(const Illumination& light, const Vec3& d);

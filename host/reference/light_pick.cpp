@@ -11,10 +11,10 @@ namespace eyeray::engine::reference {
 
 namespace {
 
-// Cosines count for so much at least, and borders have so much room: rounding leaves no light out that
-// shines.
+// The least value of a cosine in an importance, and the tolerance at the limits of angles. So rounding
+// excludes no light that shines.
 constexpr double least_cosine = 1e-4;
-// Each random number is used for so many levels.
+// The number of levels for which one random number is used.
 constexpr int levels_a_number = 4;
 
 double angle_between(const Vec3& a, const Vec3& b) {

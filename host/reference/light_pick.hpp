@@ -8,7 +8,7 @@
 namespace eyeray::engine::reference {
 
 struct LightPick {
-  size_t light;  // as LightChoice counts them
+  size_t light;  // its number in LightChoice
   double share;  // its probability
 };
 
@@ -19,7 +19,7 @@ struct LitPoint {
   std::optional<Vec3> normal;
 };
 
-// By a random number u in [0, 1); none where no light shines there.
+// Chooses a light by a random number u in [0, 1). Empty if no light shines on the point.
 std::optional<LightPick> pick_light(const LightChoice& choice, const LitPoint& point, double u);
 // The probability that the choice picks the light.
 double light_share(const LightChoice& choice, const LitPoint& point, size_t light);

@@ -16,7 +16,7 @@ class LocalFrame {
     t_ = t;
   }
 
-  // Turned the shortest way from the frame that n is given in, by two half turns.
+  // The frame in which n is given, rotated the shortest way until its z is n: by two half turns.
   static LocalFrame turned_to(const Vec3& n) {
     const Vec3 h = glm::normalize(n + Vec3(0, 0, 1));
     return {Vec3(1, 0, 0) - 2 * h.x * h, Vec3(0, 1, 0) - 2 * h.y * h, n};
@@ -24,7 +24,8 @@ class LocalFrame {
 
   Vec3 into(const Vec3& v) const { return {glm::dot(v, s_), glm::dot(v, t_), glm::dot(v, n_)}; }
   Vec3 out_of(const Vec3& v) const { return v.x * s_ + v.y * t_ + v.z * n_; }
-  // A direction towards the viewer, in this frame: one that bent normals turn away is seen edge-on.
+  // A direction towards the viewer, in this frame. If the bent normal is turned away from the viewer, the
+  // direction is made edge-on.
   Vec3 seen(const Vec3& to_viewer) const {
     constexpr double least_cosine = 1e-4;
     const Vec3 o = into(to_viewer);

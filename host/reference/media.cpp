@@ -14,7 +14,7 @@ struct Crossing {
   bool leaving;
 };
 
-// One object, of the world's or of a group's.
+// One object of the world or of a group, in the form that for_each_crossing() takes.
 template <typename Holder>
 struct Object {
   const Holder& holder;
@@ -62,7 +62,8 @@ std::vector<int> left_by(const Tracer& tracer, const Ray& ray) {
   std::stable_sort(crossings.begin(), crossings.end(),
                    [](const Crossing& a, const Crossing& b) { return a.t < b.t; });
 
-  // Match each leaving with an entering before it; the leavings left over are of media around the start.
+  // Match each crossing that leaves a medium with an earlier one that enters it. Those without a match leave
+  // media around the ray's start.
   std::vector<int> entered;
   std::vector<int> around;
   for (const Crossing& crossing : crossings) {
@@ -85,8 +86,8 @@ std::vector<int> media_at(const Scene& scene, const Vec3& point) {
 }
 
 std::vector<int> media_at(const Tracer& tracer, const Vec3& point) {
-  // Look along a direction that no edge or symmetry of a sensible scene has, and against it: a half-space is
-  // left in one of the two only, and then lies around all that is closed.
+  // Trace along a direction that no edge or symmetry of a sensible scene has, and against it. A ray leaves a
+  // half-space in only one of the two directions; such a half-space lies around all closed objects.
   const Vec3 direction = glm::normalize(Vec3(0.3141592653589793, 0.8979323846264338, 0.2718281828459045));
   const std::vector<int> ahead = left_by(tracer, {point, direction});
   std::vector<int> media = left_by(tracer, {point, -direction});

@@ -7,10 +7,10 @@
 
 namespace eyeray::engine::reference {
 
-// The materials whose media surround a point, outermost first: indices in Scene::materials. More than four
-// may come back, though no ray keeps more.
+// The materials whose media surround a point, outermost first: indices in Scene::materials. There may be more
+// than four, though no ray keeps more.
 std::vector<int> media_at(const Tracer& tracer, const Vec3& point);
-// The media at one point, for which building a BVH does not pay.
+// The same for a single point, by brute force: building a BVH for it does not pay.
 std::vector<int> media_at(const Scene& scene, const Vec3& point);
 
 // The media that a ray is in, the last entered on top; four at most.

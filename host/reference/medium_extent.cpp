@@ -7,7 +7,8 @@ namespace eyeray::engine::reference {
 
 namespace {
 
-// Along a ray from `begin` on the density is density · exp(−decay · distance).
+// The part of a ray inside a medium. At a distance from `begin`, the medium's density is density · exp(−decay
+// · distance).
 struct Column {
   double begin, end;  // equal where the ray misses the medium
   double density;     // at begin

@@ -5,10 +5,10 @@
 
 namespace eyeray::engine::reference {
 
-// The integral of the medium's density along the ray from 0 to t, which may be infinite, as the integral is
-// then too where the medium does not end; d is unit.
+// The integral of the medium's density along the ray, whose direction is unit, from 0 to t. t may be
+// infinite. Then the integral is infinite as well if the medium does not end.
 double medium_length(const MediumExtent& extent, const Ray& ray, double t);
-// The t at which that is `length`, which is less than the integral along the whole ray.
+// The t at which medium_length() is `length`. `length` must be less than the integral along the whole ray.
 double medium_distance(const MediumExtent& extent, const Ray& ray, double length);
 
 }  // namespace eyeray::engine::reference

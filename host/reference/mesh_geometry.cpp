@@ -44,7 +44,7 @@ std::optional<TriangleHit> MeshGeometry::intersect_one(uint32_t triangle, const 
   auto hit = intersect_triangle(v, normal, ray);
   if (!hit || (material && material->front_only && glm::dot(normal, ray.d) >= 0)) return std::nullopt;
 
-  // A ray that grazes the plane may get a t before the box, by rounding.
+  // By rounding, a ray that grazes the triangle's plane may get a t before its entry into the box.
   hit->t = std::max(hit->t, entry);
   const TriangleHit at{*hit, triangle};
   if (material && material->mask &&

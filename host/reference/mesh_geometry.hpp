@@ -19,10 +19,10 @@ class MeshGeometry {
   // `mesh` must outlive it.
   MeshGeometry(const Mesh& mesh, Acceleration acceleration);
 
-  // The nearest hit with t > 0; of exactly equal ones that of the lowest triangle. Beyond `limit` it may be
-  // missing.
-  // With a material, neither its cutouts are hit nor, if it is `front_only`, triangles from behind.
-  // `first_id`: the scene's primitive index of the first triangle, where the material blends.
+  // The nearest hit with t > 0; if several have exactly the same t, the one of the lowest triangle. A hit
+  // beyond `limit` may be missing. With a material, its cutouts are not hit. If it is `front_only`, triangles
+  // are not hit from behind either. `first_id`: the scene's primitive index of the first triangle, needed if
+  // the material blends.
   std::optional<TriangleHit> intersect(const Ray& ray, double limit, const Material* material = nullptr,
                                        uint64_t first_id = 0) const;
   // The number of triangles that the ray hits at 0 < t < t_end. Counting ends at `most`.

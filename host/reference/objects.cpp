@@ -59,7 +59,7 @@ int Objects::most_crossings(size_t object) const {
   return is_shape(object) ? shapes_[object]->most_crossings() : reference::most_crossings;
 }
 
-// A cutout is not hit, and behind it there is nothing more of a shape that may have one.
+// The hit of a shape; none at a cutout. A shape that may have cutouts has no further surface behind one.
 std::optional<Intersection> Objects::intersect_shape(size_t index, const Ray& ray,
                                                      const PrimitiveIds::First& before) const {
   const Shape& shape = *shapes_[index];
@@ -83,8 +83,8 @@ std::optional<Objects::Hit> Objects::intersect(size_t object, const Ray& ray, do
   return Hit{*hit, object};
 }
 
-// Calls visit(object, entry, limit) for the objects that the ray enters at t = entry ≤ limit; it returns the
-// limit from there on, a negative one to end the search.
+// Calls visit(object, entry, limit) for each object that the ray enters at t = entry ≤ limit. `visit` returns
+// the new limit; a negative one ends the search.
 template <typename Visit>
 void Objects::for_each_entered(const Ray& ray, double limit, const Visit& visit) const {
   for (size_t i = 0; i < unbounded_.size() && limit >= 0; ++i) limit = visit(unbounded_[i], 0.0, limit);

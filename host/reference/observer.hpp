@@ -1,4 +1,4 @@
-// Looks on while the reference traces a sample, as PROBE does in shaders.
+// Observes the reference while it traces a sample, as PROBE does in shaders.
 #pragma once
 
 #include "host/core/ray_tree.hpp"
@@ -10,7 +10,7 @@ namespace eyeray::engine::reference {
 class Observer {
  public:
   Observer(RayRecorder* recorder = nullptr) : recorder_(recorder) {}
-  // Takes a random path's decisions alone (trail.hpp).
+  // Records only the decisions of a random path (trail.hpp).
   explicit Observer(std::vector<uint32_t>& events) : events_(&events) {}
 
   // True if there is a recorder.
@@ -20,8 +20,8 @@ class Observer {
   void value(std::string_view name, const T& value) const {
     if (recorder_) recorder_->value(name, 0, value);
   }
-  // The following notifications belong to this ray, as in RayRecorder. `number` of a shadow ray is that of
-  // its light.
+  // The following notifications belong to this ray, as in RayRecorder. `number`: for a shadow ray, the number
+  // of its light.
   void ray(RayKind kind, const Ray& ray, int depth, size_t number = 0) const;
   // The following notifications belong to the last ray of `depth` again.
   void back(int depth) const;

@@ -31,7 +31,7 @@ double largest(const Vec3& v) {
 }  // namespace
 
 // One colour channel, chosen in proportion to its remaining light, decides how far the path flies. The
-// density is that of all three.
+// density is the mean of all three channels' densities, weighted by the same proportions.
 Flight PathSample::fly(const Ray& ray, const MediaStack& media, const std::optional<Hit>& hit) const {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const Medium medium = rays_.medium(media);
@@ -43,7 +43,8 @@ Flight PathSample::fly(const Ray& ray, const MediaStack& media, const std::optio
   }
   const Vec3 extinction = medium.absorption + medium.scattering;
   const Vec2 chance = pair_of(first_flight_pair + surfaces());
-  // A path that brings nothing goes on until roulette ends it: by the last channel, as in the shaders.
+  // A path of throughput 0 continues until roulette ends it. Its flights are decided by the last channel, as
+  // in the shaders.
   const double all = throughput_.x + throughput_.y + throughput_.z;
   const Vec3 shares = all > 0 ? throughput_ / all : Vec3(0, 0, 1);
   const int channel = chance.x < shares.x ? 0 : chance.x < shares.x + shares.y ? 1 : 2;
@@ -60,10 +61,10 @@ Flight PathSample::fly(const Ray& ray, const MediaStack& media, const std::optio
 std::optional<Ray> PathSample::scatter(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
                                        MediaStack& media) {
   if (bsdf.black()) return std::nullopt;
-  const Vec2 chance = pair(scatter_pair);  // of a lobe, and of going on
+  const Vec2 chance = pair(scatter_pair);  // random numbers that choose the lobe, and that roulette uses
   const BsdfSample sample = bsdf.sample(chance.x, pair(direction_pair));
   const bool passes = sample.kind == BsdfSample::Kind::passed;
-  const bool straight = passes && panes_ < most_panes;  // this is no vertex
+  const bool straight = passes && panes_ < most_panes;  // a crossing that is no vertex of the path
   Vec3 d;
   RayKind kind = RayKind::reflected;
   if (!straight) density_ = 0;
@@ -103,7 +104,7 @@ std::optional<Ray> PathSample::scatter_in(const Medium& medium, const Interactio
   return continued(RayKind::reflected, at, d, Leaving::straight, pair(scatter_pair).y, way_in_medium + 1);
 }
 
-// Roulette.
+// Continues a path by Russian roulette: returns the next ray, or none.
 std::optional<Ray> PathSample::continued(RayKind kind, const Interaction& at, const Vec3& d, Leaving side,
                                          double chance, uint32_t way, bool straight) {
   const double survival = depth_ < first_roulette ? 1 : std::clamp(largest(throughput_), least_survival, 1.0);
@@ -112,7 +113,7 @@ std::optional<Ray> PathSample::continued(RayKind kind, const Interaction& at, co
   rays_.cut_off = !straight && depth_ > scene_.render.max_depth;
   if (rays_.cut_off) return std::nullopt;
   throughput_ /= survival;
-  // Before the next ray, since it belongs to this one.
+  // Record the decision before the next ray, since it belongs to this one.
   rays_.decided(Event::way, way);
   if (straight) {
     ++panes_;
@@ -128,7 +129,7 @@ std::optional<Ray> PathSample::continued(RayKind kind, const Interaction& at, co
   return next;
 }
 
-// A point of a medium, in the place of a surface.
+// The interaction at a point of a medium, which stands in for a surface.
 Interaction PathSample::scattered_at(const Ray& ray, double t) const {
   Interaction at{.surface = {}, .d = ray.d, .cos_view = 1, .primitive = ~uint64_t{0}};
   at.surface.position = ray.o + t * ray.d;

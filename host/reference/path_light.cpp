@@ -11,7 +11,7 @@
 
 namespace eyeray::engine::reference {
 
-// A point seen on edge has an infinite density.
+// This form also holds for an infinite density, which a point seen edge-on has.
 double power_heuristic(double p, double q) {
   return 1 / (1 + (q / p) * (q / p));
 }
@@ -25,7 +25,7 @@ Leaving leaving(const Interaction& at, const Vec3& d) {
   return glm::dot(at.surface.normal_side, d) > 0 ? Leaving::in_front : Leaving::behind;
 }
 
-// Its own light, less the light that shadow rays to it have brought already.
+// The surface's own light, less the part that shadow rays to it have brought already.
 Vec3 PathSample::emitted(const Interaction& at) const {
   const Vec3& light = at.scattering.emitted;
   const LightChoice& choice = tracer_.light_choice();
@@ -44,7 +44,7 @@ double PathSample::environment_share() const {
   return environment_numbers(scene_.environment.get(), !tracer_.light_choice().ends.empty()) * 0x1p-24;
 }
 
-// The light seen by a path that hits nothing, less the light that shadow rays have brought already.
+// The light seen by a path that hits nothing, less the part that shadow rays have brought already.
 Vec3 PathSample::missed(const Vec3& d) const {
   Vec3 light = rays_.surroundings(d);
   const double share = environment_share();
@@ -69,7 +69,8 @@ std::optional<Arriving> PathSample::arriving_from_around(const Interaction& at) 
                   uint64_t(-1)};
 }
 
-// The light of one randomly chosen light at the point. Classic units: one of intensity 1 is π times that.
+// The light that arrives at the point from one randomly chosen light. Lights have classic units: intensity 1
+// counts as π.
 std::optional<Arriving> PathSample::arriving(const Interaction& at) {
   const LightChoice& choice = tracer_.light_choice();
   const Vec2 chance = pair(light_pair);
@@ -106,12 +107,12 @@ std::optional<Arriving> PathSample::arriving(const Interaction& at) {
       density, light};
 }
 
-// The light that arrives at the viewer by a vertex that scatters `scattered`. Only panes and interfaces let
-// the ray leave `media`.
+// The light that a vertex scatters from one light to the viewer. `scattered`: the vertex's BSDF or phase
+// function. The shadow ray leaves `media` only through panes and interfaces.
 Vec3 PathSample::direct(const Interaction& at, const Arriving& light, const BsdfValue& scattered,
                         const MediaStack& media) {
   const double weight = light.density > 0 ? power_heuristic(light.density, scattered.density) : 1;
-  // Between interfaces the ray itself is weakened.
+  // If the scene has interfaces, through_panes() applies the transmittance between them.
   const Vec3 left =
       tracer_.any_interface()
           ? Vec3(1)

@@ -18,26 +18,28 @@
 
 namespace eyeray::engine::reference {
 
-// The uses of pairs of random numbers. For each vertex after the first they are `pairs_a_vertex` further on.
+// The numbers of the pairs of random numbers for each use, at the first vertex. From vertex to vertex they
+// grow by `pairs_a_vertex`.
 inline constexpr uint32_t scatter_pair = 4, direction_pair = 5, light_pair = 6, place_pair = 7,
                           pairs_a_vertex = 4;
-inline constexpr uint32_t first_flight_pair = 0x10000;  // of the vertices after the first one further on each
+inline constexpr uint32_t first_flight_pair =
+    0x10000;  // at the first vertex; it grows by 1 from vertex to vertex
 
 // The point at which lights are sampled.
 LitPoint lit_point(const Interaction& at);
 // The side of the surface that a ray in that direction leaves on.
 Leaving leaving(const Interaction& at, const Vec3& d);
-// The weight of a technique of density p beside one of density q.
+// The weight of a sampling technique of density p that is combined with one of density q.
 double power_heuristic(double p, double q);
 
-// From a light: by direction l, along the ray where nothing stands before `distance`.
+// Light that arrives from a light in direction l, if nothing blocks the ray before `distance`.
 struct Arriving {
   Vec3 l;
   Ray ray;
   double distance;
   Vec3 radiance;   // divided by the density of the choice
-  double density;  // by solid angle, with the light's choice; 0 of a light without extent
-  uint64_t light;  // its number; of the environment −1
+  double density;  // by solid angle, with the choice of the light; 0 for a light without extent
+  uint64_t light;  // its number; −1 for the environment
 };
 
 // The distance that a path travels through a medium: up to a point in it, or to the hit of the ray.
@@ -64,8 +66,9 @@ class PathSample {
   PixelSample gathering_sample(Ray ray, MediaStack media) {
     return follow(ray, media, &PathSample::hit_gathering);
   }
-  // Traces the photon of the sample that the id's index names, and appends the points where it is stopped to
-  // `stopped`. The id's pixel is photons_of | the sample's number. Returns the photon's trail.
+  // Traces one photon of a sample, and appends its stored copies to `stopped`, one for each surface that
+  // stores it. The id's index is the photon's number; the id's pixel is photons_of | the sample's number.
+  // Returns the photon's trail.
   uint32_t photon(const PhotonSources& sources, std::vector<Photon>& stopped);
   AuxiliarySample auxiliary(Ray ray, MediaStack media);
 
@@ -73,14 +76,14 @@ class PathSample {
   Vec2 pair(uint32_t use) const { return pair_of(use + pairs_a_vertex * surfaces()); }
   Vec2 pair_of(uint32_t number) const {
     Vec2 pair = sampler(scene_.image.pattern).pair(id_.pixel, id_.index, number, scene_.render.seed);
-    // Moved, to test float32's effect on numbers near to a decision.
+    // Displace the numbers, to test float32's effect on those near to a decision.
     if (numbers_ != 0)
       for (uint32_t i = 0; i < 2; ++i)
         pair[int(i)] = std::clamp(pair[int(i)] + std::floor(9 * random(numbers_, number, i, 0) - 4) * 0x1p-24,
                                   0.0, 1 - 0x1p-24);
     return pair;
   }
-  // The ray as ray `number` from here on.
+  // The ray with the alpha key of ray `number` from the path's current vertex.
   Ray with_key(Ray ray, uint32_t number) const {
     ray.alpha_key = alpha_key(id_.pixel, id_.index, surfaces(), number, scene_.render.seed);
     return ray;
@@ -130,13 +133,13 @@ class PathSample {
   const Observer& observer_;
   const bool any_pane_ = tracer_.any_interface() || std::ranges::any_of(scene_.materials, &Material::thin);
   int depth_ = 0;
-  int panes_ = 0, all_panes_ = 0;  // that the path has passed straight, since its last vertex and in all
-  Vec3 vertex_{0};                 // its last, or the eye
+  int panes_ = 0, all_panes_ = 0;  // panes that the path passed straight, since its last vertex and in all
+  Vec3 vertex_{0};                 // the path's last vertex, or the eye
   Vec3 throughput_{1};
   bool roulette_ = true;
-  uint64_t asked_ = 0;    // by the last vertex: the value of its Event::light
-  double density_ = 0;    // by solid angle, of the ray's direction; 0 where there was no choice
-  LitPoint chosen_at_{};  // and where it was chosen
+  uint64_t asked_ = 0;    // the value of Event::light of the last vertex
+  double density_ = 0;    // of the ray's direction, by solid angle; 0 if the direction was the only one
+  LitPoint chosen_at_{};  // the point where the ray's direction was chosen
 };
 
 }  // namespace eyeray::engine::reference

@@ -6,8 +6,8 @@
 
 namespace eyeray::engine::reference {
 
-// The phase function per solid angle, for light scattered by that angle. It is also the density of
-// phase_direction.
+// The phase function per solid angle, for light deflected by the angle with that cosine. It is also the
+// density of phase_direction.
 double phase_value(double g, double cosine);
 // Samples a direction with the density phase_value, for light that travelled in direction `before`.
 Vec3 phase_direction(double g, const Vec3& before, const Vec2& u);

@@ -1,5 +1,5 @@
 // Jensen: Global Illumination Using Photon Maps, 1996. Veach, Guibas: Optimally Combining Sampling Techniques
-// for Monte Carlo Rendering, SIGGRAPH 1995, of which the one-sample model.
+// for Monte Carlo Rendering, SIGGRAPH 1995: the one-sample model.
 #include "host/reference/photon_aim.hpp"
 
 #include <cmath>

@@ -1,4 +1,5 @@
-// Half of a light's photons are aimed at focusing objects: in float64, the density of both ways together.
+// Aims half of a light's photons at objects that focus light. A photon's density, in float64, is that of
+// aimed and unaimed photons together.
 #pragma once
 
 #include <functional>
@@ -10,32 +11,33 @@
 namespace eyeray::engine::reference {
 
 // A target as seen from the start of photons: a cap of the sphere of directions, or a disk of positions. By
-// Archimedes, a cap has the area of a disk as wide as its chord. So a point of either is within if its
-// `distance` from the middle satisfies π distance² < area.
+// Archimedes, a cap has the area of a disk whose radius is the chord from the cap's middle to its rim. So a
+// point is inside a cap or a disk if its `distance` from the middle satisfies π distance² < area.
 struct Window {
   Vec3 middle;
   double area;
 };
 
-// From a point on a surface of normal n, or with n = 0 from one in space: directions. None around the point
-// itself or below the horizon.
+// The windows of directions from point p on a surface of normal n; n = 0 if p is on no surface. There is no
+// window for a target that contains p or is below the horizon.
 std::vector<Window> windows_from(const PhotonSettings& settings, const Vec3& p, const Vec3& n);
-// The windows for light from direction d: positions relative to the scene's middle, on a plane perpendicular
-// to d.
+// The windows of positions for light from direction d. Positions are on a plane perpendicular to d, relative
+// to the scene's middle.
 std::vector<Window> windows_along(const PhotonSettings& settings, const Vec3& d);
 
 struct Aimed {
   Vec3 at;             // a direction or position
-  bool by_aim;         // by a window, not by the light's own density
-  uint64_t event = 0;  // Event::aim
-  double density = 0;  // with which such are aimed at
+  bool by_aim;         // true if a window chose `at`, false if the light's own density did
+  uint64_t event = 0;  // the value of Event::aim
+  double density = 0;  // with which windows choose `at`
 
   // The weight of a photon, relative to an unaimed one. own: the density with which the light itself would
-  // choose the same.
+  // choose `at`.
   double weight(double own) const;
 };
 
-// By one random number either into a window, by in(window), each as often as it is large, or by_chance.
+// By the random number `chance`, chooses either `by_chance`, or in(window), a point of a window. The
+// probability of a window is proportional to its area.
 Aimed aimed(std::span<const Window> windows, double chance, const Vec3& by_chance,
             const std::function<Vec3(const Window&)>& in);
 

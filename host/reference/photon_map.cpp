@@ -14,7 +14,7 @@ PhotonMap::PhotonMap(const Tracer& tracer, uint32_t index, std::span<const uint3
   const PhotonSettings& settings = sources.settings();
   radius_ = photon_radius(settings, index);
 
-  // Send them out.
+  // Trace the photons.
   ways_.resize(settings.count);
   std::vector<std::vector<Photon>> stopped(settings.count);
   constexpr uint32_t at_once = 256;
@@ -29,7 +29,7 @@ PhotonMap::PhotonMap(const Tracer& tracer, uint32_t index, std::span<const uint3
   for (const uint32_t number : left_out)
     for (Photon& photon : stopped[number]) photon.flux = Vec3(0);
 
-  // Sort them by cell.
+  // Sort the photons by cell.
   std::vector<Photon> all;
   for (const auto& its : stopped) all.insert(all.end(), its.begin(), its.end());
   std::vector<std::pair<uint64_t, size_t>> order(all.size());

@@ -1,4 +1,4 @@
-// The photons of one sample, and those that lie near a point: in float64, with the reference's own grid.
+// The photons of one sample, and the search for those near a point, in float64 with the reference's own grid.
 #pragma once
 
 #include <cstdint>
@@ -14,22 +14,22 @@ namespace eyeray::engine::reference {
 
 class Tracer;
 
-// A photon where a surface has stopped it that scatters light widely.
+// A photon, as stored at a surface that scatters light widely.
 struct Photon {
   Vec3 position;
-  Vec3 direction;   // unit, towards where it came from
-  Vec3 normal;      // unit, geometric, on the side that it came to
-  Vec3 flux;        // its flux, over index² there, times the number of all
-  uint32_t number;  // of those of its sample
-  int depth;        // how often it was scattered before
+  Vec3 direction;   // unit, back along the photon's ray
+  Vec3 normal;      // unit, geometric, on the side that the photon hit
+  Vec3 flux;        // the photon's flux / index² there, times the number of the sample's photons
+  uint32_t number;  // among the sample's photons
+  int depth;        // how often the photon was scattered before
 };
 
 class PhotonMap {
  public:
-  // Sends out and sorts those of sample `index`; `left_out` bring nothing.
+  // Traces and sorts the photons of sample `index`. The photons of `left_out` contribute nothing.
   PhotonMap(const Tracer& tracer, uint32_t index, std::span<const uint32_t> left_out);
 
-  // Calls visit(photon) for each not farther from p than radius(), and perhaps more.
+  // Calls visit(photon) for each photon not farther from p than radius(), and perhaps for more.
   template <typename Visit>
   void near(const Vec3& p, const Visit& visit) const;
 
@@ -39,13 +39,14 @@ class PhotonMap {
   const std::vector<PhotonWay>& ways() const { return ways_; }
 
  private:
-  // Cubes as wide as two radii, each with a number; cubes 2²¹ apart may share it.
+  // The number of the cell that contains p. Cells are cubes as wide as two radii; cells 2²¹ apart may share a
+  // number.
   uint64_t cell(const Vec3& p) const;
   std::pair<size_t, size_t> in_cell(uint64_t cell) const;
 
   double radius_;
-  std::vector<uint64_t> cells_;  // of each photon
-  std::vector<Photon> photons_;  // by cell
+  std::vector<uint64_t> cells_;  // the cell of each photon
+  std::vector<Photon> photons_;  // sorted by cell
   std::vector<PhotonWay> ways_;
 };
 
@@ -62,7 +63,7 @@ void PhotonMap::near(const Vec3& p, const Visit& visit) const {
 class PhotonMaps {
  public:
   std::shared_ptr<const PhotonMap> of_sample(const Tracer& tracer, uint32_t index);
-  // From now on these photons of each sample bring nothing.
+  // From now on these photons of each sample contribute nothing.
   void leave_out(LeftOutPhotons photons);
 
  private:

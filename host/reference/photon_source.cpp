@@ -19,7 +19,8 @@ Vec3 around_axis(const Vec3& axis, double cosine, double turn) {
   return cosine * axis + sine * (std::cos(turn) * s + std::sin(turn) * t);
 }
 
-// Aimed or by_chance, from a point or a surface; heading: two random numbers.
+// The direction of a photon from a point or a surface, either aimed or `by_chance`. heading: two random
+// numbers.
 Aimed aimed_from(const PhotonSettings& scene, const Vec3& p, const Vec3& n, double chance,
                  const Vec2& heading, const Vec3& by_chance) {
   return aimed(windows_from(scene, p, n), chance, by_chance, [&](const Window& window) {
@@ -27,8 +28,8 @@ Aimed aimed_from(const PhotonSettings& scene, const Vec3& p, const Vec3& n, doub
   });
 }
 
-// Light of irradiance 1 from direction d, which falls square on a disk as wide as the scene, before all of
-// it.
+// A photon of light of irradiance 1 from direction d. It starts on a disk perpendicular to d, as wide as the
+// scene and in front of all of it.
 PhotonSource from_afar(const PhotonSettings& scene, const Vec3& d, const Vec2& start, double chance) {
   const auto [s, t] = tangents(d);
   const Vec2 at = on_disk(start);
@@ -44,8 +45,8 @@ PhotonSource from_afar(const PhotonSettings& scene, const Vec3& d, const Vec2& s
           .aim = place.event};
 }
 
-// Light from infinitely far away has come through the medium around all. A photon of which that leaves little
-// is rare instead, by a random number.
+// Light from infinitely far away has crossed the medium around all objects. If little of a photon's light is
+// left, the photon is made rare instead of weak, by a random number.
 void weaken_upstream(const Scene& scene, PhotonSource& source, double chance) {
   if (scene.medium_extent.endless()) return;
   const Ray upstream{source.ray.o, -source.ray.d};
@@ -59,7 +60,7 @@ void weaken_upstream(const Scene& scene, PhotonSource& source, double chance) {
 struct FromLight {
   const PhotonSettings& scene;
   Vec2 start, heading;
-  double chance;  // that it is aimed
+  double chance;  // the random number that decides whether and where it is aimed
 
   PhotonSource operator()(std::monostate) const { return {.ray = {}, .light = 0}; }
   PhotonSource operator()(const PointLight& light) const {
@@ -94,7 +95,7 @@ struct FromLight {
   }
 };
 
-// A point for which points are chosen by area: within closed forms, on flat ones.
+// A point for which sample_emitter() chooses points by area: inside a closed form, or on a flat one.
 Vec3 middle_of(const EmitterForm& form) {
   if (const auto* sphere = std::get_if<SphereForm>(&form)) return sphere->center;
   if (const auto* box = std::get_if<BoxForm>(&form)) return Vec3(box->to_world[3]);
@@ -103,7 +104,7 @@ Vec3 middle_of(const EmitterForm& form) {
   return point_of(form);
 }
 
-// By cosine about n.
+// A direction whose density is proportional to its cosine with n.
 Vec3 from_plane(const Vec3& n, const Vec2& u) {
   const auto [s, t] = tangents(n);
   const Vec2 at = on_disk(u);
@@ -120,7 +121,8 @@ PhotonSource from_surface(const Scene& scene, const PhotonSettings& settings, co
   const Aimed aim = aimed_from(settings, place.position, n, side.y, heading, from_plane(n, heading));
   const Vec3& d = aim.at;
 
-  // The density of the point by area, from that by solid angle; on flat forms they are even.
+  // The density of the point by area, computed from its density by solid angle. On flat forms, points are
+  // uniform.
   const Vec3 way = place.position - middle;
   const double distance = glm::length(way);
   const double by_area = is_flat(emitter.form)

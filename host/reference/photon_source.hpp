@@ -11,20 +11,21 @@ namespace eyeray::engine::reference {
 
 struct PhotonSource {
   Ray ray;
-  Vec3 flux{0};        // of all photons, if each were as this one
-  uint64_t light;      // its number; of the surroundings −1
-  bool below = false;  // it leaves a surface against its normal
-  uint64_t aim = 0;    // Event::aim
-  MediaStack media{};  // that it starts in
+  Vec3 flux{0};        // the flux of all photons, if each were like this one
+  uint64_t light;      // its number; −1 for the environment
+  bool below = false;  // true if the photon leaves a surface on the side opposite to its normal
+  uint64_t aim = 0;    // the value of Event::aim
+  MediaStack media{};  // the media in which the photon starts
 };
 
-// The uses of a photon's pairs of random numbers that paths do not draw.
+// The numbers of a photon's pairs of random numbers for each use that paths do not have.
 inline constexpr uint32_t source_pair = 0, start_pair = 1, heading_pair = 2, side_pair = 3;
-// In place of a pixel, with a sample's number, for its photons.
+// For the photons of a sample, photons_of | the sample's number takes the place of a pixel.
 inline constexpr uint32_t photons_of = 0x80000000u;
 
-// The materials whose media surround each light, outermost first; lights from afar stand in none. Light i has
-// two lists: 2i before its surface, and 2i + 1 behind it, where its own material may be one more medium.
+// The materials whose media surround each light, outermost first; infinitely distant lights are in none.
+// Light i has two lists: 2i before its surface, and 2i + 1 behind it, where its own material may be one more
+// medium.
 std::vector<std::vector<int>> media_of_lights(const Tracer& tracer);
 
 class PhotonSources {
@@ -32,7 +33,7 @@ class PhotonSources {
   // `tracer` must outlive it.
   explicit PhotonSources(const Tracer& tracer);
 
-  // `pair`: random numbers for each use.
+  // Chooses the start of a photon. `pair`: returns the two random numbers of a use.
   PhotonSource draw(const std::function<Vec2(uint32_t)>& pair) const;
   const PhotonSettings& settings() const { return settings_; }
 
@@ -40,7 +41,7 @@ class PhotonSources {
   const Tracer& tracer_;
   PhotonSettings settings_;
   double around_;                  // the probability that a photon comes from the surroundings
-  std::vector<MediaStack> media_;  // of media_of_lights
+  std::vector<MediaStack> media_;  // as media_of_lights() returns them
 };
 
 }  // namespace eyeray::engine::reference

@@ -1,4 +1,4 @@
-// Single photons, and their paths if float32 rounds differently.
+// Traces single photons, also with their rays displaced as float32 may round them.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 namespace eyeray::engine::reference {
 
 struct PhotonTrace {
-  std::vector<uint32_t> events;  // its decisions (trail.hpp)
-  Vec3 places{0};                // as PhotonWay has them
+  std::vector<uint32_t> events;  // the photon's decisions (trail.hpp)
+  Vec3 places{0};                // the sum of the positions where the photon is stored
 };
 
 class PhotonTraces {

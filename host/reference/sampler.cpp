@@ -4,7 +4,7 @@
 
 namespace eyeray::engine::reference {
 
-// Each sampler's .cpp defines its own; one that is missing is a link error that bears its name.
+// Each sampler's .cpp defines its variable. If one is missing, the linker's error names it.
 #define X(name, ...) extern const Sampler name##_sampler;
 SAMPLERS(X)
 #undef X
