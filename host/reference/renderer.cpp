@@ -84,7 +84,7 @@ FirstHit Renderer::hit(const Aim& aim, const SampleId& id, const Vec2& shift,
 }
 
 double Renderer::rounding(int x, int y, double t) const {
-  // A direction takes some five roundings, and where it hits a surface a few more.
+  // A direction takes some five roundings, and the point where it hits a surface takes a few more.
   constexpr double roundings = 8 * 0x1p-24;
   const Ray ray = camera_.ray(Vec2(x, y) + Vec2(0.5)), next = camera_.ray(Vec2(x, y) + Vec2(1.5, 0.5));
   const double distance = std::isfinite(t) ? t : 1;

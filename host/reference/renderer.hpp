@@ -14,8 +14,8 @@ class Renderer {
   // `scene` must outlive the renderer. The pixels do not depend on `acceleration`.
   explicit Renderer(const Scene& scene, Acceleration acceleration = Acceleration::bvh);
 
-  // Sample `index` of pixel (x, y), by the scene's integrator. The ray is displaced by `shift` pixels.
-  // With a displacement.pivot it is so only up to that distance, and beyond to the other side.
+  // Sample `index` of pixel (x, y), by the scene's integrator. The ray is displaced by `shift` pixels. With a
+  // displacement.pivot, the ray is displaced so up to that distance, and to the other side beyond it.
   PixelSample sample(int x, int y, uint32_t index, Vec2 shift = {0, 0},
                      const rounding::Displacement& displacement = {}, const Observer& observer = {}) const;
   // The denoiser's auxiliary values of that sample; for `path` alone.
@@ -29,14 +29,14 @@ class Renderer {
                                const rounding::Displacement& displacement) const;
   // The number of pixels by which float32 may displace the ray through the pixel's centre at `t`.
   double rounding(int x, int y, double t) const;
-  // A rounding::Displacement::pivot a little behind that ray's hit: `which` of eight, modulo 8; 0 where
-  // it hits nothing.
+  // A rounding::Displacement::pivot a little behind the hit of the ray through the pixel's centre; 0 if that
+  // ray hits nothing. There are eight pivots, of which `which` modulo 8 selects one.
   double pivot(int x, int y, uint32_t which) const;
 
   const Tracer& tracer() const { return tracer_; }
 
  private:
-  // A position in the picture and one on the lens.
+  // The position of a camera ray in the picture, and its position on the lens.
   struct Aim {
     Vec2 place;
     Vec2 lens{0.0};

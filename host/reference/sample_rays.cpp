@@ -63,7 +63,8 @@ Ray SampleRays::spawn_ray(const SurfacePoint& point, const Vec3& d, Leaving leav
 
   Vec3 offset;
   for (uint32_t i = 0; i < 3; ++i) offset[int(i)] = 2 * random(displacement_.seed, spawned_, i, 0) - 1;
-  // The positions of edges are known of triangles alone: of other shapes, one ray in eight may be near one.
+  // Only triangles have known edges. On any other shape, one ray in eight is displaced as if it were near an
+  // edge.
   if (displacement_.room > 0 && random(displacement_.seed, spawned_, 7, 0) < 0.125 &&
       point.weights == Vec3(0))
     offset *= displacement_.room / displacement_.share;
@@ -100,13 +101,14 @@ Vec3 SampleRays::surroundings(const Vec3& d) const {
                             : scene_.render.background;
 }
 
-// The largest error by float32 of the cosine between a surface and a point at that distance from it.
+// The largest error that float32 makes in the cosine between a surface's normal and the direction to a point
+// at `distance`.
 double SampleRays::cosine_rounding(const SurfacePoint& point, double distance) const {
   if (displacement_.share == 0) return 0;
   return displacement_.share * (1 + glm::length(point.position - scene_.camera.eye) / distance);
 }
 
-// A random share of that error.
+// A random share of cosine_rounding(), positive or negative.
 double SampleRays::tilt(const SurfacePoint& point, double distance) const {
   return cosine_rounding(point, distance) * (2 * random(displacement_.seed, spawned_, 3, 0) - 1);
 }
@@ -170,9 +172,10 @@ Vec3 SampleRays::through_panes(Ray ray, double t_end, bool has_extent, MediaStac
   }
 }
 
-// A ray may run along the border of two checks through many walls of glass, and be rounded to either side at
-// each. For so many ways the bounds are known without trying them, since no colour falls where a texture's
-// rises.
+// The scattering at the hit, or with the darkest or brightest textures that displaced rays find. A ray may
+// run along the border of two checks through many walls of glass, and be rounded to either side at each.
+// These combinations are too many to try. Their bounds are known without that, since no colour falls where a
+// texture's rises.
 Scattering SampleRays::scattering(const Ray& ray, const Hit& hit, const SurfacePoint& point,
                                   ScatteringContext context) const {
   const Material& material = *scene_.materials[size_t(hit.material)];
@@ -219,7 +222,8 @@ std::optional<Hit> SampleRays::trace(const Ray& ray) {
   return tracer_.trace(ray, flags_, takes_farther());
 }
 
-// With random numbers that are off, float32 takes now the one, now the other.
+// True if the farther of two coincident surfaces is hit. With displaced random numbers this is random for
+// each ray, since float32 may take either.
 bool SampleRays::takes_farther() const {
   const bool tossed = displacement_.numbers == 0 || random(displacement_.numbers, rays_, 0, 1) < 0.5;
   return displacement_.coincident && tossed;
@@ -229,7 +233,7 @@ Interaction SampleRays::interaction(const Ray& ray, const Hit& hit, const MediaS
                                     const Vec3& throughput, const Vec3& dimming) {
   ++hits_;
 
-  // Turn the surface to the viewer. Float32 may see either side of one that the ray runs along.
+  // Turn the surface to the viewer. If the ray runs along the surface, float32 may see either side.
   Interaction at{.surface = tracer_.surface(ray, hit), .d = ray.d, .primitive = hit.primitive};
   observer_.hit(tracer_, ray, hit, at.surface);
   const double cosine = glm::dot(at.d, at.surface.normal_geometric);

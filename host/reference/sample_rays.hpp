@@ -1,5 +1,5 @@
-// The rays of one sample, as integrators trace them whose paths go on: their hits, how they leave the
-// surfaces, and how many there were.
+// The rays of one sample, for integrators whose paths continue at surfaces: their hits, how they leave
+// surfaces, and their number.
 #pragma once
 
 #include <optional>
@@ -12,14 +12,14 @@ namespace eyeray::engine::reference {
 
 // The point where a ray hits a surface, seen from the viewer's side.
 struct Interaction {
-  SurfacePoint surface;     // both normals towards where the ray came from
-  Vec3 d;                   // unit, of the ray
-  double cos_view = 0;      // between the shading normal and the way back, in [0, 1]
-  uint64_t primitive;       // ~0: none, but a point of a medium
-  bool has_medium = false;  // its material fills it
+  SurfacePoint surface;     // with both normals on the side from which the ray came
+  Vec3 d;                   // the ray's direction, unit
+  double cos_view = 0;      // of the angle between the shading normal and −d, in [0, 1]
+  uint64_t primitive;       // ~0 for a point of a medium
+  bool has_medium = false;  // the surface's material fills its object with a medium
   Vec3 dimming{1};          // the medium's transmittance on the way here
   double ior_before = 1, ior_beyond = 1;
-  MediaStack media_beyond = {};  // that a refracted ray is in
+  MediaStack media_beyond = {};  // the media in which a refracted ray is
   Scattering scattering = {};
   Bsdf bsdf = {};
 
@@ -29,8 +29,8 @@ struct Interaction {
   Vec3 refracted() const;
 };
 
-constexpr int most_panes = 8;       // that a shadow ray to a light with an extent goes through
-constexpr int most_passed = 65536;  // by any shadow ray
+constexpr int most_panes = 8;       // panes that a shadow ray to a light with an extent can pass
+constexpr int most_passed = 65536;  // surfaces that any shadow ray can pass
 
 // The share of light that comes through this length of a medium.
 Vec3 transmittance(const Medium& medium, double length);
@@ -47,10 +47,10 @@ class SampleRays {
   std::optional<Hit> trace(const Ray& ray);
   Interaction interaction(const Ray& ray, const Hit& hit, const MediaStack& media, const Vec3& throughput,
                           const Vec3& dimming);
-  // The innermost.
+  // The innermost of `media`; the scene's own medium if `media` is empty.
   Medium medium(const MediaStack& media) const;
-  // The length with the transmittance of the ray up to t, if the medium had the same coefficients all along;
-  // and the t at which that length is `length`.
+  // The length of a homogeneous medium that has the transmittance of the ray up to t, and the t at which that
+  // length is `length`.
   double medium_length(const MediaStack& media, const Ray& ray, double t) const;
   double medium_distance(const MediaStack& media, const Ray& ray, double length) const;
   // The light seen by a ray in that unit direction if it hits nothing.
@@ -72,9 +72,10 @@ class SampleRays {
   bool faces(const SurfacePoint& point, const Vec3& l, double distance) const;
   // True if the light is on the viewer's side of the surface.
   bool is_before(const SurfacePoint& point, const Vec3& l, double distance) const;
-  // The share of light that a shadow ray to `t_end` brings.
+  // The transmittance of a shadow ray up to `t_end`.
   double shadow(const Ray& ray, double t_end);
-  // The transmittance if only panes and interfaces let light through. `media`: those in which the ray begins.
+  // The transmittance of a shadow ray if only panes and interfaces let light through. `media`: the media in
+  // which the ray starts.
   Vec3 through_panes(Ray ray, double t_end, bool has_extent, MediaStack media);
 
   // Records a decision of the path, in order.
@@ -85,7 +86,7 @@ class SampleRays {
   uint32_t reflected = 0;
   uint32_t refracted = 0;
   uint32_t total_reflections = 0;
-  bool cut_off = false;  // by max_depth
+  bool cut_off = false;  // true if max_depth ended the path
 
  private:
   Bsdf bsdf(const Material& material, const ScatteringContext& context, const Scattering& scattering) const;

@@ -20,14 +20,15 @@ uint32_t reversed(uint32_t x) {
   return result;
 }
 
-// A number in 32 bits behind the point: each bit is turned or not by a hash of those before it.
+// Scrambles a binary fraction of 32 bits: a hash of all bits before a bit decides whether that bit is
+// flipped.
 uint32_t scrambled(uint32_t x, uint32_t seed) {
   uint32_t r = reversed(x) + seed;
   for (const uint32_t factor : {0x6c50b47cu, 0xb82f1e52u, 0xc7afe638u, 0x8d22f6e6u}) r ^= r * factor;
   return reversed(r);
 }
 
-// The point of that index, in dimension 0 or 1.
+// The coordinate of point `index` in dimension 0 or 1, as a binary fraction of 32 bits.
 uint32_t sobol(uint32_t index, int dimension) {
   uint32_t result = 0;
   uint32_t direction = 1u << 31;

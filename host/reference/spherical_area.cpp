@@ -30,7 +30,7 @@ SphericalTriangle::SphericalTriangle(const std::array<Vec3, 3>& corners)
                    corner_angle(corners_[2], corners_[0], corners_[1]) - M_PI) {}
 
 Vec3 SphericalTriangle::direction(const Vec2& u) const {
-  // Arvo's B, A and C.
+  // The vertices B, A and C of Arvo's paper.
   const auto& [apex, first, second] = corners_;
   const double part = u.y * solid_angle_ - angle_, s = std::sin(part), t = std::cos(part);
   const double sine = std::sin(angle_), cosine = std::cos(angle_);
@@ -56,7 +56,7 @@ SphericalRectangle::SphericalRectangle(const Vec3& corner, const Vec3& edge_u, c
 
 Vec2 SphericalRectangle::place(const Vec2& u) const {
   const double turn = u.x * solid_angle_ + k_;
-  // Ureña's c is the cosine of the plane through x, and p / q his f: x = −z c / √(1 − c²).
+  // p / q is Ureña's f. His c is the cosine of the plane through x, so that x = −z c / √(1 − c²).
   const double p = std::cos(turn) * b0_ - b1_, q = std::sin(turn);
   const double across = std::sqrt(std::max(0.0, p * p - (1 - b0_) * (1 + b0_) * q * q));
   const double x = std::clamp(-low_.z * std::copysign(1.0, p) * q / across, low_.x, high_.x);

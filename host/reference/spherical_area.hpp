@@ -8,13 +8,15 @@
 
 namespace eyeray::engine::reference {
 
-// Both from where the point is. Arvo: Stratified Sampling of Spherical Triangles, SIGGRAPH 1995.
+// A triangle. `corners`: relative to the point that sees it. Arvo: Stratified Sampling of Spherical
+// Triangles, SIGGRAPH 1995.
 class SphericalTriangle {
  public:
   explicit SphericalTriangle(const std::array<Vec3, 3>& corners);
 
   double solid_angle() const { return solid_angle_; }
-  // Unit; u: two numbers in [0, 1), the second of which runs along the edge opposite the first corner.
+  // A unit direction to the triangle. u: two numbers in [0, 1). The second one runs along the edge opposite
+  // the first corner.
   Vec3 direction(const Vec2& u) const;
 
  private:
@@ -23,13 +25,14 @@ class SphericalTriangle {
   double solid_angle_;
 };
 
-// Ureña, Fajardo, King: An Area-Preserving Parametrization for Spherical Rectangles, EGSR 2013.
+// A rectangle. `corner`: relative to the point that sees it. Ureña, Fajardo, King: An Area-Preserving
+// Parametrization for Spherical Rectangles, EGSR 2013.
 class SphericalRectangle {
  public:
   SphericalRectangle(const Vec3& corner, const Vec3& edge_u, const Vec3& edge_v);
 
   double solid_angle() const { return solid_angle_; }
-  // The shares of the edges, in [0, 1], of the point that two numbers in [0, 1) choose.
+  // A point, as its shares of the two edges in [0, 1]. u: two numbers in [0, 1) that choose it.
   Vec2 place(const Vec2& u) const;
 
  private:

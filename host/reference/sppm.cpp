@@ -22,7 +22,8 @@ constexpr std::string_view manual =
 
 }  // namespace
 
-// The photons on a disk around the point. Silverman: Density Estimation, 1986, has Epanechnikov's kernel.
+// The light of the photons on a disk around the point. Epanechnikov's kernel is in Silverman: Density
+// Estimation, 1986.
 Vec3 PathSample::gathered(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& wide,
                           const PhotonMap& photons) const {
   const double radius = photons.radius();
@@ -31,13 +32,13 @@ Vec3 PathSample::gathered(const Interaction& at, const LocalFrame& frame, const 
     const double share = distance * distance / (radius * radius);
     return 2 / (M_PI * radius * radius) * (1 - share);
   };
-  Vec3 light(0), most(0);  // the most that one photon brings more, or less, where it lies nearer
+  Vec3 light(0), most(0);  // the largest change of light by one photon if it lies nearer
   photons.near(p, [&](const Photon& photon) {
     const Vec3 apart = photon.position - p;
     const double distance = glm::length(apart);
     const bool before = leaving(at, photon.direction) == Leaving::in_front;
-    // The photon's weight if it were nearer by this share of the radius, also to the plane and to facing the
-    // same way.
+    // The photon's weight if it were nearer to the point by this share of the radius. Its limits of height
+    // above the plane and of its normal are wider by the same share.
     const auto weight = [&](double nearer) {
       const double moved = std::max(0.0, distance - nearer * radius);
       const bool counts = moved < radius && std::abs(glm::dot(apart, n)) < (0.1 + nearer) * radius &&
@@ -56,7 +57,8 @@ Vec3 PathSample::gathered(const Interaction& at, const LocalFrame& frame, const 
   return (light + most) / double(photons.count());
 }
 
-// From one light: by the wide lobes in full, by the sharp ones as far as the path does not find it itself.
+// The light scattered from one light: in full by the wide lobes. By the sharp lobes, only the part counts
+// that the path does not find itself.
 Vec3 PathSample::direct_on_parts(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& wide,
                                  const ViewedBsdf& sharp, const MediaStack& media) {
   if (depth_ > scene_.render.max_depth) return Vec3(0);
@@ -71,7 +73,8 @@ Vec3 PathSample::direct_on_parts(const Interaction& at, const LocalFrame& frame,
   return direct(at, *light, {value, 0}, before ? media : at.media_beyond);
 }
 
-// In a medium the path goes on as any: nothing stays there.
+// Gathers photons where a path hits a surface with wide lobes. In a medium the path continues as for `path`,
+// since no photon is stored there.
 std::optional<Ray> PathSample::hit_gathering(const Interaction& at, const LocalFrame& frame,
                                              const ViewedBsdf& bsdf, MediaStack& media, Vec3& color) {
   const ViewedBsdf wide = bsdf.part(true), sharp = bsdf.part(false);
@@ -92,7 +95,7 @@ uint32_t PathSample::photon(const PhotonSources& sources, std::vector<Photon>& s
   Ray ray = rays_.start_ray(source.ray);
   vertex_ = ray.o;
   if (source.flux == Vec3(0)) return rays_.sample(Vec3(0)).trail;
-  // Radiance is index² times the value that paths carry, as is flux.
+  // Radiance is index² times the value that paths carry; flux is as well.
   const auto squared_index = [&](const MediaStack& in) { return std::pow(rays_.medium(in).ior, 2); };
   const Vec3 sent = source.flux * squared_index(media);
   while (depth_ <= scene_.render.max_depth) {
@@ -115,12 +118,13 @@ uint32_t PathSample::photon(const PhotonSources& sources, std::vector<Photon>& s
         stopped.push_back(
             {at.surface.position, -at.d, n, sent * throughput_ / squared_index(media), id_.index, depth_});
       next = scatter(at, frame, bsdf.adjoint(), media);
-      // Light that comes and goes as a bent normal has it, seen from the light. Veach: Robust Monte Carlo
-      // Methods for Light Transport Simulation, 1997, section 5.3.
+      // Weigh a path from the light by the cosines with the bent normal, for the incoming and the outgoing
+      // direction. Veach: Robust Monte Carlo Methods for Light Transport Simulation, 1997, section 5.3.
       if (next && bent != n)
         throughput_ *= std::abs(glm::dot(next->d, n) / glm::dot(next->d, bent) * glm::dot(at.d, bent) /
                                 glm::dot(at.d, n));
-      // No path comes from where the triangle is seen from its other side.
+      // No camera path comes from a direction that is on different sides of normal_side and of the geometric
+      // normal.
       if (next && glm::dot(next->d, n) * glm::dot(next->d, at.surface.normal_side) < 0) throughput_ = Vec3(0);
     } else {
       rays_.decided(Event::hit, 0);

@@ -15,7 +15,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// The greatest SurfacePoint::lift, as a share of the longest edge: rays of wild normals stay near.
+// The largest SurfacePoint::lift, as a share of the longest edge. So extreme normals do not lift rays far
+// away.
 constexpr double most_lift = 0.25;
 
 // The first ids of the scene's own objects, in the form that Objects takes.
@@ -105,14 +106,14 @@ std::optional<Hit> Tracer::coincident_with(const Ray& ray, const Hit& hit) const
   const SurfacePoint point = surface(ray, hit);
   const double cosine = std::max(0.01, std::abs(glm::dot(ray.d, point.normal_geometric)));
   const double apart = 8 * 0x1p-24 * glm::length(point.position - scene_.camera.eye) / cosine;
-  // If both lie at exactly the same t, no ray this way distinguishes them. Seen from beyond, the farther one
-  // comes first.
+  // Search backwards from beyond both surfaces, where the farther one comes first. If both have exactly the
+  // same t, no ray in this direction distinguishes them.
   if (auto found = trace({ray.o + (hit.at.t + apart) * ray.d, -ray.d, ray.alpha_key});
       found && found->primitive != hit.primitive && found->at.t <= 2 * apart) {
     found->at.t = hit.at.t + apart - found->at.t;
     return found;
   }
-  // The primitive itself is hit again, once or twice.
+  // The search may hit the first primitive again, once or twice.
   const double step = 1e-6 * apart;
   double start = hit.at.t - step;
   for (int again = 0; again < 4; ++again) {
@@ -146,7 +147,8 @@ SurfacePoint Tracer::surface(const Ray& ray, const Hit& hit) const {
   const Objects::Hit object{hit.at, hit.object};
   SurfacePoint point =
       hit.group < 0 ? world_->surface(ray, object) : groups_[size_t(hit.group)].surface(ray, object);
-  // Here and in no other space: a stretch may take an interpolated normal to the other side, and back again.
+  // Test this in world space only: a stretch may take an interpolated normal to the surface's other side, and
+  // another stretch back again.
   if (!(glm::dot(point.normal, point.normal_geometric) > 0)) {
     point.normal = point.normal_geometric;
     point.lift = Vec2(-1);
@@ -165,13 +167,14 @@ double Tracer::reach(const Hit& hit, const Vec3& eye) const {
 }
 
 double Tracer::t_scale(const Ray& ray, const Hit& hit, const SurfacePoint& surface) const {
-  // Towards grazing incidence t runs away from any bound; the gates explain it there by its neighbourhood.
+  // Towards grazing incidence the error of t has no bound; there the gates explain a pixel by its
+  // neighbourhood.
   const double cosine = std::max(0.01, std::abs(glm::dot(ray.d, surface.normal_geometric)));
   return reach(hit, scene_.camera.eye) / cosine;
 }
 
 double Tracer::transmittance(const Ray& ray, double t_end, uint32_t& flags) const {
-  // Collect the shares first: a product depends on the order of its factors.
+  // Collect and sort the shares first: a product depends on the order of its factors.
   std::vector<Objects::Share> shares;
   bool gave_up = false;
   if (world_->add_shares(ray, t_end, 0, shares, gave_up)) return 0;

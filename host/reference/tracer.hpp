@@ -1,4 +1,5 @@
-// Finds the hit of a ray: a shape, or a triangle of an instance, perhaps of a group.
+// Finds the hit of a ray with the scene: with a shape, or with a triangle of an instance, either of which may
+// be in a group.
 #pragma once
 
 #include <deque>
@@ -17,8 +18,8 @@ class PhotonMap;  // photon_map.hpp
 class PhotonMaps;
 
 struct Hit {
-  TriangleHit at;      // of a shape: its intersection
-  size_t object;       // see Objects::Hit; of its group
+  TriangleHit at;      // for a shape: its intersection
+  size_t object;       // index in its group or in the world, as in Objects::Hit
   uint64_t primitive;  // see scene/primitive_ids.hpp
   int material;        // index in Scene::materials
   int group = -1;      // index in Scene::group_instances; −1 for the scene's own
@@ -28,30 +29,32 @@ struct Hit {
 // proof).
 class Tracer {
  public:
-  // `scene` must outlive it. Under Acceleration::bvh, a second for a million triangles or less.
+  // `scene` must outlive it. Under Acceleration::bvh, it takes a second or less for a million triangles.
   explicit Tracer(const Scene& scene, Acceleration acceleration = Acceleration::bvh);
   ~Tracer();
 
-  // The nearest hit with t > 0; of exactly equal ones that of the lowest primitive. Adds to `flags`, of
-  // SampleFlags, the result's possible faults. `coincident`: rather another primitive that a ray with a unit
-  // direction hits so close behind it that float32 may take it for the nearer one.
+  // The nearest hit with t > 0; if several have exactly the same t, the one of the lowest primitive. Adds the
+  // result's possible faults to `flags`, as SampleFlags. `coincident`: prefers the hit of another primitive
+  // that is so close behind the nearest that float32 may take it for the nearer one. For this the ray's
+  // direction must be unit.
   std::optional<Hit> trace(const Ray& ray, uint32_t& flags, bool coincident = false) const;
   std::optional<Hit> trace(const Ray& ray) const;
-  // The surface where `ray` has that hit, its normal on the side of the geometric one, as its material bends
-  // it.
+  // The surface at a hit of `ray`. Its normal is on the side of the geometric one, and is bent by the
+  // material.
   SurfacePoint surface(const Ray& ray, const Hit& hit) const;
 
-  // The largest coordinate, relative to `eye`, of the terms of the hit primitive; 0 for unbounded
+  // The largest coordinate, relative to `eye`, in any computation of the hit primitive; 0 for unbounded
   // shapes.
   double reach(const Hit& hit, const Vec3& eye) const;
-  // FirstHit::t_scale of a hit, and the surface there.
+  // FirstHit::t_scale of a hit. `surface`: the surface at that hit.
   double t_scale(const Ray& ray, const Hit& hit, const SurfacePoint& surface) const;
 
-  // The share of light that comes through all that the ray hits at 0 < t < t_end. `flags` as for trace.
+  // The share of light that comes through all objects that the ray hits at 0 < t < t_end. Adds to `flags`
+  // like trace().
   double transmittance(const Ray& ray, double t_end, uint32_t& flags) const;
 
   const Scene& scene() const { return scene_; }
-  // The scene's, where its integrator chooses one light; else empty.
+  // The scene's choice of lights if its integrator chooses one light; else empty.
   const LightChoice& light_choice() const { return light_choice_; }
   // True if paths of the scene may cross an interface (scene/interfaces.hpp).
   bool any_interface() const { return any_interface_; }
@@ -60,10 +63,10 @@ class Tracer {
   std::shared_ptr<const PhotonMap> photons(uint32_t index) const;
   // From now on these photons of each sample contribute nothing.
   void leave_out(LeftOutPhotons photons) const;
-  // The scene's own objects, and as Scene::group_instances those of groups.
+  // The scene's own objects, and its group instances in the order of Scene::group_instances.
   const Objects& world() const { return *world_; }
   const std::vector<GroupGeometry>& groups() const { return groups_; }
-  // The ray as the boxes of groups() see it.
+  // The ray, prepared for the intersection with the boxes of groups().
   BoxRay group_box_ray(const Ray& ray) const;
 
  private:
@@ -75,13 +78,13 @@ class Tracer {
   const Scene& scene_;
   const bool any_interface_;
   PrimitiveIds ids_;
-  std::deque<MeshGeometry> meshes_;  // as Scene::meshes; a deque, since instances point into it
+  std::deque<MeshGeometry> meshes_;  // in the order of Scene::meshes; a deque, since instances point into it
   std::optional<Objects> world_;
-  std::deque<Objects> group_bodies_;  // as Scene::groups
+  std::deque<Objects> group_bodies_;  // the objects of each group, in the order of Scene::groups
   std::vector<GroupGeometry> groups_;
   double groups_reach_ = 0;   // the largest coordinate in any computation that yields a group's box
-  double groups_growth_ = 1;  // the largest of all groups
-  Bvh group_bvh_;             // of their boxes
+  double groups_growth_ = 1;  // the largest growth() of all groups
+  Bvh group_bvh_;             // of the boxes of groups_
   LightChoice light_choice_;
   std::unique_ptr<PhotonMaps> photon_maps_;
 };

@@ -1,5 +1,5 @@
 // The decisions of a random path, in the shaders' encoding (integrators/trail.glsl): events, and the
-// fingerprint of all.
+// fingerprint of all events.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,15 @@
 namespace eyeray::engine::reference {
 
 enum class Event : uint32_t {
-  hit = 1,  // of a primitive, its number + 1; 0: nothing is hit; `in_medium`: a medium scatters it before
-  light =
-      2,    // twice its number + 2, of the environment twice 1, and one more where it is seen; 0: none drawn
-  way = 3,  // by which the path goes on: a lobe + 1, and `through`; 0: it ends
-  aim = 4,  // of a photon: 32 times how many targets its start sees, and how many of them it heads for
+  // The number of the primitive hit, + 1. 0: nothing is hit; `in_medium`: a medium scatters the path first.
+  hit = 1,
+  // 2 · (the number of the light + 2), where −1 is the environment's number; plus 1 if the light is seen.
+  // 0: no light is sampled. For a photon, the 1 is added if it leaves a surface against its normal.
+  light = 2,
+  // The lobe + 1 by which the path continues, and `through`. 0: the path ends.
+  way = 3,
+  // For a photon: 32 · the number of targets that its start sees, + the number of those for which it heads.
+  aim = 4,
 };
 inline constexpr uint32_t in_medium = 0x0fffffff;
 inline constexpr uint32_t through = 0x100;
@@ -29,7 +33,7 @@ inline uint32_t with_event(uint32_t trail, uint32_t event) {
 }
 // The trail of a sample with these events.
 uint32_t trail_of(std::span<const uint32_t> events);
-// "hits primitive 3".
+// The event in words, such as "hits primitive 3".
 std::string describe_event(uint32_t event);
 
 }  // namespace eyeray::engine::reference

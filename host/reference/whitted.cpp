@@ -1,5 +1,5 @@
-// Whitted: An Improved Illumination Model for Shaded Display, CACM 23(6), 1980; recursive, as the paper has
-// it.
+// Whitted: An Improved Illumination Model for Shaded Display, CACM 23(6), 1980. The code is recursive, as in
+// the paper.
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +17,7 @@ constexpr std::string_view manual =
     "Whitted's ray tracing: shadow rays to every light from every surface, plus reflections and refractions, "
     "each traced by its own ray.";
 
-// A ray on its way, and its weight.
+// A ray to be traced, and its weight.
 struct Path {
   Ray ray;
   MediaStack media;
@@ -71,7 +71,7 @@ Vec3 Recursion::radiance(const Path& path) {
   return at->dimming * color;
 }
 
-// The part of a surface's colour that comes from the ray's child into direction d; black when it is cut off.
+// The part of a surface's colour that a child ray in direction d brings; black if that ray is cut off.
 Vec3 Recursion::child(RayKind kind, const Path& path, const Interaction& at, const Vec3& d,
                       const MediaStack& media, const Vec3& share) {
   const Vec3 throughput = path.throughput * share;
@@ -84,8 +84,8 @@ Vec3 Recursion::child(RayKind kind, const Path& path, const Interaction& at, con
   return share * radiance(next);
 }
 
-// Its own light, the scene's ambient one, and that of each light which stands before the surface and is seen
-// from it.
+// The surface's own light, the scene's ambient light, and the light of each light source that is in front of
+// the surface and seen from it.
 Vec3 Recursion::direct(const Interaction& at, int depth) {
   const Vec3 n = at.surface.normal;
   const Scattering& scattering = at.scattering;
