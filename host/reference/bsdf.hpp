@@ -75,7 +75,7 @@ class ViewedBsdf {
   const Bsdf& bsdf_;
   Vec3 o_;
   LocalFrame coat_;
-  Vec3 coat_o_;  // o_ in that frame
+  Vec3 coat_o_;  // o_ in the frame coat_
   bool adjoint_;
   double shares_[lobes] = {};
   double sum_ = 0;

@@ -10,7 +10,7 @@ namespace eyeray::engine::reference {
 namespace {
 
 constexpr uint32_t most_in_leaf = 4;
-constexpr uint32_t worth_a_thread = 4096;  // a subtree with fewer leaves gets no thread of its own
+constexpr uint32_t worth_a_thread = 4096;  // a subtree with fewer leaves is built by one thread
 
 Bounds joined(const Bounds& a, const Bounds& b) {
   return {glm::min(a.min, b.min), glm::max(a.max, b.max)};

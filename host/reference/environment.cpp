@@ -39,7 +39,7 @@ std::span<const uint32_t> column_ends(const EnvironmentMap& environment, int row
   return std::span(environment.cells().column_ends).subspan(size_t(row) * width, width);
 }
 
-// The random numbers, from `begin` to below `end`, that choose the i-th row or column.
+// The random numbers, from `begin` to below `end`, that choose one row or column.
 struct Stretch {
   uint32_t begin, end;
   double share() const { return (end - begin) / double(choice_numbers); }
@@ -55,7 +55,8 @@ double density(const EnvironmentMap& environment, const Cell& cell) {
          (2 * M_PI / environment.width() * (heights.x - heights.y));
 }
 
-// The row or column i that a random number chooses, and the relative position of the number in its stretch.
+// The row or column i that a random number chooses, and the relative position of that number in the Stretch
+// of i.
 struct Choice {
   int i;
   double within;

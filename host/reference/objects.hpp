@@ -87,7 +87,7 @@ class Objects {
   std::span<const std::unique_ptr<Shape>> shapes_;
   std::span<const std::unique_ptr<Material>> materials_;
   std::vector<InstanceGeometry> instances_;
-  std::vector<uint64_t> first_ids_;  // by object
+  std::vector<uint64_t> first_ids_;  // for each object
   std::vector<uint32_t> unbounded_;  // indices of shapes without finite bounds
   std::vector<uint32_t> bounded_;    // indices of the objects with finite bounds
   std::vector<Bounds> boxes_;        // the boxes of bounded_

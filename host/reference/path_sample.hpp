@@ -27,7 +27,7 @@ inline constexpr uint32_t first_flight_pair =
 
 // The point at which lights are sampled.
 LitPoint lit_point(const Interaction& at);
-// The side of the surface that a ray in that direction leaves on.
+// The side of the surface on which a ray in direction d leaves.
 Leaving leaving(const Interaction& at, const Vec3& d);
 // The weight of a sampling technique of density p that is combined with one of density q.
 double power_heuristic(double p, double q);
@@ -66,9 +66,9 @@ class PathSample {
   PixelSample gathering_sample(Ray ray, MediaStack media) {
     return follow(ray, media, &PathSample::hit_gathering);
   }
-  // Traces one photon of a sample, and appends its stored copies to `stopped`, one for each surface that
-  // stores it. The id's index is the photon's number; the id's pixel is photons_of | the sample's number.
-  // Returns the photon's trail.
+  // Traces one photon of a sample. Each time that a surface stores the photon, appends it to `stopped`. The
+  // id's index is the photon's number; the id's pixel is photons_of | the sample's number. Returns the
+  // photon's trail.
   uint32_t photon(const PhotonSources& sources, std::vector<Photon>& stopped);
   AuxiliarySample auxiliary(Ray ray, MediaStack media);
 

@@ -18,7 +18,7 @@ struct PhotonSource {
   MediaStack media{};  // the media in which the photon starts
 };
 
-// The numbers of a photon's pairs of random numbers for each use that paths do not have.
+// The numbers of the pairs of random numbers for a photon's start, which paths do not draw.
 inline constexpr uint32_t source_pair = 0, start_pair = 1, heading_pair = 2, side_pair = 3;
 // For the photons of a sample, photons_of | the sample's number takes the place of a pixel.
 inline constexpr uint32_t photons_of = 0x80000000u;

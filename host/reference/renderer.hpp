@@ -15,7 +15,8 @@ class Renderer {
   explicit Renderer(const Scene& scene, Acceleration acceleration = Acceleration::bvh);
 
   // Sample `index` of pixel (x, y), by the scene's integrator. The ray is displaced by `shift` pixels. With a
-  // displacement.pivot, the ray is displaced so up to that distance, and to the other side beyond it.
+  // displacement.pivot, the ray turns about its point at that distance, and is displaced to the other side
+  // beyond it.
   PixelSample sample(int x, int y, uint32_t index, Vec2 shift = {0, 0},
                      const rounding::Displacement& displacement = {}, const Observer& observer = {}) const;
   // The denoiser's auxiliary values of that sample; for `path` alone.
