@@ -1,6 +1,6 @@
-// Runs a function on terms instead of numbers. Loops are followed for all their iterations, and both sides of
-// an if whose condition is no constant. Where paths join again, the condition selects each variable.
-// Private to this layer.
+// Runs a function on terms instead of numbers. It follows all iterations of a loop, and both sides of an `if`
+// whose condition is not a constant. Where paths join again, the condition selects the value of each
+// variable. Private to this layer.
 #pragma once
 
 #include <map>
@@ -14,20 +14,21 @@ class Execution {
  public:
   Execution(const Module& module, Expression& expression);
 
-  // The result of the function of this name at the point whose coordinates are the inputs 0, 1, 2. InputError
-  // with the line of code that cannot be followed.
+  // The result of the function of this name at the point whose coordinates are the inputs 0, 1, 2. Throws
+  // InputError, with the line, for code that cannot be followed.
   Term run(std::string_view function);
 
  private:
   struct Pointer {
-    uint32_t variable = 0;  // in memory
+    uint32_t variable = 0;  // key in the Memory
     uint32_t offset = 0;
   };
   using Memory = std::map<uint32_t, Value>;
 
-  // A way on which a block is reached, and whether it is taken.
+  // A way that leads to a block or out of the function: the condition under which it is taken, the memory at
+  // its end, and the returned value.
   struct Way {
-    uint32_t from;  // block
+    uint32_t from;  // the block in which it begins
     Term condition;
     Memory memory;
     Value returned;
@@ -36,10 +37,10 @@ class Execution {
     const Function& function;
     std::map<uint32_t, Value> values{};
     std::map<uint32_t, Pointer> pointers{};
-    std::map<uint32_t, std::vector<Way>> ways{};  // that lead to a block not yet run, by its label
+    std::map<uint32_t, std::vector<Way>> ways{};  // ways to blocks not yet run, by the block's label
     std::vector<Way> returns{};
-    std::vector<uint32_t> from{};  // blocks on whose ways the current one was reached, with their conditions
-    std::vector<Term> conditions{};
+    std::vector<uint32_t> from{};    // where the ways to the current block begin
+    std::vector<Term> conditions{};  // the conditions of these ways, in the same order
     Term condition = no_term;
     uint32_t block = 0;
   };
@@ -53,7 +54,7 @@ class Execution {
   bool run_composite(Call& call, const Instruction& instruction);
   bool run_branch(Call& call, const Instruction& instruction);
 
-  // Joins ways into `memory_`, and returns the condition under which any is taken.
+  // Joins ways into `memory_` and `returned`. Returns the condition under which any of them is taken.
   Term join(const std::vector<Way>& ways, Value& returned);
   Value choose(Term condition, const Value& x, const Value& y);
   void go(Call& call, uint32_t to, Term condition);
@@ -68,10 +69,10 @@ class Execution {
   const Module& module_;
   Expression& expression_;
   Memory memory_;
-  std::map<uint32_t, Value> constants_;  // those asked for
+  std::map<uint32_t, Value> constants_;  // used so far, by id
   std::map<uint32_t, Pointer> globals_;
   uint32_t variables_ = 0;
-  size_t memory_size_ = 0;  // numbers
+  size_t memory_size_ = 0;  // in numbers
   size_t effort_ = 0;
 };
 

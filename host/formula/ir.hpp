@@ -1,10 +1,10 @@
-// A formula as a program over single numbers: as its SPIR-V states it, with nothing undefined left. Every
-// executor runs this, in its own arithmetic: the interpreter in float32 and float64, kernels as GLSL. Private
-// to this layer.
+// A formula as a program over single numbers. It computes the same as the formula's SPIR-V, with nothing
+// undefined left. Every executor runs it in its own arithmetic: the interpreter in float32 and float64,
+// kernels as GLSL. Private to this layer.
 //
-// Whole numbers wrap around, shifts take the last five bits of their distance, x / 0 = x % 0 = 0, indices are
-// clamped into their arrays, conversions of a value that no whole number holds give the least int or 0u. A
-// variable that is read before it is written is 0.
+// Whole numbers wrap around. A shift uses the last five bits of its distance. x / 0 and x % 0 are 0. Indices
+// are clamped into their arrays. A float beyond int's or uint's range converts to the least int or to 0u.
+// A variable that is read before it is written is 0.
 #pragma once
 
 #include <array>
@@ -15,11 +15,11 @@
 
 namespace eyeray::engine::formula::ir {
 
-// A float; the 32 bits of an int or uint; a bool.
+// real: a float; whole: the 32 bits of an int or uint; truth: a bool.
 enum class Type : uint8_t { real, whole, truth };
 
 enum class Op : uint8_t {
-  move,  // of any type
+  move,  // a number of any type
   // Operations on floats: C's operators, then the functions fn_… of shaders/math/formula.glsl.
   negate,
   add,
@@ -83,7 +83,7 @@ enum class Op : uint8_t {
   whole_equal,
   signed_less,
   unsigned_less,
-  clamp_index,  // the second whole number, a signed one, into [0, third)
+  clamp_index,  // clamps from 0, a signed number, into [0, from 1); from 1 is a constant
   // Conversions.
   from_signed,
   from_unsigned,
@@ -94,17 +94,18 @@ enum class Op : uint8_t {
   either,
   opposite,
   same,
-  select,  // by a truth, of any type
-  // Memory: array[from 0], array[from 0] = from 1; all of an array: to 0, or those of another one.
+  select,  // from 0 ? from 1 : from 2; the latter two are of any type
+  // Memory. load: to = array[from 0]. store: array[from 0] = from 1. clear: sets all numbers of `array` to 0.
+  // copy: copies all numbers of `other` to `array`.
   load,
   store,
   clear,
   copy,
 };
 
-// A register of the function, or ~index of one of the program's constants.
+// The index of a register of the function, or ~index of a constant of the program.
 using Operand = int32_t;
-// An array of the function's, or ~index of one of the program's tables.
+// The index of an array of the function, or ~index of a table of the program.
 using ArrayId = int32_t;
 
 struct Instruction {
@@ -114,7 +115,7 @@ struct Instruction {
   ArrayId array = 0, other = 0;
 };
 
-// The position of a value: its numbers, by columns for a matrix; or an array.
+// The position of a value: its numbers (of a matrix column by column), or an array that holds them.
 struct Place {
   std::vector<Operand> numbers{};
   bool is_array = false;
@@ -124,7 +125,7 @@ struct Place {
 struct Statement;
 using Block = std::vector<Statement>;
 
-// Arguments are copied in, and those that the function writes to copied back, like the result.
+// A call copies its arguments in. It copies back the result, and each argument that the function writes to.
 struct Call {
   uint32_t function;
   std::vector<Place> arguments;
@@ -134,13 +135,14 @@ struct Branch {
   Operand condition;
   Block yes, no;
 };
-// Repeats until it is left. `next` follows each iteration.
+// Repeats `body` and then `next` until a jump leaves the loop.
 struct Loop {
   Block body, next;
-  uint32_t iterations = 0;  // most iterations, if that is known and needs no counting; else 0
+  uint32_t iterations = 0;  // upper bound of iterations, if known and if they need no counting; else 0
   uint32_t weight = 0;      // weight of an iteration, if iterations are counted
 };
-enum class Jump : uint8_t { leave, next, give_back };  // of the innermost loop; of the function
+// leave: leaves the innermost loop. next: goes to its next iteration. give_back: returns from the function.
+enum class Jump : uint8_t { leave, next, give_back };
 
 struct Statement {
   std::variant<Instruction, Call, Branch, Loop, Jump> what;
@@ -163,7 +165,7 @@ struct Function {
   Place result;
   Block body;
 
-  // The numbers that the first parameter has.
+  // The count of numbers in the first parameter.
   uint32_t input_count() const {
     const Place& input = parameters[0].place;
     return input.is_array ? arrays[size_t(input.array)].length : uint32_t(input.numbers.size());
@@ -172,7 +174,7 @@ struct Function {
 
 struct Constant {
   Type type;
-  uint32_t bits;  // of a float32, of a whole number, 0 or 1
+  uint32_t bits;  // those of a float32 or a whole number; for a truth 0 or 1
   auto operator<=>(const Constant&) const = default;
 };
 struct Table {
@@ -186,8 +188,8 @@ struct Program {
   std::vector<Constant> constants;
   std::map<Constant, uint32_t> constant_numbers;
   std::vector<Table> tables;
-  uint32_t value = 0;             // the function that the text must define
-  std::vector<uint32_t> other{};  // the function that it may have beside, if there is one
+  uint32_t value = 0;             // index of the function that the text must define
+  std::vector<uint32_t> other{};  // index of the optional second function, if the text defines it
   bool counts_iterations = false;
 };
 

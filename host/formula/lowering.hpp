@@ -1,4 +1,4 @@
-// From SPIR-V to the program of ir.hpp. Private to this layer.
+// Lowers SPIR-V to the program of ir.hpp. Private to this layer.
 #pragma once
 
 #include <map>
@@ -10,25 +10,26 @@
 
 namespace eyeray::engine::formula {
 
-// The program whose functions are the module's of these names, as Module::named takes them;
-// the latter may be missing. InputError, with the line, for code that formulas cannot have.
+// The program of the module's functions `value` and `other`, with the functions that they call. Both names
+// are as in Module::named; the module may lack `other`. Throws InputError, with the line, for code that
+// formulas cannot have.
 ir::Program lower(const Module& module, std::string_view value, std::string_view other);
 
-// One function without parameters, whose result is that of the instruction on constants.
+// The program of one function without input, which computes the result of `instruction` on constants.
 ir::Program lower(const Module& module, const Instruction& instruction);
 
-// One function's.
+// Lowers one function.
 class FunctionLowering {
  public:
-  // `numbers`: of the functions lowered so far, by their id.
+  // `numbers`: the index in `program` of each function lowered so far, by its id.
   FunctionLowering(const Module& module, ir::Program& program, const std::map<uint32_t, uint32_t>& numbers,
                    const Function& function);
   ir::Function run();
   ir::Function run(const Instruction& instruction);
 
  private:
-  // The position of a variable or a part of it: in an array at `offset` or, if its index is no constant, at
-  // the whole number `address`.
+  // The position of a variable or of a part of it. The part begins at number `offset` of the variable or, if
+  // its index is not a constant, at the number that the operand `address` holds.
   struct Pointer {
     uint32_t variable = 0;
     ir::Place place;
@@ -47,22 +48,22 @@ class FunctionLowering {
     size_t count = 0;
     size_t last = 0;
   };
-  // The accesses to a variable, as (block, instruction).
+  // The accesses to a variable, by the indices of blocks, and of instructions in a block.
   struct Accesses {
     std::set<size_t> blocks{};
-    std::map<size_t, std::set<size_t>> writes{};  // by block
+    std::map<size_t, std::set<size_t>> writes{};  // instructions, by block
     size_t first_block = 0;
     bool first_is_store = false;
-    bool is_indexed = false;  // by an index that is not known beforehand
-    size_t stores = 0;        // of all of it
-    size_t part_writes = 0;
+    bool is_indexed = false;  // by an index that is not a constant
+    size_t stores = 0;        // writes of the whole variable
+    size_t part_writes = 0;   // other writes
   };
 
   void look_ahead();
   void count_uses(size_t block);
   void note_accesses();
 
-  // Blocks in order from `label` until `stop`.
+  // Lowers the blocks in order, from `label` to the one before `stop`.
   void lower_from(uint32_t label, uint32_t stop, ir::Block& out);
   void lower_instructions(const Block& block, ir::Block& out);
   bool lower_branch(const Block& block, uint32_t& label, ir::Block& out);
@@ -80,7 +81,7 @@ class FunctionLowering {
   void load(const Instruction& instruction, ir::Block& out);
   void store(const Instruction& instruction, ir::Block& out);
 
-  // Writes one instruction down; its result is a new register.
+  // Appends one instruction to `out`. Returns the new register that holds its result.
   ir::Operand apply(ir::Block& out, ir::Op op, ir::Operand x, ir::Operand y = 0, ir::Operand z = 0);
   void each(ir::Block& out, const Instruction& instruction, ir::Op op, const std::vector<ir::Place>& from);
   ir::Operand sum_of_products(ir::Block& out, const ir::Place& a, const ir::Place& b);
@@ -109,12 +110,12 @@ class FunctionLowering {
   std::map<uint32_t, ir::Place> values_;
   std::map<uint32_t, Pointer> pointers_;
   std::map<uint32_t, Accesses> accesses_;
-  std::map<uint32_t, size_t> defined_in_;  // block
+  std::map<uint32_t, size_t> defined_in_;  // the block that defines a value, by the value's id
   std::map<uint32_t, Uses> uses_;
-  std::map<uint32_t, std::vector<std::pair<uint32_t, uint32_t>>> phis_;  // by the block left: result, value
+  std::map<uint32_t, std::vector<std::pair<uint32_t, uint32_t>>> phis_;  // (result, value), by the block left
   std::vector<LoopLabels> loops_;
-  std::set<uint32_t> computed_;  // values each of whose numbers has its own instruction
-  size_t block_ = 0, at_ = 0;    // the instruction that is lowered now
+  std::set<uint32_t> computed_;  // values of which each number is the result of its own instruction
+  size_t block_ = 0, at_ = 0;    // the indices of the block and instruction that are lowered now
 };
 
 }  // namespace eyeray::engine::formula

@@ -12,35 +12,36 @@
 
 namespace eyeray::engine::formula {
 
-// Before every name of a user's in the compiler's text, so that none is one of GLSL's.
+// Prefix of user-defined names in the text for the compiler, so that none is one of GLSL's names.
 inline constexpr std::string_view user_prefix = "user_";
 
 struct Text {
   std::vector<Token> tokens;
-  std::vector<bool> is_name;  // of the text's own, for each token
-  bool has_other = false;     // whether it defines other_entry_of() its kind
+  std::vector<bool> is_name;  // for each token: whether it is a user-defined name
+  bool has_other = false;     // whether the text defines other_entry_of() its kind
 
-  // A variable that the text gives no value where it begins: declared without one, or an `out` parameter.
+  // A variable without an initial value: one that is declared without it, or an `out` parameter.
   struct Unset {
-    size_t token;      // its value is to be written behind this one
-    std::string type;  // of an element, if it is an array
+    size_t token;      // the initial value is to be written behind this token
+    std::string type;  // of the variable, or of an array's elements
     size_t length;     // of an array, else 0
     std::string name;  // of a parameter, else empty
   };
   std::vector<Unset> unset{};  // in the order of their tokens
 
-  // The position of a token of glsl() in the text; both numbers from 1.
+  // The line and column of a token in glsl(), and its column in the user's text; all from 1.
   struct Place {
     int line, column;
     int source_column;
   };
-  // The text for a compiler: the tokens alone, each on its own line of the text, with user_prefix before each
-  // name. Comments, line continuations and everything else that two readers might read differently are gone.
+  // The text for a compiler: the tokens alone, each on the line that it has in the user's text, with
+  // user_prefix before each user-defined name. Comments, line continuations and everything else that two
+  // readers might read differently are gone.
   std::string glsl() const;
   std::vector<Place> places() const;
-  // The same program, line by line, in a form that a compiler folds nothing of: its constants are global
-  // variables, and every variable is initialised explicitly to 0. glsl() must have passed a compiler.
-  // `zeros`: declarations that must precede it.
+  // The same program on the same lines, in a form in which a compiler folds nothing. Its constants are global
+  // variables, and every variable without an initial value gets 0. The text of glsl() must have passed a
+  // compiler. The declarations that must precede the program are added to `zeros`.
   std::string unfolded(std::string& zeros) const;
 
  private:
@@ -49,9 +50,9 @@ struct Text {
   }
 };
 
-// Adds the text's faults to `faults`, each at its position. Without faults a compiler may see it. It then has
-// at most 64 KiB, nests at most 64 deep, chains at most 500 operators, has only words that formulas know, and
-// defines the functions that its kind must.
+// Adds the text's faults to `faults`, each at its position. A text without faults may go to a compiler. It
+// has at most 64 KiB, nests at most 64 deep, chains at most 500 operators, has only words that formulas know,
+// and defines the function that its kind requires.
 Text read_text(std::string_view text, FormulaKind kind, std::vector<Fault>& faults);
 
 }  // namespace eyeray::engine::formula
