@@ -6,7 +6,7 @@
 namespace eyeray::engine::formula {
 namespace {
 
-// Op by Op on each component; y may be missing.
+// Applies `op` to each component; y may be missing.
 Value each(Expression& expression, Op op, const Value& x, const Value& y = {}) {
   Value result(x.size());
   for (size_t i = 0; i < x.size(); ++i) result[i] = expression.apply(op, x[i], y.empty() ? no_term : y[i]);
@@ -39,7 +39,7 @@ Value remainder(Expression& expression, const Value& x, const Value& y) {
   return result;
 }
 
-// a: rows × inner, b: inner × columns, both by columns.
+// The product of a (rows × inner) and b (inner × columns), both stored column by column.
 Value matrix_product(Expression& expression, const Value& a, const Value& b, size_t inner) {
   const size_t rows = a.size() / inner, columns = b.size() / inner;
   Value result;
@@ -152,7 +152,7 @@ std::optional<Value> arithmetic(Expression& expression, spv::Op op, const std::v
     case spv::OpConvertUToF:
       return at(0);
     case spv::OpTranspose:
-      // A square matrix, or one whose shape the result does not show: 2×3 and the like are refused.
+      // Square matrices alone: `size` does not show the shape of others, such as 2×3, which are refused.
       if (const auto rows = size_t(std::lround(std::sqrt(double(size)))); rows * rows == size)
         return transpose(at(0), rows);
       return std::nullopt;

@@ -18,17 +18,16 @@ using expression::Term;
 // The numbers of a vector, matrix, array or struct, flat; matrices by columns.
 using Value = std::vector<Term>;
 
-// A core instruction's result of `size` numbers, or nothing for one that is not known here, or that is for
-// constants alone and got others.
+// The result of a core instruction, of `size` numbers; nothing for an instruction that is not known here.
 std::optional<Value> arithmetic(Expression& expression, spv::Op op, const std::vector<Value>& from,
                                 size_t size);
 
-// The arithmetic of whole numbers. Beside comparisons, only constants can be computed with, since other
-// numbers would wrap around.
+// The result of an instruction on whole numbers. Except for comparisons, operands must be constants, since
+// other numbers would wrap around. Nothing for other operands, and for an instruction that is not known here.
 std::optional<Value> whole_arithmetic(Expression& expression, spv::Op op, const std::vector<Value>& from,
                                       bool is_signed);
 
-// One of GLSL's functions (GLSL.std.450), likewise.
+// The result of a GLSL function (GLSL.std.450); nothing for a function that is not known here.
 std::optional<Value> glsl_function(Expression& expression, uint32_t function, const std::vector<Value>& from);
 
 Term dot(Expression& expression, const Value& a, const Value& b);

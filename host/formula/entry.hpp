@@ -11,7 +11,7 @@ enum class FormulaKind {
   camera,   // `vec3 direction(vec2 place, vec2 lens)`; it may have `vec3 origin(vec2 place, vec2 lens)` too
 };
 
-// The function TYPE NAME(PARAMETER …) as executors call it, and the parameters that it is written with.
+// A function TYPE NAME(PARAMETER …) as executors call it. `written`: its parameters in the user's text.
 struct Entry {
   std::string_view type, name, parameter, written;
 };
@@ -29,7 +29,7 @@ constexpr Entry entry_of(FormulaKind kind) {
   return {"float", "f", "vec3", "vec3 p"};
 }
 
-// The function that it may have beside; of a color, none.
+// The second function that a text of this kind may have. A color has none.
 constexpr Entry other_entry_of(FormulaKind kind) {
   return kind == FormulaKind::camera ? Entry{"vec3", "origin", "vec4", "vec2 place, vec2 lens"}
                                      : Entry{"vec3", "gradient", "vec3", "vec3 p"};

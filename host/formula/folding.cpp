@@ -15,7 +15,7 @@ bool is_access(spv::Op op) {
   return op == spv::OpAccessChain || op == spv::OpInBoundsAccessChain;
 }
 
-// True if it computes something from its operands and nothing else.
+// True if the instruction does nothing but compute a result from its operands.
 bool computes(const Instruction& instruction) {
   switch (instruction.op) {
     case spv::OpVariable:
@@ -31,7 +31,7 @@ bool computes(const Instruction& instruction) {
   }
 }
 
-// The words of the instruction that are values.
+// The words of the instruction that are ids of values.
 std::span<const uint32_t> operands(const Instruction& instruction) {
   const std::span<const uint32_t> words = instruction.words;
   switch (instruction.op) {
@@ -65,8 +65,8 @@ class Folding {
   }
 
  private:
-  // Follows main, which begins with the values of variables outside of functions, as far as constants decide
-  // which way it takes. There may be branches, as for ?:, and no loops.
+  // Follows main, which begins with the initial values of global variables, as far as constants decide its
+  // branches. Initial values may branch, as ?: does, but have no loops.
   void initialise(const Function& main) {
     uint32_t label = main.blocks[0].label, from = 0;
     for (;;) {
@@ -107,10 +107,10 @@ class Folding {
     }
   }
 
-  // The function's variables that one instruction writes to, a store of all of it.
+  // The function's variables that exactly one instruction writes to, by a store of the whole variable.
   std::set<uint32_t> stored_once(const Function& function) const {
     std::set<uint32_t> own, once, others;
-    std::map<uint32_t, uint32_t> variable_of;  // of a part
+    std::map<uint32_t, uint32_t> variable_of;  // the variable that a part belongs to
     const auto write = [&](uint32_t id, bool all_of_it) {
       if (!all_of_it || !own.contains(id) || !once.insert(id).second) others.insert(id);
     };
@@ -135,7 +135,7 @@ class Folding {
     return once;
   }
 
-  // True if nothing is left to do for it: its result is made a constant, or is a position in one.
+  // True if the instruction can be dropped, since its result is now a constant or a position in one.
   bool replace(const Instruction& instruction) {
     if (is_access(instruction.op)) {
       return find_part(instruction);
@@ -157,7 +157,8 @@ class Folding {
     return false;
   }
 
-  // Indices are clamped as everywhere.
+  // Records the part of a known variable that an access with constant indices selects; else returns false.
+  // Indices are clamped into their arrays, as in the program (ir.hpp).
   bool find_part(const Instruction& instruction) {
     const std::vector<uint32_t>& words = instruction.words;
     const auto outer = parts_.find(words[0]);
@@ -183,7 +184,7 @@ class Folding {
   };
 
   Module& module_;
-  std::map<uint32_t, Part> parts_;  // by the pointer
+  std::map<uint32_t, Part> parts_;  // by the id of the pointer
 };
 
 }  // namespace

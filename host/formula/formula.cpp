@@ -43,14 +43,14 @@ std::string mangled(const Entry& entry) {
   return fmt::format("{}{}(vf{};", user_prefix, entry.name, entry.parameter.back());
 }
 
-// A statement that calls it, so that a compiler keeps it.
+// A statement that calls the function, so that a compiler keeps the function.
 std::string call(const Entry& entry, int number) {
   return fmt::format("values[{}].{} = {}{}(values[0].{});", number, entry.type == "float" ? "x" : "xyz",
                      user_prefix, entry.name,
                      std::string_view("xyzw").substr(0, size_t(entry.parameter.back() - '0')));
 }
 
-// A camera's functions of two vectors as those of one that executors call.
+// A camera's functions of one vec4, as executors call them. They call the text's functions of two vec2.
 std::string as_asked(FormulaKind kind, bool has_other) {
   if (kind != FormulaKind::camera) return "";
   const auto of_both = [](const Entry& entry) {
@@ -60,7 +60,7 @@ std::string as_asked(FormulaKind kind, bool has_other) {
   return of_both(entry_of(kind)) + (has_other ? of_both(other_entry_of(kind)) : "");
 }
 
-// "QUALIFIER TYPE NAME = TYPE(…);" a line each.
+// A line "QUALIFIER TYPE NAME = TYPE(…);" for each parameter.
 std::string constants(const std::vector<FormulaParameter>& parameters, std::string_view qualifier) {
   std::string text;
   for (const FormulaParameter& parameter : parameters) {
@@ -91,8 +91,8 @@ std::vector<uint32_t> spirv_of(FormulaKind kind, bool has_other, const std::stri
   return gpu::compile_shader(source, "", gpu::Lines::kept).spirv;
 }
 
-// InputError for the faults that glslang finds in the text as it was written. The module is of the text as it
-// is spelled for us alone: glslang folds constants in float64 and by its own rules.
+// Throws InputError for the faults that glslang finds in Text::glsl(). The module is compiled from
+// Text::unfolded(), because glslang would fold constants, in float64 and by its own rules.
 Module module_of(FormulaKind kind, const Text& text, const std::vector<FormulaParameter>& parameters) {
   (void)spirv_of(kind, text.has_other, constants(parameters, "const"), text.glsl());
   std::string before = constants(parameters, "");
@@ -102,7 +102,7 @@ Module module_of(FormulaKind kind, const Text& text, const std::vector<FormulaPa
   return module;
 }
 
-// A position in the text as one in the file that it stands in.
+// The diagnostic of a fault in the text, at its position in the file that contains the text.
 Diagnostic located(const FormulaText& text, int line, int column, std::string message) {
   Diagnostic diagnostic;
   diagnostic.message = std::move(message);
@@ -116,7 +116,7 @@ Diagnostic located(const FormulaText& text, int line, int column, std::string me
   return diagnostic;
 }
 
-// A compiler's message, with the names as they were written.
+// A compiler's message, with names as the user wrote them.
 std::string without_prefix(std::string_view message) {
   std::string result;
   while (!message.empty()) {
@@ -128,7 +128,7 @@ std::string without_prefix(std::string_view message) {
   return result;
 }
 
-// One text with equal parameters is compiled once, for as long as it is in use.
+// Compiles a text once for equal parameters, for as long as the result is in use.
 std::shared_ptr<const Compiled> compiled(FormulaKind kind, const Text& text,
                                          const std::vector<FormulaParameter>& parameters,
                                          std::vector<Fault>& faults) {
@@ -137,7 +137,7 @@ std::shared_ptr<const Compiled> compiled(FormulaKind kind, const Text& text,
   const std::string entry = mangled(entry_of(kind)), key = entry + constants(parameters, "") + text.glsl();
   const std::scoped_lock lock(mutex);
   std::erase_if(known, [](const auto& known_text) { return known_text.second.expired(); });
-  // Its owner may release it meanwhile.
+  // The last owner of an entry may release it even now.
   if (const auto found = known.find(key); found != known.end())
     if (auto still_there = found->second.lock()) return still_there;
 
@@ -192,7 +192,7 @@ Formula::~Formula() = default;
 std::vector<Diagnostic> Formula::in_text(const InputError& error, const Text& text) const {
   std::vector<Diagnostic> diagnostics;
   for (const Diagnostic& said : error.diagnostics()) {
-    // The last token that begins no farther right.
+    // Finds the last token on the line that begins at or before the column of the error.
     const auto [line, column] = std::pair(std::max(said.position.line, 1), said.position.column);
     int source_column = 0;
     for (const Text::Place& place : text.places())

@@ -1,7 +1,8 @@
-// A function that a user has written in GLSL: a surface's, of a point, a colour's, of its point on a surface,
-// or a camera's, of a point in the picture. Its text is a stranger's: it is judged, compiled by glslang, and
-// forgotten. Every executor runs the program of its SPIR-V, with nothing undefined left (formula/ir.hpp).
-// docs/formulas.md lists the allowed GLSL, docs/security.md the barriers against hostile text.
+// A function that a user has written in GLSL. It defines a surface (as a function of a point in space), a
+// colour (of a point on a surface) or a camera (of a point in the picture). Its text is untrusted: it is
+// judged and compiled by glslang, and no executor runs it. Every executor runs the program made from its
+// SPIR-V, with nothing undefined left (formula/ir.hpp). docs/formulas.md lists the allowed GLSL,
+// docs/security.md the barriers against hostile text.
 #pragma once
 
 #include <array>
@@ -20,8 +21,8 @@ namespace eyeray::engine::formula {
 struct Compiled;
 struct Text;
 
-// The text as a person wrote it, and where: `start` is the position of its first character. Without a line
-// (0) nobody knows.
+// The text as the user wrote it. `start` is the position of its first character; its line is 0 if that
+// position is unknown.
 struct FormulaText {
   std::string text;
   SourcePosition start;
@@ -36,8 +37,8 @@ struct FormulaParameter {
 
 class Formula {
  public:
-  // InputError with every fault, at its position. `title`: for messages, "the formula of [[implicit]] at
-  // scene.toml:12".
+  // Throws InputError with every fault, at its position. `title`: its name in messages, "the formula of
+  // [[implicit]] at scene.toml:12".
   Formula(FormulaText text, std::vector<FormulaParameter> parameters, std::string title,
           FormulaKind kind = FormulaKind::surface);
   ~Formula();
@@ -47,12 +48,13 @@ class Formula {
   FormulaKind kind() const { return kind_; }
   const std::string& title() const { return title_; }
   const FormulaText& text() const { return text_; }
-  // True if it is the same function as the other one.
+  // True if kind, text and parameters are the same as the other formula's.
   bool same(const Formula& other) const;
-  // True if the text has the function that it may have beside (other_entry_of): a surface's gradient, a
-  // camera's origin.
+  // True if the text defines the optional second function (other_entry_of): a surface's gradient, a camera's
+  // origin.
   bool has_other() const;
-  // Instructions, with functions written where they are called: the work of a kernel's compiler.
+  // The number of instructions if each call is replaced by the called function: a measure of the work of a
+  // kernel's compiler.
   double instructions() const;
 
   // The formula as GLSL for kernels that have shaders/math/formula.glsl: the required function, for instance
@@ -62,23 +64,23 @@ class Formula {
   std::string kernel(const std::string& name, expression::LoadedNumbers* numbers = nullptr) const;
   bool loops() const;
 
-  // f as straight-line code, of which bounds and derivatives are made. InputError, at the position in the
-  // text, for code without such a form: loops whose number of iterations depends on p without a bound,
+  // f as straight-line code, from which bounds and derivatives are made. Throws InputError, at the position
+  // in the text, for code without such a form: loops whose number of iterations depends on p without a bound,
   // indices and whole numbers computed from p.
   const expression::StraightLine& straight_line() const;
 
-  // A surface's, in float32, to the bit as kernels compute it, and in float64. Error (timed_out) if the loops
-  // take more iterations than FORMULA_ITERATIONS of math/formula.glsl. Thread-safe. `iterations`, if given,
-  // grows by the number of iterations.
+  // The value of a surface's function, in float32 (with the bits that kernels compute) or in float64. Throws
+  // Error (timed_out) if the loops take more iterations than FORMULA_ITERATIONS of math/formula.glsl.
+  // Thread-safe. `iterations`, if given, grows by the number of iterations.
   float value(const std::array<float, 3>& p) const;
   double value(const std::array<double, 3>& p, uint64_t* iterations = nullptr) const;
-  // The text's own, if it has one.
+  // The gradient by the text's own function; only if has_other().
   std::array<float, 3> gradient(const std::array<float, 3>& p) const;
-  // A colour's, likewise.
+  // The value of a colour's function; precision, errors and threads as for value().
   std::array<float, 3> color(const std::array<float, 2>& uv) const;
   std::array<double, 3> color(const std::array<double, 2>& uv) const;
-  // A camera's ray, for a point in the picture and one on the lens. The origin is 0 if the text does not
-  // define it.
+  // Direction and origin of a camera's ray. `at`: a point in the picture, then a point on the lens. The
+  // origin is 0 if the text does not define it.
   std::array<float, 3> direction(const std::array<float, 4>& at) const;
   std::array<double, 3> direction(const std::array<double, 4>& at) const;
   std::array<float, 3> origin(const std::array<float, 4>& at) const;

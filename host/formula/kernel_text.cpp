@@ -15,14 +15,14 @@ std::string_view name_of(ir::Type type) {
   return type == ir::Type::real ? "float" : type == ir::Type::whole ? "uint" : "bool";
 }
 
-// A value of the type that no compiler folds where it is a float: it would compute in float64.
+// A literal of this type. A float is written as its bits: compilers would fold a decimal, in float64.
 std::string literal(ir::Type type, uint32_t bits) {
   if (type == ir::Type::real) return fmt::format("uintBitsToFloat(0x{:08x}u)", bits);
   if (type == ir::Type::whole) return fmt::format("{}u", bits);
   return bits ? "true" : "false";
 }
 
-// The operation with {0}, {1}, {2} for its operands.
+// The GLSL of the operation, with {0}, {1}, {2} for its operands.
 std::string_view pattern(Op op) {
   switch (op) {
     case Op::move:
@@ -223,7 +223,8 @@ class Writer {
     const ir::Constant& known = program_.constants[size_t(~operand)];
     return constant(known.type, known.bits);
   }
-  // Compilers keep an array in registers where they know its indices.
+  // An array's index. A constant index is not loaded: compilers keep an array in registers if they know its
+  // indices.
   std::string place(ir::Operand operand) const {
     if (operand >= 0) return fmt::format("r{}", operand);
     return literal(ir::Type::whole, program_.constants[size_t(~operand)].bits);
@@ -237,7 +238,7 @@ class Writer {
                                uint32_t(program_.tables[size_t(~id)].bits.size())};
   }
 
-  // void NAMEi(parameters, results): the rest are variables of the function.
+  // Writes void NAMEi(parameters, results). All other registers and arrays are variables of the function.
   void write_function(size_t number) {
     function_ = &program_.functions[number];
     std::vector<std::string> parameters;
@@ -343,8 +344,8 @@ class Writer {
     close();
   }
 
-  // The code after each iteration stands at its end, or at the start of the next one if an iteration may
-  // continue from elsewhere.
+  // Writes loop.next at the end of the iteration. If the body may `continue`, it stands at the start of the
+  // next iteration instead.
   void write(const ir::Loop& loop) {
     const bool jumps = has_next(loop.body) && !loop.next.empty();
     const size_t number = loops_++;

@@ -9,10 +9,10 @@
 
 namespace eyeray::engine::formula {
 
-// The entry of that kind, its name behind `name`, the other one if there is one, and the functions they call;
-// needs shaders/math/formula.glsl and, where loops are counted, `bool formula_iterates(uint)`. One operation
-// a statement, on numbers alone: nothing of the user's text is left, and nothing for a compiler to fold. With
-// `numbers`, constants are loaded, but those that are indices into arrays.
+// The functions entry_of(kind) and, if the program has it, other_entry_of(kind), with `name` before their
+// names, and the functions that they call. They need shaders/math/formula.glsl and, where loops are counted,
+// `bool formula_iterates(uint)`. Each statement is one operation on numbers: nothing of the user's text is
+// left, and nothing for a compiler to fold. With `numbers`, constants are loaded, except indices into arrays.
 std::string kernel_text(const ir::Program& program, FormulaKind kind, const std::string& name,
                         expression::LoadedNumbers* numbers = nullptr);
 

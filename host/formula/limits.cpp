@@ -13,9 +13,9 @@ constexpr double most_instructions = 1 << 14;
 constexpr double most_branches = 256;
 constexpr double most_memory = 1 << 13;
 constexpr double most_work = 1 << 18;
-// A loop of a known number of iterations, together no longer than this, needs no counting.
+// A loop needs no counting if its number of iterations is known and their work together is at most this.
 constexpr double most_uncounted_work = 1 << 16;
-// Instructions that count as one iteration more.
+// The weight of an iteration is 1, plus 1 for each so many instructions in it.
 constexpr double work_of_an_iteration = 256;
 
 class Measure {
@@ -51,7 +51,7 @@ class Measure {
       numbers = length(instruction.array);
     return {.instructions = 1, .work = numbers};
   }
-  // Their frames lie behind the caller's one after the other.
+  // Frames of called functions use the same memory behind the caller's frame, one call after the other.
   Size of(const ir::Call& call, const ir::Block&, size_t) {
     Size size = sizes_[call.function];
     most_called_ = std::max(most_called_, size.memory);
@@ -97,7 +97,7 @@ class Measure {
   double most_called_ = 0;
 };
 
-// The number of instructions that write to a register.
+// The number of instructions and calls that write to the register `to`.
 size_t Measure::writes(const ir::Block& block, ir::Operand to) {
   size_t count = 0;
   const auto in_place = [to](const ir::Place& place) {
@@ -109,7 +109,7 @@ size_t Measure::writes(const ir::Block& block, ir::Operand to) {
                              instruction->op == ir::Op::copy;
       count += !to_memory && instruction->to == to;
     } else if (const auto* call = std::get_if<ir::Call>(&statement.what)) {
-      // Given to a function it may be written to.
+      // A function may write to a register that is its argument.
       count += in_place(call->result) || std::ranges::any_of(call->arguments, in_place);
     } else if (const auto* branch = std::get_if<ir::Branch>(&statement.what)) {
       count += writes(branch->yes, to) + writes(branch->no, to);
@@ -120,13 +120,14 @@ size_t Measure::writes(const ir::Block& block, ir::Operand to) {
   return count;
 }
 
-// for (int i = FROM; i < TO; i += STEP), or <=: where i is a register that starts as a constant just before
-// the loop, is compared first in each iteration, and is written to by nothing but the step.
+// The number of iterations of a loop for (int i = FROM; i < TO; i += STEP), or with <=; nothing for others.
+// The register i must be set to a constant just before the loop, be compared first in each iteration, and be
+// written to by the step alone.
 std::optional<uint32_t> Measure::known_iterations(const ir::Loop& loop, const ir::Block& around,
                                                   size_t at) const {
   if (loop.body.size() < 2 || loop.next.empty() || at == 0) return std::nullopt;
 
-  // The condition, and the way out where it does not hold.
+  // The condition, and the jump out of the loop where it does not hold.
   size_t test = 0;
   const auto* compare = std::get_if<ir::Instruction>(&loop.body[test].what);
   const auto* opposite = std::get_if<ir::Instruction>(&loop.body[test + 1].what);
@@ -168,7 +169,7 @@ std::optional<uint32_t> Measure::known_iterations(const ir::Loop& loop, const ir
   return uint32_t(iterations);
 }
 
-// Sizes are sums that double with each call: no number of them overflows a double that occurs here.
+// Sizes are sums that can double with each call. The sums that occur here do not overflow a double.
 std::string too_much(std::string_view what, double found, double most) {
   return found <= most
              ? ""

@@ -8,7 +8,7 @@
 
 namespace eyeray::engine::formula {
 
-// A function with the functions that it calls written in place of the calls.
+// The size of a function, with each call replaced by the called function.
 struct Size {
   double instructions = 0;
   double branches = 0;  // and loops
@@ -17,10 +17,11 @@ struct Size {
   double work = 0;
 };
 
-// Decides for each loop whether its iterations are counted, and their weight. Returns the exceeded limit, in
-// words; "" if there is none.
+// Decides for each loop whether its iterations are counted, and their weight. Returns the message for the
+// first limit that is exceeded; "" if none is.
 std::string limit(ir::Program& program);
-// The size of both functions together, after limit().
+// The instructions and branches of `value` and `other` together, after limit(). Memory and work are those of
+// `value` alone.
 Size size_of(const ir::Program& program);
 
 }  // namespace eyeray::engine::formula

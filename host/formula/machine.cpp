@@ -17,7 +17,7 @@ namespace eyeray::engine::formula {
 
 namespace {
 
-// Functions of floats: the shaders' in float32, C's library's in float64.
+// Functions of floats: those of the shaders in float32, those of C's library in float64.
 // clang-format off
 template <typename T> struct Functions;
 #define SHADER_ONE(name) static float name(float x) { return shader::fn_##name(x); }
@@ -64,14 +64,14 @@ template <> struct Functions<double> {
 int32_t as_signed(uint32_t x) {
   return int32_t(x);
 }
-// Towards zero; x / 0 is 0, and −2³¹ / −1 wraps around.
+// The quotient, rounded towards zero; x / 0 is 0, and −2³¹ / −1 wraps around.
 uint32_t signed_divide(uint32_t x, uint32_t y) {
   return y == 0 ? 0 : y == ~0u ? 0u - x : uint32_t(as_signed(x) / as_signed(y));
 }
 uint32_t signed_remainder(uint32_t x, uint32_t y) {
   return y == 0 || y == ~0u ? 0 : uint32_t(as_signed(x) % as_signed(y));
 }
-// With the sign of y.
+// The remainder with the sign of y.
 uint32_t signed_modulo(uint32_t x, uint32_t y) {
   const uint32_t rest = signed_remainder(x, y);
   return rest != 0 && as_signed(rest ^ y) < 0 ? rest + y : rest;
@@ -90,7 +90,7 @@ uint32_t clamp_index(uint32_t i, uint32_t length) {
 
 }  // namespace
 
-// A thread's numbers for one machine; the constants are in position already.
+// A thread's files of numbers for one machine. They already contain the constants.
 template <typename T>
 struct Machine::Files {
   uint64_t machine = 0;
@@ -124,7 +124,7 @@ bool Machine::run_as(std::span<const T> input, T* result, uint64_t* iterations) 
   uint64_t made = 0;
   const Code* at = code_.data();
 
-  // An array's element, wherever the index points.
+  // The position of an array's element. The index is limited to the array's last element.
   const auto element = [](const Code& code, uint32_t index) {
     return code.array + std::min(index, code.length - 1);
   };

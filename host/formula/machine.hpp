@@ -1,4 +1,4 @@
-// Runs a formula on the CPU. Nothing of it is machine code: an interpreter executes a list of instructions on
+// Runs a formula on the CPU, without making machine code: an interpreter executes a list of instructions on
 // a private file of numbers, so that no formula can reach anything else. Private to this layer.
 #pragma once
 
@@ -14,22 +14,22 @@ namespace eyeray::engine::formula {
 
 class Machine {
  public:
-  // `function`: of the program, of one vector; limit() must have found nothing.
+  // `function`: index of a function of the program that takes one vector. limit() must have returned "".
   Machine(const ir::Program& program, uint32_t function);
 
   // Writes all numbers of the function's result for `input`. In float32 it uses the shaders' functions
-  // (math/formula.glsl), so that the bits are a kernel's; in float64 those of C's library. False if counted
-  // loops take more iterations than FORMULA_ITERATIONS. `iterations`, if given, grows by the number of
-  // iterations. Thread-safe.
+  // (math/formula.glsl), so that the bits are those of kernels; in float64 the functions of C's library.
+  // False if counted loops take more iterations than FORMULA_ITERATIONS. `iterations`, if given, grows by the
+  // number of iterations. Thread-safe.
   bool run(std::span<const float> input, float* result, uint64_t* iterations = nullptr) const;
   bool run(std::span<const double> input, double* result, uint64_t* iterations = nullptr) const;
-  // The result of a function without an input in float32, of any type.
+  // The bits of the result, of any type, of a function without input, computed in float32.
   std::vector<uint32_t> bits() const;
 
  private:
   friend class Assembler;
 
-  // Operations of instructions, beside ir::Op's.
+  // Operations of Code in addition to those of ir::Op.
   enum Control : uint16_t {
     jump = 256,
     jump_if,
@@ -43,8 +43,8 @@ class Machine {
     clear_real,
     copy_real
   };
-  // Numbers are named by their position in the file of floats or in that of whole numbers and truths. An
-  // array is `length` of them from `array` on.
+  // An instruction. Numbers are named by their position in the file of floats or in that of whole numbers and
+  // truths. An array is the `length` numbers from position `array` on.
   struct Code {
     uint16_t op;
     uint32_t to = 0;
@@ -57,12 +57,12 @@ class Machine {
   template <typename T>
   bool run_as(std::span<const T> input, T* result, uint64_t* iterations) const;
 
-  uint64_t id_;  // no other machine's
+  uint64_t id_;  // unique to this machine
   std::vector<Code> code_;
-  std::vector<float> reals_;  // constants, with which the file of floats begins
-  std::vector<uint32_t> wholes_;
+  std::vector<float> reals_;      // the constants at the start of the file of floats
+  std::vector<uint32_t> wholes_;  // the constants at the start of the other file
   size_t real_count_ = 0, whole_count_ = 0;
-  uint32_t input_ = 0;  // the first of the input's floats
+  uint32_t input_ = 0;  // position of the input's first float
   uint32_t input_count_ = 0;
   std::vector<uint32_t> results_;
   bool gives_reals_ = true;

@@ -8,7 +8,7 @@ namespace eyeray::engine::formula {
 
 namespace {
 
-// The longest first.
+// Signs of several characters, the longest first.
 constexpr std::string_view longer[] = {"<<=", ">>=", "++", "--", "+=", "-=", "*=", "/=", "%=", "&=", "|=",
                                        "^=",  "==",  "!=", "<=", ">=", "&&", "||", "^^", "<<", ">>"};
 constexpr std::string_view single = "()[]{}.,;+-*/%<>=!?:&|^~";
@@ -61,7 +61,7 @@ class Tokenizer {
     take(length);
   }
 
-  // One that ends in a backslash goes on in the next line, for GLSL; hardly anybody who reads it sees that.
+  // In GLSL a comment that ends in a backslash continues on the next line, which few readers notice.
   void line_comment() {
     const size_t end = std::min(rest_.find('\n'), rest_.size());
     const size_t last = rest_.find_last_not_of('\r', end == 0 ? 0 : end - 1);
@@ -77,7 +77,7 @@ class Tokenizer {
     take(end == std::string_view::npos ? rest_.size() : end + 2);
   }
 
-  // 12, 0x1f, 3u, 1.5, .5, 1e-3, 2.f
+  // Reads a number: 12, 0x1f, 3u, 1.5, .5, 1e-3, 2.f
   void number() {
     size_t length = 0;
     const auto digits = [&] {

@@ -12,14 +12,15 @@ namespace eyeray::engine::formula {
 struct Token {
   enum class Kind { word, integer, decimal, sign };
   Kind kind;
-  std::string text;  // of a sign one to three characters: +, +=, <<=
+  std::string text;  // for a sign one to three characters: +, +=, <<=
   int line;          // from 1
   int column;        // from 1, in bytes
 
   bool is(std::string_view what) const { return text == what; }
 };
 
-// Comments are left out. A character that begins no token is a fault, as is the preprocessor.
+// Splits a text into tokens, without comments. A character that begins no token is a fault; so
+// is the # of the preprocessor.
 std::vector<Token> tokenize(std::string_view text, std::vector<Fault>& faults);
 
 }  // namespace eyeray::engine::formula

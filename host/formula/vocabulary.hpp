@@ -12,10 +12,10 @@ bool is_type(std::string_view word);
 bool is_keyword(std::string_view word);
 // True for words of GLSL that a formula cannot use: uniform, mat3, switch …
 bool is_refused(std::string_view word);
-// sin, dot …: the ones that shaders/math/formula.glsl has as fn_sin, fn_dot …
+// sin, dot …: the functions that shaders/math/formula.glsl has as fn_sin, fn_dot …
 std::span<const std::string_view> built_in_functions();
 bool is_built_in(std::string_view word);
-// xyz, r, stp …: one to four letters of one set.
+// xyz, r, stp …: one to four letters of one of the sets xyzw, rgba, stpq.
 bool is_swizzle(std::string_view word);
 
 }  // namespace eyeray::engine::formula
