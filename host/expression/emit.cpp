@@ -7,9 +7,9 @@
 namespace eyeray::engine::expression {
 namespace {
 
-// A kind of number that every step is computed in.
+// The kind of number in which all steps are computed.
 struct Kind {
-  std::string_view prefix;  // of the functions
+  std::string_view prefix;  // of the shader functions
   std::string_view number;
   std::string_view truth;
 };
@@ -66,7 +66,7 @@ std::string lines(const StraightLine& line, const Kind& kind, const char* const 
 
 }  // namespace
 
-// Rounded up, so that the interval is no smaller than the constant's.
+// Rounded up, so that the interval around the float contains the constant's interval.
 float constant_error(const Step& step) {
   const double error = step.error + std::abs(step.value - double(float(step.value)));
   return error == 0 ? 0.0f : std::nextafter(float(error * (1 + 1e-6)), 1e38f);

@@ -8,7 +8,7 @@
 
 namespace eyeray::engine::expression {
 
-// With `numbers`, the constants are loaded.
+// Both functions load their constants from a buffer if `numbers` is given (loaded_numbers.hpp).
 
 // vec3 NAME(vec3 x, vec3 y, vec3 z): bounds the function along a ray; needs shaders/math/affine_bound.glsl.
 std::string bound_text(const StraightLine& line, std::string_view name, LoadedNumbers* numbers = nullptr);
@@ -16,7 +16,7 @@ std::string bound_text(const StraightLine& line, std::string_view name, LoadedNu
 // vec4 NAME(vec3 p): the function's gradient and, in w, its value; needs shaders/math/dual.glsl.
 std::string gradient_text(const StraightLine& line, std::string_view name, LoadedNumbers* numbers = nullptr);
 
-// The greatest distance of the constant, as a float, from its meant value.
+// The greatest distance between the constant's float and the exact value that it stands for.
 float constant_error(const Step& step);
 
 }  // namespace eyeray::engine::expression

@@ -12,8 +12,8 @@ struct Row {
   std::string_view name;
   int operands;
 };
-// In the order of Op; names are those of the shader functions (shaders/math/affine_bound.glsl,
-// shaders/math/dual.glsl).
+// One row for each Op, in their order. The names are those of the shader functions
+// (shaders/math/affine_bound.glsl, shaders/math/dual.glsl).
 constexpr Row rows[] = {
     {"constant", 0}, {"input", 0},       {"negate", 1},      {"add", 2},        {"subtract", 2},
     {"multiply", 2}, {"scale", 1},       {"square", 1},      {"reciprocal", 1}, {"absolute", 1},
@@ -117,7 +117,7 @@ Term Expression::power(Term x, double exponent) {
   return record({.op = Op::power, .from = {x, no_term, no_term}, .value = exponent});
 }
 
-// An operation on constants, and how far it may be off when they are.
+// The result of an operation on constants, with the error that follows from the constants' errors.
 Term Expression::folded(Op op, Term x, Term y) {
   const double a = value(x), b = y == no_term ? 0 : value(y);
   const double ea = step(x).error, eb = y == no_term ? 0 : step(y).error;
@@ -127,8 +127,8 @@ Term Expression::folded(Op op, Term x, Term y) {
     for (const double from_a : {a - ea, a + ea})
       for (const double from_b : {b - eb, b + eb})
         error = std::max(error, std::abs(compute(op, from_a, from_b, 0) - result));
-  // These operations on exact numbers have no error that counts. Sums and products of whole numbers have none
-  // at all.
+  // If a result is below 2^24 and a multiple of 1/256, exact operands give it no rounding error that counts.
+  // Sums and products of whole numbers have no rounding error at all.
   const bool exact = std::abs(result) < 0x1p24 && result == std::round(result * 256) / 256;
   return constant(result, exact ? error : error * (1 + 1e-6) + 1e-15 * std::abs(result));
 }
@@ -136,7 +136,7 @@ Term Expression::folded(Op op, Term x, Term y) {
 Term Expression::apply(Op op, Term x, Term y, Term z) {
   const Term simple = simplified(op, x, y, z);
   if (simple != no_term) return simple;
-  // A sum in another order is the same step.
+  // Operands are sorted if their order does not matter, so that a sum in another order is the same step.
   const bool commutes = op == Op::add || op == Op::multiply || op == Op::minimum || op == Op::maximum ||
                         op == Op::equal || op == Op::both || op == Op::either;
   if (commutes && y < x) std::swap(x, y);
@@ -209,7 +209,7 @@ bool Expression::is_opposite(Term x, Term y) const {
          (step(y).op == Op::opposite && step(y).from[0] == x);
 }
 
-// The conditions under which code runs come together again after an if: (p and c) or (p and not c) is p.
+// After an if, the conditions of its two sides are joined again: (p and c) or (p and not c) is p.
 Term Expression::simplified_truth(Op op, Term x, Term y) {
   if (op == Op::opposite) return step(x).op == Op::opposite ? step(x).from[0] : no_term;
   if (op != Op::both && op != Op::either) return no_term;

@@ -1,6 +1,6 @@
-// A function of a few numbers as straight-line code: each step an operation on earlier ones, none of them
-// twice. What is known beforehand is computed while it is written down. Other functions are derived from it
-// step by step (emit.hpp).
+// A function of a few numbers as straight-line code. Each step is an operation on earlier steps, and no step
+// occurs twice. Operations on constants are computed while the code is written. Other functions are derived
+// from the code step by step (emit.hpp).
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace eyeray::engine::expression {
 
-// Numbers are real, truths are yes or no; whole numbers are numbers.
+// Operations on numbers, which are real, and on truths, which are yes or no. Whole numbers count as numbers.
 enum class Op {
   constant,
   input,
@@ -26,16 +26,16 @@ enum class Op {
   minimum,
   maximum,
   square_root,
-  power,  // of a number ≥ 0, the exponent being a constant > 0
+  power,  // of a number ≥ 0; the exponent is a constant > 0
   sine,
   cosine,
   exponential,
   logarithm,
-  angle,  // of (second, first) in (−π, π]
+  angle,  // atan2(first, second), in (−π, π]
   floor,
-  choose,  // second or third, by a truth
-  // truths
-  truth,  // constant
+  choose,  // first ? second : third; the first is a truth
+  // operations that result in truths
+  truth,  // a constant truth
   less,
   less_equal,
   equal,
@@ -55,8 +55,8 @@ constexpr Term no_term = -1;
 struct Step {
   Op op;
   std::array<Term, 3> from{no_term, no_term, no_term};
-  double value = 0;  // of a constant or truth; which input; the factor of a scale, the exponent of a power
-  double error = 0;  // error of a constant, of a decimal fraction for instance
+  double value = 0;  // of a constant or truth; an input's index; a scale's factor; a power's exponent
+  double error = 0;  // error of a constant, for instance of a decimal fraction
 };
 
 class Expression {
@@ -64,15 +64,15 @@ class Expression {
   const std::vector<Step>& steps() const { return steps_; }
   const Step& step(Term t) const { return steps_[size_t(t)]; }
 
-  // The term for a value or operation, simplified; an equal one is found again. Operands come first, so that
-  // a loop over steps() computes.
+  // The term for a value or operation, simplified; an equal term that exists already is returned. Operands
+  // precede the steps that use them, so that one loop over steps() can compute them all.
   Term constant(double value, double error = 0);
   Term truth(bool value);
   Term input(int index);
   Term power(Term x, double exponent);
   Term apply(Op op, Term x, Term y = no_term, Term z = no_term);
 
-  // True if it is a constant, number or truth, that value() has.
+  // True if the term is a constant number or truth, which value() then returns.
   bool known(Term t) const { return step(t).op == Op::constant || step(t).op == Op::truth; }
   double value(Term t) const { return step(t).value; }
   bool is(Term t, double value) const { return known(t) && this->value(t) == value && step(t).error == 0; }
@@ -89,12 +89,12 @@ class Expression {
   std::map<std::tuple<Op, Term, Term, Term, double, double>, Term> known_steps_;
 };
 
-// A number computed from p = inputs 0, 1, 2: steps of which the last is the result, and all are needed.
+// The steps that compute a number from p = inputs 0, 1, 2. The last step is the result; all are needed.
 using StraightLine = std::vector<Step>;
 StraightLine straight_line(const Expression& expression, Term result);
 
-// The result of `op` for float64 operands; truths are 0 and 1. A scale's factor and a power's exponent is y.
-// For the expression's own constants, and for tests.
+// The result of `op` for float64 operands; truths are 0 and 1. y is a scale's factor or a power's exponent.
+// Used for the expression's constants, and by tests.
 double compute(Op op, double x, double y, double z);
 
 }  // namespace eyeray::engine::expression

@@ -1,4 +1,4 @@
-// Numbers that a kernel loads from a buffer instead of having them in its text: other numbers then need no
+// Numbers that a kernel loads from a buffer instead of having them in its text, so that other numbers need no
 // other kernel.
 #pragma once
 
@@ -10,8 +10,8 @@ namespace eyeray::engine::expression {
 
 class LoadedNumbers {
  public:
-  // Adds a number, and returns GLSL that loads it from `uint formula_numbers[]`. Each use of a number is
-  // added by itself, so that the text does not show which of them are equal.
+  // Adds a number, and returns GLSL that loads it from `uint formula_numbers[]`. A number is added
+  // again for each use, so that the text does not show which numbers are equal.
   std::string add_uint(uint32_t value) {
     words_.push_back(value);
     return "formula_numbers[" + std::to_string(words_.size() - 1) + "]";

@@ -1,4 +1,5 @@
-// From a program to the machine's code: functions are written where they are called, ways become jumps.
+// Turns a program into the machine's code. The code of a function replaces each call; branches and loops
+// become jumps.
 #include <algorithm>
 #include <atomic>
 
@@ -25,7 +26,7 @@ class Assembler {
     real_top_ = uint32_t(machine_.reals_.size());
     whole_top_ = uint32_t(machine_.wholes_.size());
 
-    // The input's floats, then the call.
+    // Reserves the input's floats, then writes the call.
     machine_.input_ = real_top_;
     machine_.input_count_ = program_.functions[number].input_count();
     Slots input{{}, true, ir::Type::real};
@@ -43,13 +44,13 @@ class Assembler {
  private:
   using Code = Machine::Code;
 
-  // Positions in one of the files.
+  // The positions of a value's numbers in one of the machine's files.
   struct Slots {
     std::vector<uint32_t> at;
     bool in_a_row = false;
     ir::Type type = ir::Type::real;
   };
-  // A function where it is called, and where its registers and arrays lie.
+  // One call of a function, with the positions of the function's registers and arrays.
   struct Frame {
     const ir::Function& function;
     std::vector<uint32_t> registers{};
@@ -79,8 +80,8 @@ class Assembler {
     return frame;
   }
 
-  // Writes down the function's steps with `arguments`. Where the difference cannot be observed, a parameter
-  // is its argument; else it is copied, and back.
+  // Writes the function's code for a call with `arguments`. A parameter shares the position of its argument
+  // if nothing can observe the difference. Else the argument is copied, and copied back if it is written to.
   void call(Frame& frame, const std::vector<Slots>& arguments) {
     std::vector<std::pair<Slots, Slots>> back;  // to, from
     for (size_t i = 0; i < arguments.size(); ++i) {
@@ -102,7 +103,7 @@ class Assembler {
       if (parameter.written) back.push_back({arguments[i], own});
     }
     write(frame, frame.function.body);
-    // The last way back leads to the next code anyway.
+    // A return at the very end needs no jump, since the next code follows.
     if (!frame.returns.empty() && frame.returns.back() + 1 == machine_.code_.size()) {
       machine_.code_.pop_back();
       frame.returns.pop_back();
@@ -111,7 +112,7 @@ class Assembler {
     for (const auto& [to, from] : back) move(to, from);
   }
 
-  // Below this slots are constants, and the input.
+  // Slots below this one are constants and, of floats, the input.
   uint32_t input_end(ir::Type type) const {
     return type == ir::Type::real ? machine_.input_ + machine_.input_count_
                                   : uint32_t(machine_.wholes_.size());
@@ -213,7 +214,7 @@ class Assembler {
     std::vector<Slots> arguments;
     for (const ir::Place& place : call.arguments) arguments.push_back(slots(frame, place));
     Frame inner = enter(program_.functions[call.function]);
-    // Its result is the caller's at once: nobody else asks for that.
+    // The function writes its result straight to the position in the caller, which nothing else uses.
     const ir::Place& result = inner.function.result;
     if (result.is_array) inner.arrays[size_t(result.array)] = first(frame, call.result.array);
     for (size_t i = 0; i < result.numbers.size(); ++i)
@@ -265,8 +266,8 @@ class Assembler {
 
   Machine& machine_;
   const ir::Program& program_;
-  std::vector<uint32_t> constants_, tables_;  // where they lie
-  uint32_t real_top_ = 0, whole_top_ = 0;     // the first that is free
+  std::vector<uint32_t> constants_, tables_;  // positions in the files
+  uint32_t real_top_ = 0, whole_top_ = 0;     // the first free position in each file
   uint32_t real_most_ = 0, whole_most_ = 0;
   std::vector<LoopJumps> loops_;
 };

@@ -6,9 +6,9 @@
 namespace eyeray::engine::formula {
 
 enum class FormulaKind {
-  surface,  // `float f(vec3 p)`, negative inside; it may have `vec3 gradient(vec3 p)` too
+  surface,  // `float f(vec3 p)`, negative inside; optionally `vec3 gradient(vec3 p)`
   color,    // `vec3 color(vec2 uv)`
-  camera,   // `vec3 direction(vec2 place, vec2 lens)`; it may have `vec3 origin(vec2 place, vec2 lens)` too
+  camera,   // `vec3 direction(vec2 place, vec2 lens)`; optionally `vec3 origin(vec2 place, vec2 lens)`
 };
 
 // A function TYPE NAME(PARAMETER …) as executors call it. `written`: its parameters in the user's text.

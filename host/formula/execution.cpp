@@ -6,10 +6,11 @@
 namespace eyeray::engine::formula {
 namespace {
 
-constexpr size_t most_effort =
-    400'000;                           // instructions followed, those of loops each time, and memories copied
-constexpr size_t effortless = 64;      // numbers of a memory that take no longer to copy than an instruction
-constexpr size_t most_steps = 20'000;  // written down, dead ones too
+// Limit on the instructions followed, counted anew in each iteration, plus the effort to copy memories.
+constexpr size_t most_effort = 400'000;
+// Copying this many numbers of a memory takes no longer than following an instruction.
+constexpr size_t effortless = 64;
+constexpr size_t most_steps = 20'000;   // steps written down, unused ones too
 constexpr int most_iterations = 1'000;  // of one loop
 
 }  // namespace
@@ -41,7 +42,7 @@ Term Execution::run(std::string_view name) {
   const Function& function = *module_.named(name);
   const Value p{expression_.input(0), expression_.input(1), expression_.input(2)};
   Call caller{.function = function};
-  constexpr uint32_t argument = 0;  // no id of the module's
+  constexpr uint32_t argument = 0;  // not an id of the module
   if (module_.type_of(function.parameters[0]).op == spv::OpTypePointer) {
     memory_[++variables_] = p;
     caller.pointers[argument] = {variables_, 0};
@@ -70,7 +71,8 @@ Value Execution::call(const Function& function, const std::vector<uint32_t>& arg
   return returned;
 }
 
-// Blocks stand in the order in which they are reached, those of a loop between its header and where it ends.
+// The function's blocks stand in the order in which they are reached. The blocks of a loop stand between its
+// header and its merge block.
 void Execution::run_blocks(Call& call, size_t first, size_t end) {
   for (size_t i = first; i < end; ++i) {
     const Block& block = call.function.blocks[i];
@@ -146,7 +148,7 @@ void Execution::run_instruction(Call& call, const Instruction& instruction) {
   if (run_memory(call, instruction) || run_composite(call, instruction) || run_branch(call, instruction))
     return;
 
-  // The remaining instructions compute.
+  // All other instructions compute a value.
   const Type& type = module_.type(instruction.type);
   std::optional<Value> result;
   if (instruction.op == spv::OpExtInst) {

@@ -1,4 +1,4 @@
-// The instructions that move numbers, and those that lead from block to block.
+// Runs the instructions that move numbers, and those that end a block.
 #include <algorithm>
 
 #include "host/formula/execution.hpp"
@@ -55,7 +55,8 @@ bool Execution::run_memory(Call& call, const Instruction& instruction) {
 
 bool Execution::run_composite(Call& call, const Instruction& instruction) {
   const std::vector<uint32_t>& words = instruction.words;
-  // The index of a member's first number, and how many it has, along literal indices from words[first] on.
+  // Follows the literal indices from words[first] on to a member. Returns the index of its first number, and
+  // its count of numbers.
   const auto place = [&](const Type& whole, size_t first) {
     const Type* type = &whole;
     uint32_t offset = 0;
@@ -108,7 +109,7 @@ bool Execution::run_composite(Call& call, const Instruction& instruction) {
       result.assign(module_.type(instruction.type).size, expression_.constant(0));
       break;
     case spv::OpPhi: {
-      // Value and block by turns, a pair for each way.
+      // The words are pairs, one for each way: a value, and the block from which the way comes.
       const auto coming_from = [&](uint32_t block) -> const Value& {
         for (size_t i = 0; i + 1 < words.size(); i += 2)
           if (words[i + 1] == block) return value(call, words[i]);

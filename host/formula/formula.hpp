@@ -58,7 +58,7 @@ class Formula {
   double instructions() const;
 
   // The formula as GLSL for kernels that have shaders/math/formula.glsl: the required function, for instance
-  // `float NAMEf(vec3 p)`, and the others of the text. Loops that must be counted (loops()) call `bool
+  // `float NAMEf(vec3 p)`, and the text's other functions. Loops that must be counted (loops()) call `bool
   // formula_iterates(uint iterations)`. With `numbers`, constants are loaded: then formulas that differ only
   // in parameters mostly have the same text.
   std::string kernel(const std::string& name, expression::LoadedNumbers* numbers = nullptr) const;

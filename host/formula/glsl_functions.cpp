@@ -8,13 +8,13 @@
 namespace eyeray::engine::formula {
 namespace {
 
-// Writes down formulas; everything GLSL has, made of the few operations of a expression.
+// Builds GLSL's functions from the few operations of an Expression.
 class Formulas {
  public:
   explicit Formulas(Expression& expression) : expression_(expression) {}
 
   Term number(double x) { return expression_.constant(x); }
-  // A number that no float is.
+  // A number that floating point cannot hold exactly.
   Term fraction(double x) { return expression_.constant(x, 1e-15 * std::abs(x)); }
   Term add(Term x, Term y) { return expression_.apply(Op::add, x, y); }
   Term subtract(Term x, Term y) { return expression_.apply(Op::subtract, x, y); }
@@ -42,7 +42,7 @@ class Formulas {
     const Term up = of(Op::exponential, x), down = of(Op::exponential, of(Op::negate, x));
     return half(expression_.apply(op, up, down));
   }
-  // Beyond 16 it is ±1 to 1e-13, and e²ˣ soon more than bounds hold.
+  // Beyond ±16 tanh is ±1 to 1e-13, and e²ˣ would soon be more than bounds can hold.
   Term hyperbolic_tangent(Term x) {
     const Term e = of(Op::exponential, multiply(number(2), clamp(x, number(-16), number(16))));
     return subtract(number(1), divide(number(2), add(e, number(1))));
@@ -55,7 +55,7 @@ class Formulas {
     const Term squared = of(Op::square, whole_power(x, n / 2 > 0 ? n / 2 : 1));
     return n % 2 == 0 ? squared : multiply(squared, x);
   }
-  // Whole exponents mean a product, for negative x too, as in C++.
+  // If the exponent is whole, the power is a product, which is defined for negative x too, as in C++.
   Term power(Term x, Term y) {
     if (!expression_.known(y)) return of(Op::exponential, multiply(y, of(Op::logarithm, x)));
     const double n = expression_.value(y);

@@ -15,7 +15,7 @@ constexpr double most_memory = 1 << 13;
 constexpr double most_work = 1 << 18;
 // A loop needs no counting if its number of iterations is known and their work together is at most this.
 constexpr double most_uncounted_work = 1 << 16;
-// The weight of an iteration is 1, plus 1 for each so many instructions in it.
+// The weight of an iteration is 1 plus the number of its instructions divided by this.
 constexpr double work_of_an_iteration = 256;
 
 class Measure {

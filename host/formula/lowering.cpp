@@ -1,4 +1,4 @@
-// Functions as a whole: the values known beforehand, and the ways from block to block.
+// Lowers functions as a whole: notes the uses of values and variables, then goes from block to block.
 #include "host/formula/lowering.hpp"
 
 #include <algorithm>
@@ -60,7 +60,7 @@ ir::Function FunctionLowering::run() {
     if (module_.held.contains(global.result) && accesses_.contains(global.result))
       lower_constant_variable(global, out_.body);
 
-  // Parameters: one that glslang passes by pointer is the variable itself.
+  // A parameter that glslang passes by pointer is the variable itself.
   for (const uint32_t id : function_.parameters) {
     const Type& type = module_.type_of(id);
     const bool by_pointer = type.op == spv::OpTypePointer;
@@ -98,7 +98,7 @@ void FunctionLowering::look_ahead() {
   note_accesses();
 }
 
-// Backwards, since an instruction that only arranges is used for as long as its result is.
+// Goes backwards, since the operands of an instruction that only arranges are used as long as its result is.
 void FunctionLowering::count_uses(size_t b) {
   const std::vector<Instruction>& all = function_.blocks[b].instructions;
   for (size_t i = all.size(); i-- > 0;) {
@@ -110,7 +110,8 @@ void FunctionLowering::count_uses(size_t b) {
       for (size_t k = 0; k + 1 < instruction.words.size(); k += 2)
         phis_[instruction.words[k + 1]].push_back({instruction.result, instruction.words[k]});
     }
-    // Some words are no values; taking them for such keeps a value longer, no more.
+    // Some words are not ids of values. If one is taken for an id, a value is kept longer, and no harm is
+    // done.
     for (const uint32_t id : instruction.words) {
       const auto defined = defined_in_.find(id);
       if (defined == defined_in_.end()) continue;
@@ -124,7 +125,7 @@ void FunctionLowering::count_uses(size_t b) {
 }
 
 void FunctionLowering::note_accesses() {
-  std::map<uint32_t, uint32_t> variable_of;  // of a pointer
+  std::map<uint32_t, uint32_t> variable_of;  // the variable to which a pointer points
   const auto variable = [&](uint32_t id) {
     const auto found = variable_of.find(id);
     return found == variable_of.end() ? id : found->second;
@@ -217,7 +218,7 @@ void FunctionLowering::lower_instructions(const Block& block, ir::Block& out) {
   }
 }
 
-// Follows the block's last instruction. Whether it goes on, at `label`.
+// Lowers the block's last instruction. Returns true if the caller must continue, at the block `label`.
 bool FunctionLowering::lower_branch(const Block& block, uint32_t& label, ir::Block& out) {
   const Instruction& last = block.instructions.back();
   const std::vector<uint32_t>& words = last.words;

@@ -42,7 +42,7 @@ class FunctionLowering {
     uint32_t header, merge, next;
     bool in_next = false;
   };
-  // The uses of a value: their number, and the last one's position in the value's own block. The position is
+  // The number of a value's uses, and the position of the last use in the value's own block. The position is
   // past the block's end if another block uses the value.
   struct Uses {
     size_t count = 0;

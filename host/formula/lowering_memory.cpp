@@ -1,4 +1,4 @@
-// Variables, their parts, and calls.
+// Lowers variables, accesses to their parts, and calls.
 #include <algorithm>
 
 #include "host/formula/lowering.hpp"
@@ -54,7 +54,7 @@ void FunctionLowering::lower_constant_variable(const Instruction& variable, ir::
   pointers_[variable.result] = at;
 }
 
-// Indices are clamped as Vulkan's robust access does: a negative one is 0, one past the end is the last.
+// Indices are clamped as Vulkan's robust access does: a negative index becomes 0, one past the end the last.
 FunctionLowering::Pointer FunctionLowering::index(const Instruction& instruction, ir::Block& out) {
   Pointer at = pointer(instruction.words[0]);
   for (size_t i = 1; i < instruction.words.size(); ++i) {
@@ -73,7 +73,7 @@ FunctionLowering::Pointer FunctionLowering::index(const Instruction& instruction
     }
     at.type = &element;
   }
-  // All of it in one number.
+  // Adds the constant offset to the address.
   if (at.is_dynamic && at.offset > 0) {
     at.address = apply(out, ir::Op::whole_add, at.address, whole(at.offset));
     at.offset = 0;
@@ -86,7 +86,8 @@ void FunctionLowering::load(const Instruction& instruction, ir::Block& out) {
   const Type& type = module_.type(instruction.type);
   ir::Place& result = values_[instruction.result];
 
-  // If nothing writes to the variable until the last use of the result, its own numbers serve.
+  // If nothing writes to the variable until the last use of the result, the result is the variable's numbers
+  // themselves.
   const Accesses& accesses = accesses_[at.variable];
   const Uses& uses = uses_[instruction.result];
   const auto writes = accesses.writes.find(block_);
@@ -157,12 +158,13 @@ void FunctionLowering::lower_call(const Instruction& instruction, ir::Block& out
   const uint32_t number = numbers_.at(instruction.words[0]);
   const std::vector<ir::Parameter>& parameters = program_.functions[number].parameters;
   ir::Call call{number, {}, {}};
-  std::vector<std::pair<ir::Place, ir::Place>> back;  // to, from
+  std::vector<std::pair<ir::Place, ir::Place>> back;  // (to, from), copied after the call
   for (size_t i = 0; i < parameters.size(); ++i) {
     const uint32_t id = instruction.words[i + 1];
     const bool by_pointer = module_.type_of(id).op == spv::OpTypePointer;
     ir::Place given = by_pointer ? pointer(id).place : value(id);
-    // If one side has numbers and the other an array, a copy of the other's kind goes in, and back.
+    // If only one of argument and parameter is an array, a copy of the parameter's kind is passed. It is
+    // copied back if the function writes to it.
     if (given.is_array != parameters[i].place.is_array) {
       const Type& type = by_pointer ? *pointer(id).type : module_.type_of(id);
       const ir::Place between = new_place(type, parameters[i].place.is_array);
@@ -195,7 +197,7 @@ void FunctionLowering::copy(const ir::Place& to, const ir::Place& from, ir::Bloc
   }
 }
 
-// All at once: numbers that would be overwritten before they are read are saved first.
+// Assigns all numbers as if at once: numbers that would be overwritten before they are read are saved first.
 void FunctionLowering::assign(const std::vector<ir::Operand>& to, std::vector<ir::Operand> from,
                               ir::Block& out) {
   const auto move = [&](ir::Operand into, ir::Operand source) {
@@ -211,8 +213,9 @@ void FunctionLowering::assign(const std::vector<ir::Operand>& to, std::vector<ir
   for (size_t i = 0; i < from.size(); ++i) move(to[i], from[i]);
 }
 
-// Lets the last instructions, if they are those that compute `from` and nobody else asks for it, write to
-// `to` at once.
+// Makes the last instructions write to `to` instead of `from`. Returns false, without a change, if they do
+// not compute `from`, or if one of them reads a number of `to` that is then already overwritten. Nothing else
+// may use `from`.
 bool FunctionLowering::retarget(const std::vector<ir::Operand>& to, const std::vector<ir::Operand>& from,
                                 ir::Block& out) const {
   if (out.size() < from.size()) return false;

@@ -11,8 +11,8 @@ namespace {
 
 using ir::Op;
 
-// The operation of a SPIR-V instruction on each component. `swaps`: with its operands in reverse order.
-// `negates`: with the opposite result.
+// The operation that a SPIR-V instruction performs on each component. `swaps`: its operands are in reverse
+// order. `negates`: its result is the opposite of the operation's.
 struct Row {
   spv::Op from;
   Op op;
@@ -35,7 +35,7 @@ constexpr Row rows[] = {
     {spv::OpFUnordLessThanEqual, Op::less, true, true},
     {spv::OpFUnordGreaterThanEqual, Op::less, false, true},
     {spv::OpFUnordNotEqual, Op::equal, false, true},
-    // glslang means GLSL's !=, by either name.
+    // glslang writes either instruction for GLSL's !=.
     {spv::OpFOrdNotEqual, Op::equal, false, true},
     {spv::OpSNegate, Op::whole_negate},
     {spv::OpIAdd, Op::whole_add},
@@ -74,7 +74,7 @@ constexpr Row rows[] = {
     {spv::OpLogicalNotEqual, Op::same, false, true},
 };
 
-// GLSL's functions that are one of ours for each component.
+// GLSL's functions that are one ir::Op for each component.
 constexpr std::pair<int, Op> functions[] = {
     {GLSLstd450FAbs, Op::absolute},   {GLSLstd450FSign, Op::sign},
     {GLSLstd450Floor, Op::floor},     {GLSLstd450Ceil, Op::ceil},
@@ -125,7 +125,7 @@ void FunctionLowering::each(ir::Block& out, const Instruction& instruction, Op o
   for (size_t i = 0; i < module_.type(instruction.type).size; ++i) {
     const auto part = [&](size_t k) -> ir::Operand {
       if (k >= from.size()) return 0;
-      CHECK(!from[k].numbers.empty());  // of arrays nothing is computed component by component
+      CHECK(!from[k].numbers.empty());  // no operation is applied to each element of an array
       return from[k].numbers[std::min(i, from[k].numbers.size() - 1)];
     };
     result.numbers.push_back(apply(out, op, part(0), part(1), part(2)));
@@ -186,7 +186,7 @@ bool FunctionLowering::lower_arithmetic(const Instruction& instruction, ir::Bloc
   }
 }
 
-// One of GLSL.std.450.
+// Lowers a function of GLSL.std.450.
 bool FunctionLowering::lower_function(const Instruction& instruction, ir::Block& out) {
   const uint32_t function = instruction.words[1];
   std::vector<ir::Place> from;
@@ -206,7 +206,7 @@ bool FunctionLowering::lower_function(const Instruction& instruction, ir::Block&
     return v.numbers.size() == 1 ? apply(out, Op::absolute, v.numbers[0])
                                  : apply(out, Op::sqrt, sum_of_products(out, v, v));
   };
-  // The lesser or greater of two whole numbers, as the comparison decides.
+  // The lesser or greater of two whole numbers, by the comparison `less`.
   const auto lesser = [&](Op less, ir::Operand x, ir::Operand y, bool greater) {
     return apply(out, Op::select, greater ? apply(out, less, x, y) : apply(out, less, y, x), y, x);
   };
@@ -290,7 +290,7 @@ bool FunctionLowering::lower_composite(const Instruction& instruction, ir::Block
   const auto put = [&](uint32_t i, ir::Operand number) {
     out.push_back({ir::Instruction{.op = Op::store, .from = {whole(i), number}, .array = result.array}});
   };
-  // The index of a member's first number, along literal indices from words[first] on.
+  // Follows the literal indices from words[first] on to a member. Returns the index of its first number.
   const auto offset = [&](const Type& composite, size_t first) {
     const Type* t = &composite;
     uint32_t sum = 0;

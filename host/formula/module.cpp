@@ -10,8 +10,8 @@ namespace eyeray::engine::formula {
 
 namespace {
 
-// Numbers of one type, and of all variables of a module: small enough for sums and products of them in 32
-// bits.
+// Limits on the numbers of one type, and of all variables of a module together. They are small enough for
+// sums and products in 32 bits.
 constexpr uint64_t most_numbers_of_a_type = 1 << 13;
 constexpr uint64_t most_numbers_of_variables = 1 << 20;
 
@@ -45,7 +45,8 @@ void Module::read_type(spv::Op op, std::span<const uint32_t> words) {
       type.members.assign(words[3], words[2]);
       break;
     case spv::OpTypeArray: {
-      // Before anything is as long as that. No type has more numbers than 2^13: the product fits 64 bits.
+      // Checks the length before anything of that length exists. No type has more numbers than 2^13, so the
+      // product fits 64 bits.
       const uint64_t length = constant_bits_.at(words[3]).at(0), numbers = length * types.at(words[2]).size;
       if (length == 0 || length > most_numbers_of_a_type || numbers > most_numbers_of_a_type)
         refuse_size({}, "an array has none or", most_numbers_of_a_type);

@@ -1,4 +1,4 @@
-// A formula's text as compilers are given it.
+// Writes a formula's text for compilers.
 #include <fmt/format.h>
 
 #include <set>
@@ -9,7 +9,7 @@ namespace eyeray::engine::formula {
 
 namespace {
 
-// The tokens, each spelled as `spell` returns it, on the lines of the text.
+// The text of all tokens: each as `spell` returns it, on the line that it has in the user's text.
 template <typename Spell>
 std::string line_by_line(const std::vector<Token>& tokens, const Spell& spell) {
   std::string result;
@@ -27,7 +27,7 @@ bool is_literal(const Token& token) {
          token.is("false");
 }
 
-// The initial value of an unset variable. No user's name begins so (user_prefix).
+// The initial value of an unset variable. User-defined names begin with user_prefix, so none is equal to it.
 std::string zero_of(const Text::Unset& variable) {
   return variable.length == 0 ? fmt::format("{}(0)", variable.type)
                               : fmt::format("zero_{}_{}", variable.type, variable.length);
@@ -68,7 +68,8 @@ std::string Text::unfolded(std::string& zeros) const {
     if (token.is(")") || token.is("]") || token.is("}")) --depth;
     std::string result = name_prefix(i) + token.text;
     if (token.is("const") && depth == 0) result.clear();
-    // A list (0, X) is X, and no constant to GLSL. A number alone in brackets may be an array's size.
+    // (0, X) has the value X, but GLSL does not count it as a constant. A number alone in square brackets
+    // stays, since it may be an array's size.
     if (is_literal(token) && !(tokens[i - 1].is("[") && tokens[i + 1].is("]")))
       result = fmt::format("(0, {})", token.text);
     for (; next_unset != unset.end() && next_unset->token == i; ++next_unset)

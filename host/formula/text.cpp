@@ -15,7 +15,8 @@ namespace eyeray::engine::formula {
 
 namespace {
 
-// A compiler that recurses, recurses no deeper than these allow; the largest takes it a fraction of a second.
+// These limits bound the depth to which a compiler recurses. The largest text compiles in a fraction of
+// a second.
 constexpr size_t most_bytes = size_t{1} << 16;
 constexpr size_t most_nesting = 64;
 constexpr size_t most_links = 500;
@@ -43,7 +44,7 @@ class Judge {
  private:
   static constexpr size_t none = size_t(-1);
   struct Function {
-    size_t type;  // token; the name and the parenthesis follow
+    size_t type;  // index of the token; the name and the parenthesis follow
     bool defined;
   };
 
@@ -51,7 +52,7 @@ class Judge {
   bool is_word(size_t i) const { return i < t_.tokens.size() && t_.tokens[i].kind == Token::Kind::word; }
   bool type_at(size_t i) const { return is_word(i) && is_type(text(i)); }
   const std::string& text(size_t i) const { return t_.tokens[i].text; }
-  // if, else, for, while: a statement follows that is part of this one.
+  // True for if, else, for and while: the statement that follows is a part of this one.
   bool chains(size_t i) const { return is(i, "if") || is(i, "else") || is(i, "for") || is(i, "while"); }
   bool opens(size_t i) const { return is(i, "(") || is(i, "[") || is(i, "{"); }
   void fail(size_t i, std::string message) {
@@ -74,9 +75,9 @@ class Judge {
   Text& t_;
   FormulaKind kind_;
   std::vector<Fault>& faults_;
-  std::vector<size_t> partner_;  // of each bracket; elsewhere none
+  std::vector<size_t> partner_;  // index of each bracket's counterpart; `none` for other tokens
   std::vector<Function> functions_;
-  std::set<std::string, std::less<>> own_;  // their names
+  std::set<std::string, std::less<>> own_;  // the functions' names
 };
 
 bool Judge::pair_brackets() {
@@ -105,7 +106,7 @@ bool Judge::pair_brackets() {
   return open.empty();
 }
 
-// TYPE NAME ( … ) at the top level.
+// Finds each TYPE NAME ( … ) at the top level.
 void Judge::find_functions() {
   for (size_t i = 0; i < t_.tokens.size(); ++i) {
     if (type_at(i) && is_word(i + 1) && is(i + 2, "(")) {
@@ -121,7 +122,7 @@ void Judge::find_functions() {
   }
 }
 
-// True if it is a name of the text's own.
+// True if the word at i is a user-defined name.
 bool Judge::judge_word(size_t i) {
   const std::string& word = text(i);
   if (i > 0 && is(i - 1, ".")) {
@@ -148,7 +149,8 @@ bool Judge::judge_word(size_t i) {
   return false;
 }
 
-// The number [ N ] at i, if it is one that means to everybody the same: decimal, without a leading 0.
+// The number N of [ N ] at i, if every reader understands the same by it: decimal, without a leading 0.
+// Nothing for other numbers, and above most_elements.
 std::optional<size_t> Judge::size_written_at(size_t i) const {
   if (!is(i + 2, "]") || t_.tokens[i + 1].kind != Token::Kind::integer) return std::nullopt;
   const std::string& digits = text(i + 1);
@@ -175,7 +177,8 @@ std::vector<size_t> Judge::declared_at(size_t i) const {
   return names;
 }
 
-// TYPE NAME [ SIZE ], and float[2](1, 2). Comparing arrays takes an instruction an element.
+// Judges the sizes in TYPE NAME [ SIZE ] and float[2](1, 2), and the comparisons of arrays, which take one
+// instruction per element.
 void Judge::judge_arrays() {
   size_t largest = 0, comparisons = 0;
   const auto judge = [&](size_t open, bool may_be_empty) {
@@ -207,11 +210,12 @@ void Judge::judge_arrays() {
                      largest, comparisons)});
 }
 
-// Limits the length of each statement's chain, with all statements around it: a + b + …, if … else if ….
-// Compilers recurse as deeply as that. The parts of a list, as of an argument's, are no chain.
+// Limits the length of chains such as a + b + … and if … else if …, since compilers recurse as deeply. The
+// chains of all statements around a statement count with its own. The elements of a list, such as a call's
+// arguments, form no chain with each other.
 void Judge::judge_chains() {
   struct Bracket {
-    size_t links;  // where it was opened
+    size_t links;  // the chain's length where the bracket opens
     bool is_list;
   };
   std::vector<Bracket> open;
@@ -227,7 +231,7 @@ void Judge::judge_chains() {
     if (opens(i)) {
       const bool is_call =
           is(i, "(") && i > 0 && (is(i - 1, "]") || (is_word(i - 1) && !is_keyword(text(i - 1))));
-      // a[1][0], f(p)[0]: a compiler goes one deeper for each.
+      // In a[1][0] and f(p)[0] a compiler recurses one level deeper for each such bracket.
       if (!is(i, "{") && i > 0 && (is(i - 1, ")") || is(i - 1, "]"))) add_link(i);
       open.push_back({links, is_call});
     } else if (is_sign && (c == ')' || c == ']')) {
@@ -246,7 +250,7 @@ void Judge::judge_chains() {
   }
 }
 
-// A variable outside of functions would make f depend on earlier calls, unless it is a constant.
+// Refuses global variables that are not const: with them f would depend on earlier calls.
 void Judge::judge_globals() {
   bool constant = false;
   for (size_t i = 0; i < t_.tokens.size(); ++i) {
@@ -259,7 +263,7 @@ void Judge::judge_globals() {
   }
 }
 
-// True if there is TYPE NAME(TYPE a, …) { … }, its parameters of the types that it is written with.
+// True if the text defines TYPE NAME(TYPE a, …) { … } with the types of entry.written.
 bool Judge::defines(const Entry& entry) const {
   return std::ranges::any_of(functions_, [&](const Function& function) {
     size_t i = function.type;

@@ -19,8 +19,8 @@ struct Token {
   bool is(std::string_view what) const { return text == what; }
 };
 
-// Splits a text into tokens, without comments. A character that begins no token is a fault; so
-// is the # of the preprocessor.
+// Splits a text into tokens, without comments. A character that begins no token is a fault; the
+// preprocessor's # is one as well.
 std::vector<Token> tokenize(std::string_view text, std::vector<Fault>& faults);
 
 }  // namespace eyeray::engine::formula
