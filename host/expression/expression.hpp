@@ -19,7 +19,7 @@ enum class Op {
   add,
   subtract,
   multiply,
-  scale,  // multiply by a constant without error
+  scale,  // by a constant without error, which a float holds exactly
   square,
   reciprocal,
   absolute,

@@ -1,4 +1,4 @@
-// The meaning of SPIR-V's arithmetic instructions on an expression. Private to this layer.
+// Translates SPIR-V's arithmetic instructions to operations of an expression. Private to this layer.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ using expression::no_term;
 using expression::Op;
 using expression::Term;
 
-// The numbers of a vector, matrix, array or struct, flat; matrices by columns.
+// The numbers of a vector, matrix, array or struct, in a flat list; matrices column by column.
 using Value = std::vector<Term>;
 
 // The result of a core instruction, of `size` numbers; nothing for an instruction that is not known here.

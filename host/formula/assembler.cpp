@@ -55,7 +55,7 @@ class Assembler {
     const ir::Function& function;
     std::vector<uint32_t> registers{};
     std::vector<uint32_t> arrays{};
-    std::vector<size_t> returns{};  // jumps to its end
+    std::vector<size_t> returns{};  // jumps to the function's end
   };
   struct LoopJumps {
     std::vector<size_t> leaves, nexts;
@@ -83,7 +83,7 @@ class Assembler {
   // Writes the function's code for a call with `arguments`. A parameter shares the position of its argument
   // if nothing can observe the difference. Else the argument is copied, and copied back if it is written to.
   void call(Frame& frame, const std::vector<Slots>& arguments) {
-    std::vector<std::pair<Slots, Slots>> back;  // to, from
+    std::vector<std::pair<Slots, Slots>> back;  // (to, from), copied after the call
     for (size_t i = 0; i < arguments.size(); ++i) {
       const ir::Parameter& parameter = frame.function.parameters[i];
       const bool is_shared = parameter.written && std::ranges::any_of(arguments, [&](const Slots& other) {
@@ -112,7 +112,7 @@ class Assembler {
     for (const auto& [to, from] : back) move(to, from);
   }
 
-  // Slots below this one are constants and, of floats, the input.
+  // Slots below this one hold constants or, in the file of floats, the input.
   uint32_t input_end(ir::Type type) const {
     return type == ir::Type::real ? machine_.input_ + machine_.input_count_
                                   : uint32_t(machine_.wholes_.size());

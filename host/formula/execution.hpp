@@ -39,7 +39,7 @@ class Execution {
     std::map<uint32_t, Pointer> pointers{};
     std::map<uint32_t, std::vector<Way>> ways{};  // ways to blocks not yet run, by the block's label
     std::vector<Way> returns{};
-    std::vector<uint32_t> from{};    // where the ways to the current block begin
+    std::vector<uint32_t> from{};    // blocks in which the ways to the current block begin
     std::vector<Term> conditions{};  // the conditions of these ways, in the same order
     Term condition = no_term;
     uint32_t block = 0;

@@ -35,7 +35,7 @@ struct Compiled {
 namespace {
 
 // Limit on the steps of straight-line code. Each step is a call in kernels, and drivers take more than a
-// second for a hundred.
+// second for a hundred of them.
 constexpr size_t most_straight_steps = 512;
 
 // The function's name, mangled as glslang mangles it.

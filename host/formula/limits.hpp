@@ -11,7 +11,7 @@ namespace eyeray::engine::formula {
 // The size of a function, with each call replaced by the called function.
 struct Size {
   double instructions = 0;
-  double branches = 0;  // and loops
+  double branches = 0;  // branches and loops
   double memory = 0;    // numbers in arrays
   // Instructions of one call, with one iteration of each counted loop. docs/security.md lists the limits.
   double work = 0;
