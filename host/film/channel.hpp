@@ -1,6 +1,6 @@
-// The data that a picture may have beside its colour, a channel a row in channels.cpp: values of the first
-// hits at pixels' centres, and sums over pixels' samples. Users know channels as AOVs (arbitrary output
-// variables).
+// The data that a picture may have beside its colour: values of the first hits at pixels' centres, and sums
+// over pixels' samples. Each row of the table in channels.cpp is a channel. Users know channels as AOVs
+// (arbitrary output variables).
 #pragma once
 
 #include <array>
@@ -26,18 +26,18 @@ struct PixelTotals {
   uint32_t rays = 0;
   uint32_t flags = 0;
   uint32_t samples : 31 = 0;
-  uint32_t finished : 1 = 0;  // whether it takes no more (render/adaptive.hpp)
+  uint32_t finished : 1 = 0;  // whether the pixel takes no more samples (render/adaptive.hpp)
 };
 
 // The source of a channel's values: the first hit at a pixel's centre, the hit's entry in the legend, or the
-// pixel's samples. As many of ValueOfHit's three numbers count as the channel has components.
+// pixel's samples. A channel of one component uses only the first of ValueOfHit's three numbers.
 using ValueOfHit = Vec3 (*)(const FirstHit& hit);
 struct EntryOfLegend {};
 struct OfSamples {
-  int sums = 0;  // float64 values a pixel, 0 at first
+  int sums = 0;  // number of float64 sums a pixel; each starts at 0
   void (*add)(const PixelSample& sample, const AuxiliarySample& auxiliary, double* sums) = nullptr;
-  // The values of a pixel of which all samples are added; one that has none gets 0. Null: the noise of the
-  // pixel's block (Film::noise), of which `sums` are the squared luminances.
+  // Writes the values of a pixel whose samples have all been added; 0 for a pixel without samples. Null: the
+  // value is the noise of the pixel's block (Film::noise), and its one sum is that of squared luminances.
   void (*mean)(const PixelTotals& totals, const double* sums, float* values) = nullptr;
 };
 
@@ -50,31 +50,31 @@ enum class OfCorners { nothing, mean, any_bit };
 struct ChannelType {
   std::string_view name;
   int components;  // 1 or 3
-  // Their names in its layer of an .exr; where none is named, V or X, Y and Z.
+  // The components' names in the channel's layer of an .exr. If none is named: V, or X, Y and Z.
   std::array<std::string_view, 3> component_names{};
-  image::FalseColor shown_as;  // in its picture for people
+  image::FalseColor shown_as;  // the false colours of its picture for people
   std::variant<ValueOfHit, EntryOfLegend, OfSamples> values;
   Needs needs = Needs::nothing;
   OfCorners of_corners = OfCorners::nothing;
-  // The meaning of ids. `scene` must outlive it. Null if the values are no ids.
+  // Makes the legend of the ids; `scene` must outlive it. Null if the values are not ids.
   std::unique_ptr<LegendEntries> (*legend)(const Scene& scene) = nullptr;
 
-  // Null where it is of first hits.
+  // Null for a channel of first hits.
   const OfSamples* of_samples() const { return std::get_if<OfSamples>(&values); }
 };
 
 using Channel = const ChannelType*;
-// In the order of the rows, none twice.
+// Channels in the order of channel_types(), each at most once.
 using Channels = std::vector<Channel>;
 
-// All, in the order in which they are listed.
+// All channels, in the order in which they are listed.
 std::span<const ChannelType> channel_types();
-// "depth, position, …": of all, or of these.
+// The names of all channels, or of `channels`: "depth, position, …".
 std::string channel_names();
 std::string channel_names(const Channels& channels);
-// By its name, which must be one.
+// The channel of that name, which must exist.
 Channel channel_named(std::string_view name);
-// "depth,normal" or "all"; Error (bad_input) for an unknown name.
+// Parses a list such as "depth,normal" or "all". Error (bad_input) for an unknown name.
 Channels parse_channels(const std::string& list);
 
 bool contains(const Channels& channels, Channel channel);
@@ -85,12 +85,13 @@ bool any_needs(const Channels& channels, Needs what);
 // are left out if all are wanted.
 Channels channels_of(const Scene& scene, Channels wanted);
 
-// The components of its layer of an .exr: "normal.X" and so on; no more than it has, and fewer where its last
-// means nothing.
+// The names of the components in a channel's layer of an .exr: "normal.X" and so on. A last component that
+// means nothing is left out.
 std::vector<std::string> layer_components(Channel channel);
-// NAME.CHANNEL.ENDING for an output NAME.….
+// The file of a channel: NAME.CHANNEL.ENDING for an output NAME.….
 std::filesystem::path channel_file(std::filesystem::path output, Channel channel, std::string_view ending);
-// Rows of a channel of first hits; `width` pixels each. `entries` of its legend, where it has one.
+// The rows of a channel of first hits, each `width` pixels wide. `entries`: those of the channel's legend;
+// null if it has none.
 image::Image channel_image(Channel channel, std::span<const FirstHit> hits, int width,
                            const LegendEntries* entries);
 

@@ -15,12 +15,12 @@ namespace {
 
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
-// A count, where there is one.
+// A count, or NaN if it is negative: then nothing was counted.
 Vec3 count(int64_t value) {
   return Vec3(value < 0 ? no_value : double(value));
 }
 
-// A mean over the samples; a pixel without any, beside a shard's tile, has 0.
+// A mean over the pixel's samples; 0 for a pixel that has none because it lies beside a shard's tile.
 float mean_of(double sum, const PixelTotals& totals) {
   return float(sum / std::max(1u, unsigned{totals.samples}));
 }

@@ -12,7 +12,7 @@ namespace eyeray::engine::film {
 // Finished rows of a picture; sinks get them from the top down, none twice.
 struct Rows {
   Rows() = default;
-  // All 0.
+  // All values are 0.
   Rows(int from, int width, int count, Channels channels);
 
   // The values of one of `channels`.
@@ -20,8 +20,8 @@ struct Rows {
 
   int first = 0;                     // counted from the top of the rendered rows
   image::Image color;                // linear RGB, the mean of the samples
-  Channels channels;                 // all of samples, and …
-  std::vector<image::Image> values;  // … of each the means
+  Channels channels;                 // channels of samples
+  std::vector<image::Image> values;  // the means of each channel
   uint64_t flagged_pixels = 0;
   uint32_t flags = 0;
 };
@@ -31,31 +31,32 @@ constexpr int noise_block = 8;
 
 class Film {
  public:
-  // Sums those of `channels` that are of samples. All 0. `shown_as_one`: the luminance that a picture shows
-  // as 1, the measure of noise in the dark.
+  // Sets all sums to 0. The film sums only those of `channels` whose values come from samples.
+  // `shown_as_one`: the luminance that the picture shows as 1; noise in the dark is measured relative to it.
   void reset(int width, int height, const Channels& channels, double shown_as_one = 1);
   int width() const { return width_; }
   int height() const { return height_; }
   const Channels& channels() const { return channels_; }
 
-  // One sample of every pixel of `part`, row by row. `auxiliaries`: as many, or none where no channel needs
-  // them.
+  // Adds one sample to every pixel of `part`; `samples` are row by row. `auxiliaries`: one for each sample,
+  // or none if no channel needs them.
   void add(const Rect& part, std::span<const PixelSample> samples,
            std::span<const AuxiliarySample> auxiliaries = {});
   // The means of rows [first, first + count).
   Rows rows(int first, int count) const;
-  // Pixels that take no more samples.
+  // Marks the pixels of `part`: they take no more samples.
   void finish(const Rect& part);
   bool finished(int x, int y) const { return pixel(x, y).finished; }
-  uint64_t samples() const;  // of all pixels
-  // The error of pixels relative to their brightness. It is half the width of a pixel's 95 % interval, 1.96
-  // √(s²/n) of luminance, as a root mean square over the block, divided by the mean luminance plus 1 % of the
-  // luminance shown as 1. NaN where a pixel has one sample, or none has any; pixels without samples do not
-  // count otherwise. Samples of one pixel that are spread evenly, as Sobol's, are better than that as a rule.
-  // Only with the channel `noise`.
+  uint64_t samples() const;  // summed over all pixels
+  // The error of a block's pixels relative to their brightness. A pixel's error is half the width of the 95 %
+  // interval of its luminance, 1.96 √(s²/n). The root mean square of these errors is divided by the mean
+  // luminance plus 1 % of the luminance shown as 1. Pixels without samples do not count. The result is NaN if
+  // a pixel has only one sample, or if no pixel has any. Evenly spread samples of a pixel, such as Sobol's,
+  // usually have a smaller error than this. The film must have the channel `noise`.
   double noise(const Rect& block) const;
 
-  // The sums in the order of a checkpoint, one after the other, each row by row (render/checkpoint.hpp).
+  // The memory of the sums in the order of a checkpoint (render/checkpoint.hpp): the pixels' totals, then the
+  // sums of each channel, each row by row.
   std::vector<std::span<std::byte>> parts();
   std::vector<std::span<const std::byte>> parts() const;
 
@@ -68,7 +69,7 @@ class Film {
   int height_ = 0;
   Channels channels_;
   std::vector<PixelTotals> pixels_;
-  std::vector<std::vector<double>> sums_;  // of each channel, as many a pixel as it has
+  std::vector<std::vector<double>> sums_;  // for each channel, OfSamples::sums values a pixel
   double shown_as_one_ = 1;
 };
 

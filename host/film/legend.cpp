@@ -42,7 +42,7 @@ class ObjectEntries final : public LegendEntries {
       json["file"] = object.position->file;
       json["line"] = object.position->line;
     }
-    // Every triangle of a mesh has its own.
+    // Every triangle of a mesh has its own colour.
     if (count == 1) json["color"] = color_of(int64_t(first));
     return json;
   }
@@ -80,7 +80,7 @@ class LegendFile {
                         json_text(Json{{"id", -1}, {"color", color_of(-1)}, {"pixels", nothing}}));
   }
 
-  // `entry`: a JSON object, to which its pixels are added.
+  // `entry`: a JSON object, to which its number of pixels is added.
   void add(std::string_view entry, uint64_t pixels) {
     entry.remove_suffix(1);
     text_ += fmt::format("{}{},\"pixels\":{}}}", first_ ? "\n  " : ",\n  ", entry, pixels);
@@ -90,7 +90,7 @@ class LegendFile {
     text_.clear();
   }
 
-  // Its name.
+  // Writes the end of the file, and returns its path.
   std::filesystem::path finish() {
     file_.write(text_ + "]}\n");
     file_.commit();

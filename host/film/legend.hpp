@@ -24,17 +24,17 @@ class LegendEntries {
   virtual size_t size() const = 0;
   // The index of the entry of a hit.
   virtual size_t of(const FirstHit& hit) const = 0;
-  // Its ids, its name, where the file has it and its colour in the picture.
+  // The entry's ids, its name, its position in the scene file, and its colour in the picture.
   virtual Json entry(size_t index) const = 0;
 };
 
-// The shapes and meshes, by their own numbers (AOV `shape`) or by those of their primitives (`primitive`),
-// and the materials. `scene` must outlive them.
+// The entries of shapes and meshes, by their own numbers (AOV `shape`) or by the numbers of their primitives
+// (AOV `primitive`), and the entries of materials. `scene` must outlive the entries.
 std::unique_ptr<LegendEntries> legend_of_shapes(const Scene& scene);
 std::unique_ptr<LegendEntries> legend_of_primitives(const Scene& scene);
 std::unique_ptr<LegendEntries> legend_of_materials(const Scene& scene);
 
-// The entries that were hit, by index, and their numbers of pixels. add() merges legends of parts of a
+// The entries that were hit, by index, and the number of pixels of each. add() merges legends of parts of a
 // picture.
 struct LegendTally {
   struct Entry {
@@ -47,7 +47,7 @@ struct LegendTally {
   void add(const LegendTally& other);
 };
 
-// Writes NAME.json for a picture NAME.png; Error (file_io) when it cannot be written. Its name.
+// Writes NAME.json for a picture NAME.png, and returns its path. Error (file_io) if it cannot be written.
 std::filesystem::path write_legend(const LegendTally& tally, const std::filesystem::path& picture);
 
 // Takes first hits, and lists the entries that they belong to, each with its number of pixels.
@@ -63,7 +63,7 @@ class Legend {
 
  private:
   std::unique_ptr<LegendEntries> entries_;
-  std::vector<uint64_t> pixels_;  // of each entry
+  std::vector<uint64_t> pixels_;  // the number of pixels of each entry
   uint64_t nothing_ = 0;          // pixels where nothing is hit
 };
 

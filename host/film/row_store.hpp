@@ -9,22 +9,23 @@
 
 namespace eyeray::engine::film {
 
-// Rows from the top down; of each its pixels from left to right: three float32 of the colour, then those of
-// each of the rows' channels; little-endian. Every failure is an Error (file_io).
+// The file holds rows from the top down, and the pixels of a row from left to right. A pixel has three
+// float32 values of the colour, then those of each channel; little-endian. Every failure is an Error
+// (file_io).
 class RowStore {
  public:
-  // Touches nothing yet.
+  // Does not open the file yet.
   explicit RowStore(std::filesystem::path file) : file_(std::move(file)) {}
   ~RowStore();
   RowStore(const RowStore&) = delete;
   RowStore& operator=(const RowStore&) = delete;
 
-  // Rows [first, first + count) of a picture that is `width` wide. Read all from 0 on before appending: new
-  // rows follow the last one read, and all data behind it are dropped.
+  // Rows [first, first + count) of a picture that is `width` wide. Read all rows from 0 on before appending:
+  // new rows follow the last one read, and all data behind it are dropped.
   Rows read(int first, int count, int width, const Channels& channels);
-  // Without a read before it, begins the file anew.
+  // Adds rows at the end. Without an earlier read(), the first append() begins the file anew.
   void append(const Rows& rows);
-  // Makes the device keep the appended rows.
+  // Waits until the appended rows are on the disk.
   void sync();
   // The checksum of all bytes read or appended.
   uint32_t checksum() const { return checksum_; }

@@ -13,22 +13,23 @@ namespace eyeray::engine::film {
 
 class ChannelValues {
  public:
-  // `scene` must outlive it.
+  // `scene` must outlive this object.
   ChannelValues(Channels channels, const Scene& scene);
 
   const Channels& channels() const { return channels_; }
-  // Is given rows of a channel, by its index.
+  // Receives rows of a channel. `channel`: its index in channels().
   using Sink = std::function<void(size_t channel, const image::Image& rows)>;
-  // Hands on the channels of samples.
+  // Passes the rows of each channel of samples to `sink`.
   void give(const Rows& rows, const Sink& sink) const;
-  // Hands on the channels of first hits, `width` a row; their legends see the hits.
+  // Passes the values of each channel of first hits to `sink`, in rows of `width` pixels, and counts the hits
+  // in the channels' legends.
   void give(std::span<const FirstHit> hits, int width, const Sink& sink);
-  // The legend of a channel of ids, by its index; null for another channel.
+  // The legend of the channel with that index; null if its values are not ids.
   const Legend* legend(size_t channel) const { return legends_[channel] ? &*legends_[channel] : nullptr; }
 
  private:
   Channels channels_;
-  std::vector<std::optional<Legend>> legends_;  // as many
+  std::vector<std::optional<Legend>> legends_;  // one for each channel, empty unless its values are ids
 };
 
 }  // namespace eyeray::engine::film

@@ -6,29 +6,32 @@
 
 namespace eyeray::engine::rounding {
 
-// The color that a texture gives a hit: its color there, or the least or the greatest of each channel within
-// the distance that rays may be shifted. With these two, rays leave as in the mathematics.
+// The color that a texture returns at a hit: the color there (at_hit), or the least (darkest) or greatest
+// (brightest) value of each channel within the distance that rays may be shifted. With `darkest` and
+// `brightest`, rays leave surfaces without displacement.
 enum class TextureChoice { at_hit, darkest, brightest };
 
 // By default nothing is displaced. A ray starts at least `share` above the surface that it leaves
 // (reference/crossings.hpp, spawn_origin), and is shifted by up to `share` along any axis. A light that is as
-// near to a surface's plane may lie on either side of it.
+// near to a surface's plane may lie on either side of the plane.
 struct Displacement {
-  double share = 0;           // above, of |n|·|position − eye|; shifted, of |position − eye|
-  bool along_normal = false;  // rays always leave along it; a surface that one grazes shows its other side
-  uint32_t seed = 0;          // of the shifts
+  double share = 0;  // the height is a share of |n|·|position − eye|, the shift of |position − eye|
+  bool along_normal =
+      false;          // rays always leave along the normal; a surface that a ray grazes shows its other side
+  uint32_t seed = 0;  // of the shifts
   TextureChoice textures = TextureChoice::at_hit;
-  bool coincident = false;   // the farther of two surfaces that float32 cannot distinguish is hit
-  uint32_t numbers = 0;      // unless 0, a seed of how far each random number is off, by some units of 2^-24
-  double off = 1;            // the least height above the surface, in shares; shifts take all of it
-  double photon_nearer = 0;  // by this share of the radius, the gathered photon that contributes most
-  double room = 0;           // and that far inside of the edges of the surface that they leave
-  double pivot = 0;          // unless 0, the eye's ray turns about the point at this distance
+  bool coincident = false;  // the farther of two surfaces that float32 cannot distinguish is hit
+  uint32_t numbers = 0;     // unless 0: the seed that displaces each random number, by up to 4 units of 2^-24
+  double off = 1;           // the least height above the surface, in shares; shifts always use a whole share
+  double photon_nearer =
+      0;             // the gathered photon that contributes most is nearer by this share of the radius
+  double room = 0;   // rays also start this far inside the edges of the surface that they leave, as a share
+  double pivot = 0;  // unless 0: the camera ray pivots about its point at this distance
 };
 
 // The share of float32: 8 ε for each of a triangle's three vertices.
 inline constexpr double float32_share = 24 * 0x1p-24;
-// Its room, in shares (shaders/geometry/edges.glsl).
+// The room of float32: 16 shares (shaders/geometry/edges.glsl).
 inline constexpr double float32_room = 16 * float32_share;
 // The largest distance of a photon from the reference's, as a share of the radius.
 inline constexpr double photon_displacement = 1e-3;

@@ -9,10 +9,10 @@ namespace {
 
 constexpr int rings = 4;
 constexpr double radius_step = 0.001;  // pixels
-// Rings between the innermost and those grow by this.
+// The radii of rings between the innermost ring and the four grow by this factor.
 constexpr double radius_growth = 3;
-// A rounding error grows from surface to surface: the neighbourhood of a path grows with the surfaces it
-// strikes, to this at most.
+// A rounding error grows from surface to surface. So the radii grow with the number of surfaces that a path
+// hits, by at most this factor.
 constexpr double most_reach = 8;
 
 }  // namespace
@@ -27,8 +27,8 @@ Places places_around(double rounding, double surfaces, int angles, bool between)
   };
   const double reach = std::min(most_reach, 1 + surfaces / 8);
 
-  // Features narrower than the distance of two rings show on the rings within: a caustic's rim may be a
-  // hundred-thousandth of a pixel wide.
+  // Features narrower than the distance between two of the four rings show on the smaller rings: a caustic's
+  // rim may be a hundred-thousandth of a pixel wide.
   if (const double least = std::min(rounding, radius_step); least > 0) {
     add_ring(least, angles, 0.25);
     places.innermost = places.all.size();

@@ -1,5 +1,5 @@
-// The displaced positions of a pixel at which the reference is evaluated: where float32 may put the camera
-// ray.
+// The displaced positions of a pixel at which the reference is evaluated: float32 may put the camera ray
+// there.
 #pragma once
 
 #include <cstddef>
@@ -9,12 +9,13 @@
 
 namespace eyeray::engine::rounding {
 
-// Positions around a pixel's own, in pixels: `angles` on each of four rings, and before them on one as wide
-// as a rounding error, where that is known. `surfaces`: the number that the pixel's rays strike. `between`:
-// half as many on each ring between that one and the four as well.
+// Positions relative to the pixel's own, in pixels. If `rounding`, the size of a rounding error, is above 0,
+// the first `angles` positions are on a ring as wide as that. The last positions are `angles` on each of four
+// rings. `between`: in the middle come `angles` / 2 positions on each ring between the first ring and the
+// four. `surfaces`: the number of surfaces that the pixel's rays hit.
 struct Places {
   std::vector<Vec2> all;
-  size_t innermost = 0;  // those of a rounding error
+  size_t innermost = 0;  // the number of positions on the ring of a rounding error
 };
 Places places_around(double rounding, double surfaces, int angles, bool between = false);
 

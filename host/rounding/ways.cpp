@@ -5,7 +5,7 @@ namespace eyeray::engine::rounding {
 std::vector<Displacement> ways_of_sample(const Sampling& sampling, Chance chance, double pivot, bool moved,
                                          uint32_t seed) {
   constexpr double share = float32_share;
-  // From the farther surface rays would strike the nearer one, did they start as in the mathematics.
+  // Rays that left the farther surface without displacement would hit the nearer one.
   const Displacement plain = chance == Chance::coincident
                                  ? Displacement{.share = share, .along_normal = true, .seed = seed}
                                  : Displacement{};
@@ -16,10 +16,10 @@ std::vector<Displacement> ways_of_sample(const Sampling& sampling, Chance chance
       {.share = share, .seed = seed, .room = float32_room},
   };
   if (sampling.random_paths) {
-    // Weights depend on how far off a ray starts, where a light or the surface's own curve is as near as
-    // that. So twice as far, and eight times, as a bilinear patch has it (docs/numerics.md). Long paths bring
-    // other light for less than that: so an eighth as well. And directions are rounded like the
-    // random numbers that they are drawn by.
+    // A ray starts a small distance from its surface. Where a light or the surface's own curve is as near as
+    // that, weights depend on the distance: so try it twofold, and eightfold, as on a bilinear patch
+    // (docs/numerics.md). Long paths carry other light for less: so try an eighth as well. Directions are
+    // rounded like the random numbers that they are drawn by.
     for (const double times : {8.0, 2.0, 0.125}) ways.push_back({.share = times * share, .seed = seed});
     ways.push_back({.share = share, .seed = seed, .numbers = seed | 1});
   }
@@ -59,7 +59,9 @@ std::array<Displacement, 6> ways_of_photon(double scale, uint32_t seed) {
       {.share = share, .seed = seed},
       {.share = share, .seed = seed, .numbers = seed},
       {.share = share, .along_normal = true, .seed = seed},
-      {.share = share, .seed = seed, .off = 1.0 / 64},  // along a ring, whose own offset is small
+      {.share = share,
+       .seed = seed,
+       .off = 1.0 / 64},  // along a ring, where the surface's own offset is small
       {.share = share, .along_normal = true, .seed = seed, .coincident = true},
       {.share = share, .seed = seed, .coincident = true, .numbers = seed},
   }};
