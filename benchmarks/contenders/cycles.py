@@ -9,7 +9,7 @@ cycles = scene.cycles
 cycles.device = "CPU"
 cycles.samples = int(SAMPLES)
 cycles.seed = int(SEED)
-# Nothing that is biased, and all bounces.
+# Render without bias, and with all bounces.
 cycles.use_adaptive_sampling = False
 cycles.use_denoising = False
 cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
@@ -24,7 +24,7 @@ scene.render.filepath = OUTPUT
 scene.render.use_file_extension = False
 scene.render.resolution_percentage = 100
 
-# Blender's z is up. So turned, its environment's middle is ours.
+# Blender's z axis points up. This rotation also makes the middle of its environment the middle of ours.
 TURN = Matrix(((0, 0, -1, 0), (-1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 0, 1)))
 
 
@@ -37,7 +37,7 @@ def corners(text):
     return [tuple(int(word) for word in line.split()) for line in text.splitlines() if line]
 
 
-# (node, socket of colours, color, {other sockets: values}) each; they add up.
+# Each part is (node, color, {other sockets: values}); the parts' light adds up.
 def material(name, *parts):
     made = bpy.data.materials.new(name)
     made.use_nodes = True
@@ -84,7 +84,7 @@ def add(data, look, matrix=((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 
     item.material_slots[0].link = "OBJECT"
     item.material_slots[0].material = look
     item.matrix_world = TURN @ Matrix(matrix)
-    # Blender would start shadow rays off smooth triangles by some of their size.
+    # By default Blender starts shadow rays away from smooth triangles, by a share of their size.
     item.cycles.shadow_terminator_geometry_offset = 0
     scene.collection.objects.link(item)
 

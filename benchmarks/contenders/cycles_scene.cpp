@@ -18,8 +18,8 @@ std::span<const EmbeddedFile> script_files();  // cycles.py
 
 namespace {
 
-// Planes have no end in eyeray.
-constexpr double plane_size = 100;  // of the scene's
+// The size of the square that stands for an endless plane, relative to the scene's size.
+constexpr double plane_size = 100;
 
 std::string tuple(const Vec3& v) {
   const Vec3 plain = v + 0.0;  // no −0
@@ -38,7 +38,7 @@ Mat4 columns(const Vec3& x, const Vec3& y, const Vec3& z, const Vec3& origin) {
   return {Vec4(x, 0), Vec4(y, 0), Vec4(z, 0), Vec4(origin, 1)};
 }
 
-// Axes of which the third is `w`.
+// A map to axes at `origin`, of which the third is `w`.
 Mat4 standing_on(const Vec3& w, const Vec3& origin) {
   const Vec3 aside = std::abs(w.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
   const Vec3 u = glm::normalize(glm::cross(aside, w));
@@ -57,7 +57,7 @@ std::string triangles(const std::vector<std::array<uint32_t, 3>>& corners) {
   return text + "\"\"\")";
 }
 
-// The BSDF must be the same at every point, from every direction: Blender gets one colour.
+// The material's BSDF. It must be the same at every point and from every direction: Blender gets one colour.
 Bsdf only_bsdf(const Material& material) {
   const auto fail = [&](const char* what) {
     throw Error(ExitCode::bad_input, "material \"{}\" {}, which is not written for Blender", material.name,
@@ -67,7 +67,7 @@ Bsdf only_bsdf(const Material& material) {
   if (material.normal_map || material.bump_map || material.coat_normal_map) fail("is bumpy");
   std::optional<Bsdf> first;
   for (int i = 0; i < 64; ++i) {
-    const double x = 0.754877666 * i, y = 0.569840291 * i;  // spread over all
+    const double x = 0.754877666 * i, y = 0.569840291 * i;  // spread over all points
     const ScatteringContext context{
         .place = {8.0 * Vec2(x - std::floor(x), y - std::floor(y)), Vec3(x, -y, y - x)},
         .cos_view = 1 - i / 128.0,
@@ -104,7 +104,7 @@ std::string parts_of(const Material& material) {
   return text + fmt::format(", (\"Emission\", {}, {{\"Strength\": 1}})", tuple(*emission));
 }
 
-// Half as wide as all that has an end, and the eye.
+// Half the diagonal of a box around the eye, the target and everything that has finite bounds.
 double reach(const Scene& scene) {
   Bounds all;
   all.include(scene.camera.eye);
@@ -214,7 +214,7 @@ print("eyeray: cpu", time.process_time() - processor, "wall", time.time() - wall
     for (size_t i = 0; i < corners.size(); ++i) append(order, "{}, ", i);
     append(text_, "add(mesh({}, [({})]), m{})\n", numbers(corners), order, shape.material);
   }
-  // Shapes that share one mesh, made once.
+  // The name of a mesh that several shapes share; the mesh is made on first use.
   std::string shared(const std::string& name, const std::string& made) {
     if (text_.find("\n" + name + " = ") == std::string::npos) append(text_, "{} = {}\n", name, made);
     return name;

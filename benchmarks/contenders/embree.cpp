@@ -31,8 +31,8 @@ struct FloatHit {
 };
 constexpr uint32_t none = RTC_INVALID_GEOMETRY_ID;
 
-// While it lives this thread flushes denormals to zero, as Embree wants it. Others' arithmetic must not see
-// it.
+// While this object lives, its thread flushes denormals to zero, as Embree wants it. The arithmetic of other
+// code must not be affected.
 class FlushDenormals {
  public:
   FlushDenormals() : before_(_mm_getcsr()) {
@@ -46,7 +46,7 @@ class FlushDenormals {
   unsigned before_;
 };
 
-// The entry of a hit that names the instance or the geometry.
+// A hit whose `part` is the instance or, without an instance, the geometry.
 template <typename Hit>
 FloatHit to_hit(float t, const Hit& geometry, const Hit& instance, const Hit& index) {
   return {t, index, instance == none ? geometry : instance};
@@ -112,7 +112,7 @@ class Settings {
 #endif
 };
 
-// The rays of one piece, in one of the ways.
+// A piece of the rays, traced one by one or in packets.
 struct Piece {
   RTCScene scene;
   Settings settings;
@@ -220,7 +220,7 @@ double Embree::query(std::span<const Query> rays, QueryKind kind, std::span<Quer
     const size_t first = size_t(number) * rays_at_once, count = std::min(rays_at_once, rays.size() - first);
     const std::span<FloatRay> some(float_rays.data() + first, count);
 
-    // The planes first: hits behind them need not be looked for.
+    // Test the planes first: hits behind them need not be searched.
     for (FloatRay& ray : some) {
       for (uint32_t i = 0; i < world_->planes.size(); ++i) {
         const EmbreePlane& plane = world_->planes[i];

@@ -20,8 +20,8 @@ std::string_view name(EmbreeCalls calls);
 class Embree {
  public:
   // Commits the scene with Embree's default quality, on all cores. A mesh with one instance is put into the
-  // world, one with more is instanced. The scene must outlive this. Error (bad_input) for shapes that Embree
-  // has no primitive for; planes, which have no bounds, are tested beside Embree.
+  // world; a mesh with more instances is instanced. The scene must outlive this. Error (bad_input) for shapes
+  // that Embree has no primitive for; planes, which have no bounds, are tested beside Embree.
   explicit Embree(const Scene& scene);
   ~Embree();
   Embree(const Embree&) = delete;

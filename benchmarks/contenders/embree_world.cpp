@@ -9,14 +9,14 @@
 namespace eyeray::engine::contenders {
 namespace {
 
-// Set while a faulty call is on its way back to us.
+// Throws the error that Embree has recorded of a faulty call, if there is one.
 void throw_errors(RTCDevice device) {
   const RTCError error = rtcGetDeviceError(device);
   if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
   CHECK_EQ(int(error), int(RTC_ERROR_NONE));
 }
 
-// A buffer of `count` elements of `size` floats, filled by fill(float*, index).
+// Sets a buffer of `count` elements, each of `floats` floats, and fills it by fill(float*, index).
 template <typename Fill>
 void fill_floats(RTCGeometry geometry, RTCBufferType type, RTCFormat format, size_t floats, size_t count,
                  const Fill& fill) {
@@ -76,7 +76,8 @@ EmbreeWorld::EmbreeWorld(const Scene& scene) : device_(rtcNewDevice(nullptr)) {
   add_shapes(scene);
   add_meshes(scene);
 
-  // Only a renderer's needs are timed; the second scene is for our glass.
+  // The time is of the scenes that any renderer needs. The opaque scene is not timed: only our glass needs
+  // it.
   const Stopwatch watch;
   for (const auto& mesh : meshes_) rtcCommitScene(mesh.get());
   rtcCommitScene(all_.get());

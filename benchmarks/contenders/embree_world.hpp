@@ -20,14 +20,14 @@ struct EmbreeRelease {
 
 // The primitives of the scene that an Embree geometry holds.
 struct EmbreePart {
-  int64_t first = 0;                // the primitive of index 0 …
-  std::vector<int64_t> primitives;  // … unless they are listed
+  int64_t first = 0;                // if `primitives` is empty: the scene's primitive of index 0
+  std::vector<int64_t> primitives;  // the scene's primitive of each index; empty: consecutive from `first`
   int64_t primitive(uint32_t index) const {
     return primitives.empty() ? first + int64_t(index) : primitives[index];
   }
 };
 
-// An endless plane, which Embree has not: n · x = d.
+// An endless plane, n · x = d, which Embree has no primitive for.
 struct EmbreePlane {
   float normal[3];
   float distance;
@@ -39,7 +39,8 @@ class EmbreeWorld {
  public:
   explicit EmbreeWorld(const Scene& scene);
 
-  // The scene in which nearest hits are searched. Below: the scene of occluders, which let no light through.
+  // all(): the scene in which nearest hits are searched. opaque(): the scene of occluders, which let no light
+  // through.
   RTCSceneTy* all() const { return all_.get(); }
   RTCSceneTy* opaque() const { return opaque_ ? opaque_.get() : all_.get(); }
 
@@ -51,12 +52,12 @@ class EmbreeWorld {
  private:
   void add_shapes(const Scene& scene);
   void add_meshes(const Scene& scene);
-  // Takes the geometry over.
+  // Takes ownership of the geometry.
   void attach(RTCGeometryTy* geometry, EmbreePart part, bool opaque);
 
   std::unique_ptr<RTCDeviceTy, EmbreeRelease> device_;
   std::unique_ptr<RTCSceneTy, EmbreeRelease> all_, opaque_;
-  std::vector<std::unique_ptr<RTCSceneTy, EmbreeRelease>> meshes_;  // those with several instances
+  std::vector<std::unique_ptr<RTCSceneTy, EmbreeRelease>> meshes_;  // of meshes with several instances
 };
 
 }  // namespace eyeray::engine::contenders

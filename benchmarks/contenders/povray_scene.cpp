@@ -22,8 +22,8 @@ double mean(const Vec3& v) {
   return (v.x + v.y + v.z) / 3;
 }
 
-// POV-Ray's rays go along direction + x·right + y·up with x, y in [−½, ½]; given all three, handedness is
-// ours.
+// POV-Ray's rays go along direction + x·right + y·up with x, y in [−½, ½]. All three vectors are given, so
+// POV-Ray uses our handedness.
 std::string plane_camera(std::string_view word, const CameraFrame& frame) {
   return fmt::format("{} direction {} right {} up {}", word, vector(frame.forward), vector(2.0 * frame.right),
                      vector(2.0 * frame.up));
@@ -45,12 +45,12 @@ struct CameraText {
                               scene.image.samples);
   }
   std::string operator()(const OrthographicCamera&) const { return plane_camera("orthographic", frame); }
-  // A circle that its picture's sides touch, whatever their lengths.
+  // POV-Ray's fisheye is a circle that touches the picture's sides, whatever their lengths.
   std::string operator()(const FisheyeCamera& camera) const {
     if (size.x != size.y) throw Error(ExitCode::bad_input, "POV-Ray's fisheye is a circle in squares only");
     return around("fisheye", fmt::format("{}", camera.fov_degrees), 1, 1);
   }
-  // It turns the direction about the two other axes, the way that suits left hands.
+  // POV-Ray turns the direction about the two other axes, in the sense of a left-handed system.
   std::string operator()(const PanoramaCamera& camera) const {
     const double degrees = camera.fov_degrees;
     return around("spherical", fmt::format("{} {}", degrees, degrees * size.y / size.x), -1, -1);
@@ -62,7 +62,7 @@ struct CameraText {
     throw Error(ExitCode::bad_input, "the scene has a camera that is not written for POV-Ray");
   }
 
-  // By angles alone.
+  // A camera that is defined by angles alone.
   std::string around(std::string_view word, const std::string& angle, double width, double height) const {
     return fmt::format("{} direction {} right {} up {} angle {}", word, vector(axes.w),
                        vector(width * axes.u), vector(height * axes.v), angle);
@@ -84,7 +84,7 @@ std::string light_text(const PointLight& light) {
   if (light.falloff == Falloff::none)
     return fmt::format("light_source {{ {} color rgb {} }}\n", vector(light.position),
                        vector(light.intensity));
-  // It fades by 2 / (1 + (r/d)²): with d small beside the scene, by 2d² / r².
+  // POV-Ray's light fades by 2 / (1 + (r/d)²). If d is small compared with the scene, this is 2d² / r².
   constexpr double d = 1e-3;
   return fmt::format("light_source {{ {} color rgb {} fade_distance {} fade_power 2 }}\n",
                      vector(light.position), vector(light.intensity / (2 * d * d)), d);
@@ -98,7 +98,7 @@ std::string light_text(std::monostate) {
   throw Error(ExitCode::bad_input, "the scene has a light that is not written for POV-Ray");
 }
 
-// Radiosity takes the place of ambient light.
+// With `radiosity`, the material has no ambient light.
 std::string texture(const Material& material, const Vec3& ambient_light, bool radiosity) {
   if (material.mask)
     throw Error(ExitCode::bad_input, "material \"{}\" has cutouts, which are not written for POV-Ray",
@@ -111,7 +111,7 @@ std::string texture(const Material& material, const Vec3& ambient_light, bool ra
         "texture {{ pigment {{ rgbf 1 }} finish {{ ambient 0 diffuse 0 reflection {{ 0, 1 fresnel on }} "
         "conserve_energy {} }} }}",
         highlight);
-  // The pigment weighs the ambient share too.
+  // POV-Ray multiplies the ambient share by the pigment too.
   const Vec3 pigment = glm::max(s.diffuse, Vec3(1e-6));
   if (radiosity)
     return fmt::format(
@@ -149,8 +149,8 @@ std::string quadric(const QuadricForm& form) {
 
 void add_shape(std::string& text, const Scene& scene, const Shape& shape);
 
-// The points within any of the shapes, or within all of them. A union would keep the surfaces within it,
-// which are seen through glass.
+// The points within any of the shapes or, with `all`, within all of them. A union would keep its inner
+// surfaces, which are visible through glass.
 void add_combination(std::string& text, const Scene& scene, const std::vector<const Shape*>& shapes,
                      bool all) {
   if (shapes.size() > 1) text += all ? "intersection {\n" : "merge {\n";
@@ -167,7 +167,7 @@ void add_csg_object(std::string& text, const Scene& scene, const CsgForm& csg) {
   text += "}\n";
 }
 
-// The number of points, and the points. Each outline ends where it began.
+// The number of points, and the points. Each outline ends with its first point.
 template <typename Point>
 std::string closed(const std::vector<std::vector<Point>>& outlines) {
   size_t count = 0;
@@ -209,7 +209,7 @@ void add_shape(std::string& text, const Scene& scene, const Shape& shape) {
   } else if (const auto* torus = std::get_if<TorusForm>(&form)) {
     append(text, "torus {{1,{} {} {}}}\n", torus->minor, matrix(torus->to_world), material);
   } else if (const auto* superellipsoid = std::get_if<SuperellipsoidForm>(&form)) {
-    // POV-Ray's stands along z.
+    // POV-Ray's superellipsoid stands along z.
     append(text, "superellipsoid {{<{},{}> matrix <1,0,0,0,0,1,0,1,0,0,0,0> {} {}}}\n", superellipsoid->e,
            superellipsoid->n, matrix(superellipsoid->to_world), material);
   } else if (const auto* polygon = std::get_if<PolygonForm>(&form)) {
@@ -220,7 +220,7 @@ void add_shape(std::string& text, const Scene& scene, const Shape& shape) {
   } else if (const auto* csg = std::get_if<CsgForm>(&form)) {
     add_csg_object(text, scene, *csg);
   } else if (const auto* bezier = std::get_if<BezierForm>(&form)) {
-    // POV-Ray cuts it into triangles: 2·4⁵ where it does not find it flat.
+    // POV-Ray cuts the patch into triangles: into 2·4⁵ where it is not flat enough.
     append(text, "bicubic_patch {{type 1 flatness 1e-4 u_steps 5 v_steps 5 {} {}}}\n",
            control_points(*bezier), material);
   } else {

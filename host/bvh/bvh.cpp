@@ -13,7 +13,7 @@
 namespace eyeray::engine::bvh {
 namespace {
 
-// The cost of testing an item, relative to that of a node's two boxes.
+// The costs of testing a node's two boxes, and of testing an item, relative to each other.
 constexpr float node_cost = 1.0f;
 constexpr float item_cost = 1.0f;
 // At this depth Embree makes leaves of all remaining items; ours may go a little deeper.
@@ -100,8 +100,8 @@ void split_item(const RTCBuildPrimitive* item, unsigned axis, float position, RT
   Box high = box;
   low.upper[int(axis)] = position;
   high.lower[int(axis)] = position;
-  // Avoid slices as thin as a few roundings: Embree may put one on the other side than it expected. An
-  // assertion fails if the expected side is then empty (RenderKit/embree#489; Debian's 3.13 has it).
+  // Avoid slices as thin as a few roundings: Embree may put such a slice on the unexpected side. An assertion
+  // fails if the expected side is then empty (RenderKit/embree#489; Debian's 3.13 has the fault).
   const float start = box.lower[int(axis)], end = box.upper[int(axis)];
   const float thin = 0x1p-20f * std::max(std::fabs(start), std::fabs(end));
   if (position - start <= thin) {

@@ -36,7 +36,7 @@ struct Bvh {
 };
 
 struct BvhOptions {
-  // The first lone item. Lone items share no leaf with other items, and are not in Bvh::order.
+  // Items from this number on are lone items: they share no leaf with other items, and are not in Bvh::order.
   uint32_t first_lone = std::numeric_limits<uint32_t>::max();
   // Cuts items at a plane where that makes better boxes (spatial splits). Building is slower; tracing is
   // faster if items are long and thin.

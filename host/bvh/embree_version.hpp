@@ -1,4 +1,4 @@
-// Embree's header, of version 4 or, where a distribution has only that, 3.
+// Embree's header: version 4, or version 3 if the distribution has no other.
 #pragma once
 
 #if __has_include(<embree4/rtcore.h>)

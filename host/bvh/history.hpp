@@ -12,10 +12,10 @@ namespace eyeray::engine::bvh {
 // The surface area heuristic's cost of a ray that hits the root: nodes visited, and items tested.
 double sah_cost(const Bvh& bvh);
 
-// Computes the boxes of all nodes anew. The items must be those of the build of `bvh`, which split none.
+// Computes the boxes of all nodes anew. The items must be those that `bvh` was built from, without splits.
 void refit(Bvh& bvh, std::span<const Box> boxes);
 
-// For one thread at a time.
+// Keeps the BVHs of the previous scene. Only one thread at a time may use it.
 class BvhHistory {
  public:
   // Begins another scene, to which the following calls of build() belong.

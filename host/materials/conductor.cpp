@@ -127,7 +127,7 @@ std::unique_ptr<Material> make_conductor(const ConductorValues& values) {
   const Vec3 f0 =
       values.color ? values.color->constant().value_or(values.color->at(Vec2(0.5))) : values.index.at(1);
   const double roughness = typical(*values.roughness);
-  // It scatters the light that it does not mirror sharply.
+  // The stand-in scatters the light that it does not reflect sharply.
   const double scattered = 1 - (1 - roughness) * (1 - roughness);
   const auto body = textures::make_constant(f0 * scattered);
   return std::make_unique<Conductor>(values, stand_in(body, f0, roughness));

@@ -16,8 +16,8 @@ Highlight read_highlight(const TableReader& table) {
   return {table.texture("specular"), table.number("shininess"), table.choice("highlight") == 1};
 }
 
-// −log2 of the share, in OPTICAL_DEPTH_SCALE-ths: an integer, so that the sum over surfaces does not depend
-// on their order.
+// −log2 of the transmittance, in units of 1 / OPTICAL_DEPTH_SCALE. It is an integer, so that the sum over
+// surfaces does not depend on their order.
 static uint32_t optical_depth_of(double transmittance) {
   const double optical_depth = std::round(-std::log2(transmittance) * double(OPTICAL_DEPTH_SCALE));
   return optical_depth < double(OPTICAL_DEPTH_OPAQUE) ? uint32_t(optical_depth) : OPTICAL_DEPTH_OPAQUE;

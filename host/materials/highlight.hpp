@@ -1,4 +1,5 @@
-// The highlight that every material may show of a light, and the parts of its record that all share.
+// The highlight of a light, which every material may show, and the parts of the record that all materials
+// share.
 #pragma once
 
 #include "host/materials/registry.hpp"
@@ -17,7 +18,7 @@ struct Highlight {
   void apply(const TextureContext& place, Scattering& scattering) const;
 };
 
-// The keys that a material with a highlight declares, and their reading.
+// The keys that a material with a highlight declares, and the function that reads them.
 inline constexpr Key specular_key{
     .name = "specular", .type = KeyType::texture, .doc = "Share of light in the highlight.", .fallback = "0"};
 inline constexpr Key shininess_key{

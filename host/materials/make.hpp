@@ -1,5 +1,5 @@
-// Materials built in code, by importers and tests; a scene file's go through their MaterialType. Values have
-// the meaning and the ranges of the keys of the same name.
+// Makes materials in code, for importers and tests; MaterialType makes those of scene files. Values have the
+// meaning and the ranges of the keys of the same name.
 #pragma once
 
 #include <memory>
@@ -46,8 +46,8 @@ struct DiffuseValues {
 std::unique_ptr<Material> make_diffuse(const DiffuseValues& values);
 
 struct ConductorValues {
-  optics::Fresnel index;       // a conductor's
-  TexturePtr color = nullptr;  // or, unless null, this
+  optics::Fresnel index;       // a conductor's reflectance, used if `color` is null
+  TexturePtr color = nullptr;  // replaces `index`, unless null
   TexturePtr roughness = textures::make_constant(Vec3(0.5));
 };
 std::unique_ptr<Material> make_conductor(const ConductorValues& values);
@@ -68,7 +68,7 @@ struct PrincipledValues {
   TexturePtr coat_roughness = textures::make_constant(Vec3(0));
   TexturePtr emission = textures::make_constant(Vec3(0));
 };
-// `stand_in`: for Whitted's pictures; null: one that is made of the values.
+// `stand_in`: the material that Whitted's pictures show; null: one that is made from `values`.
 std::unique_ptr<Material> make_principled(const PrincipledValues& values,
                                           std::unique_ptr<Material> stand_in = nullptr);
 

@@ -9,11 +9,11 @@
 
 namespace eyeray::engine::materials {
 
-// The texture with the codes of an image as they are, not as colours.
+// The texture as data: the codes of its image as they are, not as colours.
 TexturePtr as_data(const TexturePtr& texture);
 
-// The normal map of that key, scaled by the number of the other; nothing where the table has none. Reports a
-// scale without a map.
+// The normal map of the key `key`, scaled by the number of the key `scale`; nothing if the table has no map.
+// Reports a scale without a map.
 std::optional<NormalMap> read_normal_map(TableReader& table, std::string_view key, std::string_view scale);
 
 }  // namespace eyeray::engine::materials

@@ -22,7 +22,7 @@ class Physical : public Material {
   std::optional<Vec3> constant_emission() const override { return stand_in_->constant_emission(); }
 
  protected:
-  // The stand-in's record as one of `kind`.
+  // Packs the stand-in's record, and changes the record's kind to `kind`.
   shader::Material& pack_stand_in(uint32_t kind, records::Packer& packer) const {
     stand_in_->pack(packer);
     packer.scene.materials.back().kind = kind;
@@ -38,10 +38,10 @@ class Physical : public Material {
 // − 2 (Karis: Specular BRDF Reference, 2013). `body`: the colour of the light that is not mirrored.
 PhongValues stand_in(const TexturePtr& body, const Vec3& f0, double roughness);
 
-// The typical value of a texture of a number in [0, 1]. If the texture varies, it is the value in the middle.
+// The typical value of a texture of numbers in [0, 1]: if the texture varies, the value in its middle.
 double typical(const Texture& texture);
 
-// The keys that such materials share.
+// The keys that materials made for paths share.
 inline constexpr Key roughness_key{
     .name = "roughness",
     .type = KeyType::texture,

@@ -212,7 +212,7 @@ class Principled final : public Physical {
                    transmission = values_.transmission->pack(packer), sheen = values_.sheen->pack(packer),
                    sheen_roughness = values_.sheen_roughness->pack(packer),
                    emission = values_.emission->pack(packer);
-    // Constant values are multiplied here already.
+    // Constant `specular` and `specular_color` are multiplied here; their textures are then white.
     const std::optional<Vec3> level = values_.specular->constant(), tint = values_.specular_color->constant();
     const TexturePtr white = textures::make_constant(Vec3(1));
     const uint32_t specular_level = (level ? white : values_.specular)->pack(packer);
@@ -249,7 +249,7 @@ class Principled final : public Physical {
  private:
   bool transmits() const { return values_.transmission->constant() != Vec3(0); }
   Medium own_medium() const { return {.ior = std::max(1.0, values_.ior), .absorption = values_.absorption}; }
-  // At right angles, where it is no metal.
+  // The reflectance of the non-metal part at perpendicular incidence.
   Vec3 mirrored(const Vec3& tint, double level) const {
     const double r = (values_.ior - 1) / (values_.ior + 1);
     return glm::min(Vec3(1), r * r * tint) * level;
@@ -257,7 +257,7 @@ class Principled final : public Physical {
 
   PrincipledValues values_;
   uint32_t kind_;
-  bool shown_as_glass_;  // by the stand-in
+  bool shown_as_glass_;  // whether the stand-in is glass
 };
 
 std::unique_ptr<Material> make(const PrincipledValues& values, std::unique_ptr<Material> stand_in_material,

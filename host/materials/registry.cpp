@@ -4,7 +4,7 @@
 
 namespace eyeray::engine::materials {
 
-// Each material's .cpp defines its own; one that is missing is a link error that bears its name.
+// Each material's .cpp defines its MaterialType. If one is missing, the link error names it.
 #define X(name, number) extern const MaterialType name##_type;
 MATERIALS(X)
 #undef X

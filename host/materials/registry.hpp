@@ -10,11 +10,11 @@
 
 namespace eyeray::engine::materials {
 
-// The words that each kind declares its keys with, and reads them.
+// The types by which each kind declares and reads its keys.
 using reading::Key, reading::KeyType, reading::TableReader;
 
 struct MaterialType {
-  std::string_view name;  // `type` in a [[material]] table, and its .glsl
+  std::string_view name;  // `type` in a [[material]] table, and the name of the kind's .glsl
   std::string_view manual;
   std::span<const Key> keys;  // beside `name` and `type`
   std::unique_ptr<Material> (*parse)(TableReader& table);

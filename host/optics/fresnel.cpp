@@ -7,7 +7,7 @@ namespace eyeray::engine::optics {
 
 namespace {
 
-// By complex numbers, as the book has it.
+// Computed with complex numbers, as in Born and Wolf (fresnel.hpp).
 double conductor_reflectance(double n, double k, double cosine) {
   const std::complex<double> index(n, k);
   const std::complex<double> beyond = std::sqrt(1.0 - (1 - cosine * cosine) / (index * index));

@@ -5,23 +5,23 @@
 
 namespace eyeray::engine::optics {
 
-// Schlick's, from f0 at right angles to f90 edge-on (An Inexpensive BRDF Model for Physically-Based
-// Rendering, 1994), or that of a metal of refractive index f0 + i f90.
+// Schlick's reflectance, from f0 at perpendicular incidence to f90 at grazing incidence (An Inexpensive BRDF
+// Model for Physically-Based Rendering, 1994), or the reflectance of a metal of refractive index f0 + i f90.
 struct Fresnel {
   Vec3 f0{0};
   Vec3 f90{0};
-  Vec3 mean{0};  // over the half sphere, by cosine
+  Vec3 mean{0};  // over the half sphere, weighted by cosine
   bool conductor = false;
 
   Vec3 at(double cosine) const;
 };
 
 Fresnel schlick(const Vec3& f0, const Vec3& f90);
-// n > 0, k ≥ 0. Born, Wolf: Principles of Optics, 14.2.
+// A metal of refractive index n + ik, n > 0, k ≥ 0. Born, Wolf: Principles of Optics, 14.2.
 Fresnel conductor(const Vec3& n, const Vec3& k);
 
-// Reflectance in [0, 1] of unpolarised light at the boundary from index n1 to n2. `cosine`: of the incident
-// angle. Born, Wolf: Principles of Optics, 1.5.
+// Reflectance in [0, 1] of unpolarised light at the boundary from index n1 to n2. `cosine`: that of the
+// incident angle. Born, Wolf: Principles of Optics, 1.5.
 double dielectric_reflectance(double cosine, double n1, double n2);
 
 }  // namespace eyeray::engine::optics

@@ -1,11 +1,12 @@
-// The mean over the half sphere, by cosine, of a function known at steps of √cosine.
+// The cosine-weighted mean over the half sphere of a function that is known at even steps of √cosine.
 #pragma once
 
 #include <cmath>
 
 namespace eyeray::engine::optics {
 
-// 2 ∫ E(μ) μ dμ with μ = x²: 4 ∫ E x³ dx, E linear between the entries of a row, albedo(i).
+// Computes 2 ∫ E(μ) μ dμ, which is 4 ∫ E x³ dx with μ = x². E is linear between the `side`
+// entries albedo(i) of a row.
 template <typename Albedo>
 double mean_by_cosine(int side, const Albedo& albedo) {
   const double step = 1.0 / (side - 1);

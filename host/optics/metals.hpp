@@ -10,7 +10,7 @@ namespace eyeray::engine::optics {
 
 struct Metal {
   std::string_view name;
-  Vec3 n, k;  // that show its colour in linear Rec. 709 red, green and blue
+  Vec3 n, k;  // refractive index n + ik that shows the metal's colour in linear Rec. 709 red, green, blue
 };
 
 inline constexpr std::array metals{

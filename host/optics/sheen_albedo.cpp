@@ -8,7 +8,8 @@ namespace {
 
 constexpr int sheen_turns = 16, sheen_heights = 64;
 
-// Over the half sphere, half of all turns; heights as squares, most of them low, where sheen is.
+// Integrates over the half sphere. Half of all angles around the normal suffice. Heights are squares, so that
+// most of them are low, where sheen is.
 template <typename Weakening>
 double integral(double mu, double roughness, const Weakening& weakening) {
   const double level = std::sqrt(1 - mu * mu);

@@ -6,8 +6,9 @@
 
 namespace eyeray::engine::optics {
 
-// Edge-on, the formula would scatter more light than arrives: `unweakened`. The BSDF is divided by the larger
-// of that value for the light's and for the viewer's direction, if it is above 1. `albedo` is the result.
+// `unweakened` is the albedo by the formula alone. At grazing angles it can exceed 1: more light would
+// be scattered than arrives. So the BSDF is divided by the larger `unweakened` of the light's and the
+// viewer's direction, if that is above 1. `albedo` is the albedo after the division.
 struct SheenAlbedo {
   double unweakened;
   double albedo;
@@ -15,7 +16,7 @@ struct SheenAlbedo {
 
 inline constexpr double least_sheen_roughness = 0.07;
 
-// The BSDF at half-way vectors of that cosine, without the weakening.
+// The BSDF for half-way vectors of that cosine, before the division (SheenAlbedo).
 double sheen(double cosine_half_way, double cosine_o, double cosine_i, double roughness);
 // The albedos of `places` directions, in even steps of √cosine from 0 to 1, for a roughness in [0, 1].
 std::vector<SheenAlbedo> sheen_albedo_row(int places, double roughness);

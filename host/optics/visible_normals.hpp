@@ -1,4 +1,4 @@
-// The microfacets of GGX that are seen from one direction, for integrals over them.
+// The GGX microfacets that are visible from one direction, for integrals over them.
 #pragma once
 
 #include <algorithm>
@@ -14,18 +14,20 @@ class VisibleNormals {
   VisibleNormals(double cosine, double roughness)
       : width_(std::max(roughness * roughness, 1e-6)), cosine_(std::max(cosine, 1e-6)) {}
 
-  // Towards the viewer, unit.
+  // The unit vector towards the viewer.
   Vec3 viewer() const { return {std::sqrt(1 - cosine_ * cosine_), 0, cosine_}; }
 
-  // The share of the light scattered by a microfacet under this cosine that no other microfacet blocks.
+  // A microfacet scatters light at this cosine to the surface's normal. Returns the share of that light that
+  // no other microfacet blocks.
   double leaving(double cosine) const {
     const double here = 1 + lambda(cosine_);
     return here / (here + lambda(std::min(cosine, 1.0)));
   }
 
-  // The mean of of_normal(h, cosine between viewer and h) over turns × heights of them, each as likely as it
-  // is seen: a cap of the sphere, by angle, where half will do, and by height, both in midpoints (Dupuy,
-  // Benyoub: Sampling Visible GGX Normals with Spherical Caps, 2023). What it returns adds up and divides.
+  // The mean of of_normal(h, cosine between viewer and h) over turns × heights microfacets, weighted by their
+  // visibility. They are midpoints of a spherical cap, in steps of angle and height; half of all angles
+  // suffice (Dupuy, Benyoub: Sampling Visible GGX Normals with Spherical Caps, 2023). of_normal's results
+  // must support += and division by a number.
   template <typename OfNormal>
   auto mean(int turns, int heights, const OfNormal& of_normal) const {
     const Vec3 o = viewer(), v = glm::normalize(Vec3(width_ * o.x, 0, o.z));

@@ -15,16 +15,17 @@ enum class TextureChoice { at_hit, darkest, brightest };
 // (reference/crossings.hpp, spawn_origin), and is shifted by up to `share` along any axis. A light that is as
 // near to a surface's plane may lie on either side of the plane.
 struct Displacement {
-  double share = 0;  // the height is a share of |n|·|position − eye|, the shift of |position − eye|
-  bool along_normal =
-      false;          // rays always leave along the normal; a surface that a ray grazes shows its other side
+  // The height is a share of |n|·|position − eye|, the shift a share of |position − eye|.
+  double share = 0;
+  // Rays always leave along the normal, and a surface that a ray grazes shows its other side.
+  bool along_normal = false;
   uint32_t seed = 0;  // of the shifts
   TextureChoice textures = TextureChoice::at_hit;
   bool coincident = false;  // the farther of two surfaces that float32 cannot distinguish is hit
   uint32_t numbers = 0;     // unless 0: the seed that displaces each random number, by up to 4 units of 2^-24
   double off = 1;           // the least height above the surface, in shares; shifts always use a whole share
-  double photon_nearer =
-      0;             // the gathered photon that contributes most is nearer by this share of the radius
+  // The gathered photon that contributes most is nearer by this share of the radius.
+  double photon_nearer = 0;
   double room = 0;   // rays also start this far inside the edges of the surface that they leave, as a share
   double pivot = 0;  // unless 0: the camera ray pivots about its point at this distance
 };

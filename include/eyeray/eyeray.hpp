@@ -74,9 +74,9 @@ class EYERAY_API Error : public std::runtime_error {
 struct SceneOptions {
   // Values laid over the scene, as -D of the command line: "render.max_depth=3", "sphere.0.radius=2".
   std::vector<std::string> defines = {};
-  // Folder trees that the scene may read from, beside that of its own file.
+  // Folder trees that the scene may read from, beside the tree of its own file.
   std::vector<std::filesystem::path> allowed_folders = {};
-  // Accept a scene with functions of its own ([[implicit]] with `code` or `file`).
+  // Accept a scene with user-defined functions ([[implicit]] with `code` or `file`).
   bool formulas = true;
 };
 
@@ -118,15 +118,15 @@ class [[nodiscard]] EYERAY_API Scene {
 
 class Table;
 
-// An integer of up to 64 bits or a floating-point number. bool and the character types are none.
+// An integer of up to 64 bits or a floating-point number. bool and the character types are excluded.
 template <typename T>
 concept SceneNumber = std::floating_point<T> ||
                       (std::integral<T> && sizeof(T) <= 8 && !std::same_as<T, bool> &&
                        !std::same_as<T, char> && !std::same_as<T, wchar_t> && !std::same_as<T, char8_t> &&
                        !std::same_as<T, char16_t> && !std::same_as<T, char32_t>);
 
-// The value of a scene's key: a truth value, a number, a text, a list or a table. It converts from each,
-// as in `set("two_sided", true)`, and holds the TOML of it.
+// The value of a scene's key: a truth value, a number, a text, a list or a table. Each of these converts to a
+// Value, as in `set("two_sided", true)`. A Value holds TOML.
 class EYERAY_API Value {
  public:
   // A template, since pointers would convert to bool.
@@ -191,7 +191,7 @@ class EYERAY_API SceneBuilder {
   // smooth, name. Error (bad_input) for spans of wrong length.
   SceneBuilder& add_mesh(const MeshArrays& arrays, const Table& table = {});
 
-  // The TOML whose lines diagnostics count. It names meshes "mesh-0.ply", "mesh-1.ply" …
+  // The TOML to which the lines of diagnostics refer. It names meshes "mesh-0.ply", "mesh-1.ply" …
   [[nodiscard]] std::string text() const;
   // Error (bad_input) as Scene::parse.
   Scene scene(std::string_view name = "scene built in code", const SceneOptions& options = {}) const;
@@ -236,13 +236,13 @@ class [[nodiscard]] EYERAY_API Picture {
   double sampling_seconds() const noexcept;
   // The warnings of `eyeray render`: pixels that may be wrong, noise that is left, values that clamp cut,
   // samples far brighter than others, a model that is hardly visible. A renderer's first picture also warns
-  // of a cache that is not used since others could have changed it. Warnings name no file.
+  // of a cache that is not used because other users could have changed it. Warnings name no file.
   const std::vector<Diagnostic>& warnings() const noexcept;
 
   // The colours for a screen: sRGB, 8 bits a channel, with the scene's exposure and tone curve. Rows, pixels
   // and channels lie as in color().
   [[nodiscard]] std::vector<uint8_t> tonemapped() const;
-  // The bytes of a .png of them. Error (bad_input) for an empty picture.
+  // The bytes of a .png of these colours. Error (bad_input) for an empty picture.
   [[nodiscard]] std::string png() const;
   // Writes that .png, or the linear colours as .pfm, .hdr or .exr. Error: bad_input for another ending or an
   // empty picture, or file_io. A file under that name is always whole.
@@ -258,13 +258,14 @@ class [[nodiscard]] EYERAY_API Picture {
 };
 
 struct Progress {
-  double share = 0;    // done of the samples, from 0 to 1
-  uint64_t rays = 0;   // traced so far
+  double share = 0;    // the share of samples that are done, from 0 to 1
+  uint64_t rays = 0;   // rays traced so far
   double seconds = 0;  // since sampling began
 };
 
-// Requests that a call end soon; any thread may do so. Copies are the same request. The device first finishes
-// the work that it has, about 50 ms, and its driver a kernel that it compiles, up to seconds.
+// Requests that a call end soon; any thread may do so. Copies are the same request. The call waits until the
+// device has finished its current work, about 50 ms, and until its driver has finished compiling a kernel, up
+// to seconds.
 class EYERAY_API Cancellation {
  public:
   Cancellation();
@@ -293,8 +294,8 @@ struct RenderOptions {
   double noise = 0;
   // Above 0: samples are cut to this value, which removes bright dots and makes the picture darker.
   double clamp = 0;
-  // The thread that called render() calls this a few times a second. It cancels by returning false. Its
-  // exceptions reach the caller of render().
+  // The thread that called render() calls this a few times a second. The function returns false to
+  // cancel. Its exceptions reach the caller of render().
   std::function<bool(const Progress&)> progress = {};
   Cancellation cancellation = {};
 };
