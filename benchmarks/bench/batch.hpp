@@ -13,7 +13,7 @@ namespace eyeray::engine::bench {
 struct Batch {
   std::string name;
   QueryKind kind = QueryKind::nearest;
-  bool coherent = false;  // whether neighbours go much the same way
+  bool coherent = false;  // whether neighbouring rays take nearly the same way
   std::vector<Query> rays;
 };
 
@@ -31,10 +31,10 @@ struct SurfacePosition {
 std::vector<SurfacePosition> surface_positions(const Scene& scene, std::span<const Query> rays,
                                                std::span<const QueryHit> hits);
 
-// From each surface position that faces the scene's first light to that light; empty without a light.
+// A ray from each surface position that faces the scene's first light to that light; empty without a light.
 Batch shadow_batch(const Scene& scene, std::span<const SurfacePosition> surface_positions);
 
-// From each surface position into one direction, distributed as the cosine to its normal.
+// A ray from each surface position, in a random direction whose density is its cosine to the normal.
 Batch bounce_batch(std::span<const SurfacePosition> surface_positions, uint32_t seed);
 
 }  // namespace eyeray::engine::bench

@@ -16,12 +16,12 @@ namespace fs = std::filesystem;
 namespace eyeray::engine::bench {
 namespace {
 
-// More primitives would take POV-Ray gigabytes and a minute to parse.
+// To parse more primitives, POV-Ray would need gigabytes and a minute.
 constexpr uint64_t most_for_povray = 2'000'000;
 // The standard scene whose pictures take half a minute each. It is made only if named on the command line.
 constexpr std::string_view large_scene = "terrain-8m";
 
-// A file of that name comes first.
+// The standard scene of that name; null if there is none, or if a file has the name.
 const StandardScene* as_standard(const std::string& name) {
   return fs::exists(name) ? nullptr : find_standard_scene(name);
 }
@@ -47,7 +47,7 @@ SceneReport race_on(const std::string& name, const Options& options) {
   return report;
 }
 
-// The scene in POV-Ray's language; "" where that has not all of it, which is remarked.
+// The scene in POV-Ray's language; "" and a remark if it cannot express the whole scene.
 std::string text_for_povray(const std::string& name, const Scene& scene, const PictureOptions& options,
                             const Listener& listener) {
   try {
@@ -59,7 +59,8 @@ std::string text_for_povray(const std::string& name, const Scene& scene, const P
   }
 }
 
-// A standard scene is written out first, for us; any that POV-Ray can have, for POV-Ray.
+// Measures pictures of a scene. First writes a standard scene to a file for eyeray, and every scene that
+// POV-Ray can render to a file for POV-Ray.
 PictureReport picture_of(const std::string& name, const Options& options, const Listener& listener) {
   const StandardScene* const standard = as_standard(name);
   PictureOptions pictures = options.pictures;
@@ -70,7 +71,7 @@ PictureReport picture_of(const std::string& name, const Options& options, const 
     standard->write(file);
   }
   {
-    const Scene scene = load(name, options);  // gone before anything is measured
+    const Scene scene = load(name, options);  // freed before anything is measured
     pictures.primitives = scene.primitive_count();
     if (pictures.povray && have_povray() && pictures.primitives <= most_for_povray) {
       const std::string text = text_for_povray(name, scene, pictures, listener);

@@ -81,7 +81,7 @@ std::string text_of(std::string_view name) {
   throw Error(ExitCode::bad_input, "no shader {}", name);
 }
 
-// The shader with other arithmetic in it: no cache knows it.
+// The shader with arithmetic that differs for each `edit`, so that no cache contains it.
 std::string edited_shader(int edit) {
   std::string text = text_of(shader);
   const size_t at = text.find(place);
@@ -89,7 +89,7 @@ std::string edited_shader(int edit) {
   return text.insert(at + std::string_view(place).size(), fmt::format("\n  low *= 1.0f + {}e-7f;", edit));
 }
 
-// A column on a floor. Its formula has other operations for each number, so no kernel is there for it.
+// A column on a floor. Its formula has different operations for each `edit`, so no kernel exists for it.
 std::string formula_text(int edit) {
   std::string operations;
   for (int bit = 0; bit < 20; ++bit) operations += (edit >> bit & 1) ? "  e *= p.y;\n" : "  e += p.y;\n";
@@ -143,7 +143,7 @@ material = "clay"
                      operations);
 }
 
-// A dev loop of a scene, and of a shader where it is given one.
+// A dev loop of a scene, and of a shader unless `shader_text` is empty.
 class Loop {
  public:
   Loop(const std::string& scene, const std::string& shader_text) {
@@ -165,7 +165,7 @@ class Loop {
   std::string shader_file() const { return folder_.path() / "shaders" / shader; }
   const std::string& device() const { return device_; }
 
-  // Makes so many edits of a file and measures each. One edit before them fills the caches.
+  // Makes `count` edits of a file and measures each. One edit before them fills the caches.
   std::vector<Edit> measure(int count, const std::string& file, const std::function<std::string(int)>& text) {
     std::vector<Edit> edits;
     for (int i = 0; i <= count; ++i) {
@@ -230,7 +230,7 @@ double median(const std::vector<Edit>& edits, double Edit::* what) {
 }  // namespace
 
 DevLoopReport measure_dev_loop(int edits) {
-  const int salt = int(::getpid() % 1000) * 1000;  // of this run
+  const int salt = int(::getpid() % 1000) * 1000;  // differs between runs
   DevLoopReport report;
   Loop whitted(scene_text(1.25), text_of(shader));
   report.device = whitted.device();

@@ -7,7 +7,7 @@
 
 namespace eyeray::engine::bench {
 
-// One save, in seconds.
+// The times of one save, in seconds.
 struct Edit {
   double first_pixels = 0;     // from before the file is written until the page can show something new
   double first_processor = 0;  // processor seconds of the worker in that time
@@ -18,17 +18,17 @@ struct Edit {
 
 struct DevLoopReport {
   std::string device;
-  std::vector<Edit> shader, scene, formula;  // of a shape's code; of a sphere's radius; of a formula's code
+  std::vector<Edit> shader, scene, formula;  // edits of a shape's code, a sphere's radius, a formula's code
 };
 
-// So many edits of each kind, each by a dev loop: shader and scene of Whitted's scene at 640 × 480, and the
-// formula of a column at 480 × 320. Error (no_device) where there is no device.
+// Measures `edits` edits of each kind. A dev loop renders each of them: shader and scene edits of Whitted's
+// scene at 640 × 480, and formula edits of a column at 480 × 320. Error (no_device) if there is no device.
 DevLoopReport measure_dev_loop(int edits);
 
 // A table of medians.
 std::string to_text(const DevLoopReport& report);
 // {"device", "shader": [{"first_pixels", "first_processor", "compiling", "whole", "processor"}, …],
-// "scene": […], "formula": […]}, seconds.
+// "scene": […], "formula": […]}, in seconds.
 nlohmann::ordered_json to_json(const DevLoopReport& report);
 
 }  // namespace eyeray::engine::bench

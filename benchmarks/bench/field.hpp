@@ -25,7 +25,7 @@ struct Build {
 
 struct SceneReport {
   std::string scene;
-  std::string family;  // scenes that differ in size alone have the same
+  std::string family;  // the same for scenes that differ only in size
   uint64_t primitives = 0;
   std::vector<Build> builds;
   std::vector<BatchReport> batches;
@@ -33,7 +33,7 @@ struct SceneReport {
 
 using FieldReport = std::vector<SceneReport>;
 
-// Rays a second, by the median.
+// Rays a second, by the median time.
 double rate(const BatchReport& batch, const Timing& timing);
 // The fastest timing of a kind, or nullptr.
 const Timing* fastest(const BatchReport& batch, ContenderKind kind);
@@ -41,13 +41,14 @@ const Timing* fastest(const BatchReport& batch, ContenderKind kind);
 double times_as_fast(const BatchReport& batch, const Timing& timing, ContenderKind kind);
 
 nlohmann::ordered_json to_json(const FieldReport& report);
-// A report out of the answer of `eyeray-bench --json`; Error (file_io) where it cannot be read, Error
-// (bad_input) where it is something else.
+// Reads a report from the output of `eyeray-bench --json`. Error (file_io) if the file cannot be read, Error
+// (bad_input) if it contains something else.
 FieldReport read_field_report(const std::filesystem::path& file);
 
 // The report as a table, for people.
 std::string to_text(const FieldReport& report);
-// The changes from `old` to `report`: a line for each contender that both have built or on a batch.
+// The changes from `old` to `report`: a line for each build of a contender, and for each contender on a
+// batch, that both reports have.
 std::string changes(const FieldReport& old, const FieldReport& report);
 
 }  // namespace eyeray::engine::bench

@@ -7,7 +7,7 @@
 
 namespace eyeray::engine::bench {
 
-// Beside the type, where the library looks for it.
+// In the namespace of the type, where the JSON library finds it.
 NLOHMANN_JSON_SERIALIZE_ENUM(ContenderKind, {{ContenderKind::ours, "ours"},
                                              {ContenderKind::single, "single"},
                                              {ContenderKind::packet, "packet"}})

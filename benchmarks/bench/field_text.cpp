@@ -74,7 +74,7 @@ std::string changes(const FieldReport& old, const FieldReport& report) {
       for (const Timing& timing : batch.timings) {
         const Timing* const old_lap = find(old_batch->timings, &Timing::contender, timing.contender);
         if (!old_lap || old_lap->seconds.median <= 0 || old_batch->rays == 0) continue;
-        // Spreads that touch may be one and the same speed.
+        // If the spreads touch, both speeds may be the same.
         const double scale = double(batch.rays) / double(old_batch->rays);
         const bool apart = timing.seconds.min > scale * old_lap->seconds.max ||
                            timing.seconds.max < scale * old_lap->seconds.min;

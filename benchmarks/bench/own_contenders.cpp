@@ -8,7 +8,7 @@ OwnContenders::OwnContenders(const Scene& scene, const std::vector<std::string>&
                              const std::vector<std::string>& incoherent, const std::string& device) {
   executors::ExecutorOptions options;
   options.gpu.device = device;
-  options.gpu.wide_vectors = false;  // rays go in packets, and by four lanes each
+  options.gpu.wide_vectors = false;  // rays are traced in packets, and by four lanes a ray
   for (const std::string& name : backends) {
     const executors::Backend backend = executors::parse_backend(name);
     if (backend != executors::Backend::gpu) {

@@ -27,7 +27,7 @@ class OwnContenders {
 
   std::vector<std::unique_ptr<executors::Executor>> executors_;
   std::vector<Contender> contenders_;
-  std::vector<double> seconds_;  // that making each took
+  std::vector<double> seconds_;  // the time that making each executor took
 };
 
 }  // namespace eyeray::engine::bench

@@ -28,27 +28,29 @@ constexpr int regions_a_side = 4;
 constexpr double false_alarms = 1e-3;
 constexpr double darkest = 0.01;  // added to the value that errors are relative to
 
-// Photons blur by the square of their radius. What they are measured against has a sixteenth of that blur.
+// Photons blur by the square of their radius. The pictures that they are compared with have a sixteenth of
+// that blur.
 constexpr double reference_radius = 0.25;
-constexpr int reference_samples = 4;  // times as many as of the longest run
+constexpr int reference_samples = 4;  // as a multiple of those of the longest run
 constexpr int reference_seeds[] = {1000001, 1000002};
 
-// Two pictures of the same light, whose noise has nothing to do with each other.
+// Two pictures of the same light, whose noise is independent of each other.
 struct References {
   std::vector<float> a, b;
 };
 
-// The figures of a renderer's runs with so many samples.
+// The figures of a renderer's runs with one number of samples.
 struct Pictures {
-  std::vector<double> sum, sum_of_squares;  // a sample of a channel each
+  std::vector<double> sum, sum_of_squares;  // over the runs, for each channel of each pixel
   std::vector<std::vector<double>> means;   // of each region and channel, then of the picture, over the runs
-  double squares = 0;                       // of differences from the references, over all runs
+  double squares = 0;                       // of differences from the references, summed over the runs
   int runs = 0;
 
   // `references`: null where the error is the variance over the runs.
   void add(const image::Image& picture, const References* references) {
     const std::span<const float> samples = picture.samples();
-    // The mean of a product of independent values: the references' own noise is not in it.
+    // The differences from two independent references are multiplied, so that the references' noise is not in
+    // the mean.
     if (references)
       for (size_t i = 0; i < samples.size(); ++i)
         squares += (double(samples[i]) - double(references->a[i])) *
@@ -87,7 +89,7 @@ struct Pictures {
   }
 };
 
-// A renderer that takes part.
+// A renderer that is measured.
 struct Renderer {
   std::string name;
   std::function<TimedRun(int samples, int seed, const fs::path& output)> run;
@@ -228,7 +230,7 @@ PathReport measure_paths(const std::string& scene_file, const PathOptions& optio
     renderer.runs.resize(levels.size());
     renderer.pictures.resize(levels.size());
   }
-  // All take turns, so that a change of the machine's mood hits them all.
+  // All renderers take turns, so that a change of the machine's speed affects them all.
   for (int seed = 1; seed <= options.runs; ++seed)
     for (size_t i = 0; i < levels.size(); ++i)
       for (Renderer& renderer : renderers)

@@ -6,7 +6,7 @@
 namespace eyeray::engine::bench {
 namespace {
 
-// y at x on the straight line through two points, all of it logarithms.
+// y at x on the curve through two points that is a straight line in logarithms.
 double on_line(double x, double x1, double y1, double x2, double y2) {
   return std::exp(std::log(y1) + std::log(y2 / y1) * std::log(x / x1) / std::log(x2 / x1));
 }

@@ -1,5 +1,5 @@
-// Measures how fast the noise of path-traced pictures falls: paths and rays a second, the error left after so
-// many samples and its cost, and the same figures of other renderers of the scene.
+// Measures how fast the noise of path-traced pictures falls: paths and rays a second, the error after each
+// number of samples and its cost, and the same figures of other renderers of the scene.
 #pragma once
 
 #include <filesystem>
@@ -17,24 +17,25 @@ struct PathOptions {
   std::string device = "auto";
   int width = 256;
   int height = 256;
-  int most_samples = 64;  // 4, 16, … up to so many
-  int runs = 5;           // each under another seed
+  int most_samples = 64;  // runs take 4, 16, … samples a pixel, up to this number
+  int runs = 5;           // each with another seed
   double clamp = 0;       // unless 0, --clamp of render
   bool cycles = false;    // beside Blender's Cycles
   bool povray = false;    // beside POV-Ray's radiosity
 };
 
-// All runs of a renderer with so many samples a pixel.
+// All runs of a renderer with one number of samples a pixel.
 struct PathLevel {
   int samples = 0;
   Spread seconds;          // of rendering alone, on the wall clock
   Spread processor;        // seconds of all threads, of rendering alone
-  Spread whole_processor;  // … and of the whole process
+  Spread whole_processor;  // seconds of all threads, of the whole process
   uint64_t rays = 0;       // of a run; 0 where unknown
   // Mean squared error over pixels and channels: the variance over the runs, which is the error of an
-  // unbiased renderer, or the squared difference from PathReport::reference. Below: the same over the squared
-  // mean of each channel, plus 0.01.
+  // unbiased renderer, or the squared difference from PathReport::reference.
   double error = 0;
+  // The variance over the runs, divided by the squared mean of the pixel's channel plus 0.01; the mean over
+  // pixels and channels.
   double relative_error = 0;
 
   // 1 / (error · processor seconds).
@@ -46,24 +47,26 @@ struct PathSeries {
   std::string device;
   std::vector<PathLevel> levels;
 
-  // d log error / d log samples, fitted; −1 of independent samples.
+  // d log error / d log samples, fitted to the levels; −1 for independent samples.
   double slope() const;
-  // Processor seconds of rendering until the error is so small, by its levels; beyond them by its slope.
+  // Processor seconds of rendering until the error is this small: interpolated between levels, extrapolated
+  // beyond them.
   double processor_until(double error) const;
-  // The error that is left after so many; beyond the levels by their slope.
+  // The error after that many processor seconds: interpolated between levels, by slope() beyond them.
   double error_after(double processor) const;
 };
 
-// The difference from our means over the regions of a picture, in the longest runs.
+// The difference between another renderer's means over the regions of a picture and ours, in the runs with
+// the most samples.
 struct Likeness {
   std::string name;
-  int regions = 0;              // times three channels
+  int regions = 0;              // of the picture, each with three channels
   double ours = 0, theirs = 0;  // means of the picture
   double standard_error = 0;    // of their difference
-  double greatest = 0;          // of all differences of regions, over ours
-  double t = 0, p = 1;          // of the most unlikely region; 1 where the other is not random
-  double threshold = 0;         // of p, so that one comparison in a thousand is beyond by chance
-  bool judged = true;           // else it is biased, and the noise means nothing
+  double greatest = 0;          // the greatest difference of a region, relative to ours
+  double t = 0, p = 1;          // of the least likely region; p is 1 if the other is not random
+  double threshold = 0;         // for p: by chance, one comparison in a thousand is below it
+  bool judged = true;           // false: the other renderer is biased, so p means nothing
 
   bool within_noise() const { return p >= threshold; }
 };
@@ -73,14 +76,14 @@ struct PathReport {
   int width = 0, height = 0;
   int runs = 0;
   std::vector<PathSeries> series;
-  std::vector<Likeness> likeness;  // of each other renderer
+  std::vector<Likeness> likeness;  // one for each other renderer
   // Describes, for people, the pictures that errors of photon mapping are measured against, since photons are
   // biased. Empty for other integrators.
   std::string reference = {};
 };
 
-// Processor seconds of the shorter of two series, and the root of the first one's error over the second's by
-// then.
+// `processor`: processor seconds of the shorter of two series. `ratio`: the square root of the first series'
+// error over the second's after that time.
 struct EqualTime {
   double processor = 0;
   double ratio = 0;
@@ -88,17 +91,17 @@ struct EqualTime {
 EqualTime at_equal_time(const PathSeries& first, const PathSeries& second);
 
 // Measures the paths of a scene. For a scene of `sppm`, measures `sppm` beside `path`. Error as load_scene
-// and render; (file_io) where Blender or POV-Ray is asked for and missing, (bad_input) where the scene has no
-// likeness there, or is not for `path`.
+// and render. Error (file_io) if Blender or POV-Ray is requested but missing. Error (bad_input) if the scene
+// cannot be written for them, or is not for `path`.
 PathReport measure_paths(const std::string& scene, const PathOptions& options);
 
 // The report as a table, for people.
 std::string to_text(const PathReport& report);
 nlohmann::ordered_json to_json(const PathReport& report);
-// The path reports of an answer of `eyeray-bench --json`, as far as path_changes compares them. Error as
+// The path reports in the output of `eyeray-bench --json`, as far as path_changes compares them. Error as
 // read_picture_reports.
 std::vector<PathReport> read_path_reports(const std::filesystem::path& file);
-// A line for rays and error of each series that both have with as many samples.
+// A line for the rays and the error of each series that both reports have with the same number of samples.
 std::string path_changes(const std::vector<PathReport>& old, const std::vector<PathReport>& now);
 
 }  // namespace eyeray::engine::bench

@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 namespace eyeray::engine::bench {
 namespace {
 
-// A longer series is run once: POV-Ray parses a million triangles anew each time.
+// A series whose first run takes longer is not repeated: POV-Ray parses a million triangles anew each time.
 constexpr double longest_repeated_seconds = 6;
 
 bool worth_repeating(const Series& series) {
@@ -39,7 +39,7 @@ std::vector<std::string> arguments(const fs::path& scene, const std::string& bac
   return words;
 }
 
-// All contenders take turns, so that a change of the machine's mood hits them all.
+// All contenders take turns, so that a change of the machine's speed affects them all.
 std::vector<Series> measure(const fs::path& scene, const PictureOptions& options) {
   const ScratchFolder scratch;
   const std::optional<fs::path> pov = scene_for_povray(scene, options);
@@ -63,7 +63,7 @@ std::vector<Series> measure(const fs::path& scene, const PictureOptions& options
   return all;
 }
 
-// From nothing to a written 640×480 picture, without and with the caches of earlier runs.
+// Measures the time from nothing to a written 640×480 picture, without and with the caches of earlier runs.
 std::vector<Series> measure_start(const fs::path& scene, const PictureOptions& options) {
   Series cold{"cold start", {}}, warm{"warm start", {}};
   std::vector<std::string> words = arguments(scene, "gpu", options);

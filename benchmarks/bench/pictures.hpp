@@ -22,10 +22,10 @@ struct PictureOptions {
   int height = 1024;
   int samples = 1;
   int runs = 5;
-  bool povray = true;                  // where it is installed, and the scene is there as .pov too
+  bool povray = true;                  // if it is installed, and the scene exists as .pov too
   std::filesystem::path povray_scene;  // used if none is beside the scene; may be empty
-  bool start = true;                   // also cold and warm starts
-  uint64_t primitives = 0;             // of the scene, to print the memory of each; 0: not printed
+  bool start = true;                   // also measure cold and warm starts
+  uint64_t primitives = 0;             // of the scene, to print the memory per primitive; 0: not printed
 };
 
 // The times of one contender's runs.
@@ -60,11 +60,11 @@ PictureReport measure_pictures(const std::string& name, const std::filesystem::p
 // The report as a table, for people.
 std::string to_text(const PictureReport& report);
 nlohmann::ordered_json to_json(const PictureReport& report);
-// The pictures of an older answer of `eyeray-bench --json`, as far as picture_changes compares them. Error
-// (file_io) where it cannot be read, Error (bad_input) where it is something else.
+// The pictures in older output of `eyeray-bench --json`, as far as picture_changes compares them. Error
+// (file_io) if the file cannot be read, Error (bad_input) if it contains something else.
 std::vector<PictureReport> read_picture_reports(const std::filesystem::path& file);
-// A line for the whole process, the tracing and the memory of each series that both have of a scene; pictures
-// of another size or other samples are not compared.
+// A line for the whole process, the tracing and the memory of each series that both have of a scene. Pictures
+// that differ in size or number of samples are not compared.
 std::string picture_changes(const std::vector<PictureReport>& old, const std::vector<PictureReport>& now);
 
 }  // namespace eyeray::engine::bench

@@ -8,7 +8,7 @@
 namespace eyeray::engine::bench {
 namespace {
 
-// The names that measure_pictures gives to stages.
+// The names that measure_pictures gives to the series of starts.
 constexpr std::string_view starts[] = {"cold start", "warm start"};
 
 std::string format_spread(const Spread& spread) {
@@ -34,7 +34,7 @@ std::string to_text(const SeriesReport& series, uint64_t primitives) {
   return text;
 }
 
-// From the start of the program to a written picture; "" where that was not measured.
+// The times from the start of the program to a written picture; "" if they were not measured.
 std::string first_pixel(const PictureReport& report) {
   std::string times;
   for (const SeriesReport& series : report.series) {
@@ -48,7 +48,7 @@ std::string first_pixel(const PictureReport& report) {
 std::string line(const PictureReport& picture, const SeriesReport& series, const std::string& what,
                  const Spread& old, const Spread& now, double unit, const char* unit_name) {
   if (!(old.median > 0)) return "";
-  // Spreads that touch may be one and the same.
+  // If the spreads touch, both values may be the same.
   const bool apart = now.min > old.max || now.max < old.min;
   return fmt::format("{:<24} {:<12} {:<14} {:>8.4g} -> {:<8.4g} {} {:>+7.1f} %{}\n", picture.scene,
                      series.name, what, old.median / unit, now.median / unit, unit_name,

@@ -76,7 +76,7 @@ ProcessReport measure_shards(const std::filesystem::path& scene, int shards, int
   renders.run({"--shard", fmt::format("1/{}", shards), "-o", folder.path() / "warming.eyeray"}, warming);
   Words merging{"merge", "-o", picture, "--quiet"};
   for (int i = 0; i < shards; ++i) {
-    // In the midst of the others, since machines become slower the longer they work.
+    // Render the whole picture in the middle of the shards: machines become slower the longer they work.
     if (i == shards / 2) renders.run({"-o", picture}, whole);
     merging.push_back(folder.path() / fmt::format("{}.eyeray", i));
     renders.run({"--shard", fmt::format("{}/{}", i + 1, shards), "-o", merging.back()}, parts);

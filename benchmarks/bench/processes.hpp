@@ -8,7 +8,7 @@
 
 namespace eyeray::engine::bench {
 
-// Seconds, from the start of the first process to the end of the last; one runs after the other.
+// Seconds from the start of the first process to the end of the last. The processes run one after the other.
 struct ProcessCost {
   double wall = 0;
   double processor = 0;  // of all threads
@@ -24,15 +24,16 @@ struct ProcessReport {
   std::string kind;  // the counted quantity
   int count = 0;
   std::vector<Way> ways;
-  ProcessCost ratio;  // of the costs that the many ought to save, or must not add
+  ProcessCost ratio;  // of one process to a process a frame, or of shards to one process
 };
 
-// Frames from 0 on in one process, beside each in its own. Caches are the user's, and warm, in both. Error
-// when a run fails.
+// Measures frames from 0 on, rendered in one process and in one process each. Both use the user's caches,
+// which are warm. Error when a run fails.
 ProcessReport measure_frames(const std::filesystem::path& scene, int frames,
                              const std::vector<std::string>& defines);
 
-// One picture of width × height pixels, of `samples` each, as shards and their merge, beside one process.
+// Measures one picture of width × height pixels with `samples` samples each: as shards and their merge, and
+// in one process.
 ProcessReport measure_shards(const std::filesystem::path& scene, int shards, int width, int height,
                              int samples, const std::vector<std::string>& defines);
 

@@ -1,4 +1,4 @@
-// Contenders on the same rays, in turns, so that a change of the machine's mood hits them all.
+// Runs contenders on the same rays, in turns, so that a change of the machine's speed affects them all.
 #pragma once
 
 #include <functional>

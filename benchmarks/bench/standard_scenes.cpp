@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A stage with a mesh of its last material on it.
+// The scene of the text `stage`, with the mesh `made` of the scene's last material.
 Scene with_mesh(const std::string& stage, const char* name, generate::MeshInMemory&& made) {
   Scene scene = loader::parse_scene(stage, name);
   made.mesh.name = name;
@@ -25,7 +25,7 @@ Scene with_mesh(const std::string& stage, const char* name, generate::MeshInMemo
   return scene;
 }
 
-// Writes the scene as files.
+// Writes the scene file, and the mesh beside it as a .ply.
 template <typename Make>
 void write_with_mesh(const fs::path& file, const std::string& stage, const char* material, const Make& make) {
   const fs::path mesh = fs::path(file).replace_extension(".ply");

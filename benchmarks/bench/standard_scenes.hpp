@@ -1,5 +1,5 @@
-// The scenes that are measured when none is given: known from Haines' databases, or of a size that is of
-// interest.
+// The scenes that are measured when none is given: they are known from Haines' databases, or have an
+// interesting size.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@ namespace eyeray::engine::bench {
 
 struct StandardScene {
   std::string_view name;    // "terrain-1m"
-  std::string_view family;  // "terrain": the same at another size
+  std::string_view family;  // "terrain": the same for the scene at another size
   Scene (*make)();          // in memory: nothing is written
   // Writes the scene as a scene file, "NAME.toml", with a mesh beside it as .ply. Error (file_io).
   void (*write)(const std::filesystem::path& file);

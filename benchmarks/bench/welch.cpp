@@ -56,7 +56,7 @@ WelchTest welch(const Moments& a, const Moments& b) {
   const double va = a.variance / a.count, vb = b.variance / b.count;
   const double difference = std::abs(a.mean - b.mean);
   if (!(va + vb > 0)) {
-    const bool same = difference <= 1e-6 * std::abs(a.mean);  // of float32
+    const bool same = difference <= 1e-6 * std::abs(a.mean);  // equal to within float32's rounding
     return {same ? 0 : std::numeric_limits<double>::infinity(), 1, same ? 1.0 : 0.0};
   }
   WelchTest test;

@@ -16,12 +16,12 @@ Moments moments(std::span<const double> runs);
 // when Several Different Population Variances are Involved" (Biometrika 1947).
 struct WelchTest {
   double t = 0;
-  double freedom = 0;  // degrees of it
+  double freedom = 0;  // degrees of freedom
   double p = 1;        // probability of |t| or more; 1 if neither varies and both are equal
 };
 WelchTest welch(const Moments& a, const Moments& b);
 
-// The probability of |t| or more with so many degrees of freedom: Student's distribution, both sides.
+// The probability of |t| or more with `freedom` degrees of freedom: Student's distribution, both sides.
 double student_tails(double t, double freedom);
 
 }  // namespace eyeray::engine::bench

@@ -26,14 +26,14 @@ using namespace program;
 
 struct BenchCommand {
   bool dev = false;
-  int frames = 0, shards = 0;  // only them; 0: none
+  int frames = 0, shards = 0;  // unless 0: measure only this many frames or shards
   bool with_paths = false;
   bench::PathOptions paths;
   bench::Options options;
   std::string older;
   bool json = false;
-  bool sized = false;  // by the user, …
-  bool sampled = false;
+  bool sized = false;    // whether the user set the size
+  bool sampled = false;  // whether the user set the number of samples
 
   ExitCode run() const;
   bench::PathOptions path_options() const;
@@ -65,7 +65,7 @@ bench::ProcessReport BenchCommand::process_report() const {
 }
 
 ExitCode BenchCommand::run() const {
-  // Shown until there is something to print.
+  // The bar is shown until there is something to print.
   const auto wait = [] { return show_compiling(", then measuring"); };
   std::shared_ptr<void> waiting = wait();
   const auto say = [&](const auto& report) {

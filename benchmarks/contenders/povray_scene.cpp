@@ -98,7 +98,7 @@ std::string light_text(std::monostate) {
   throw Error(ExitCode::bad_input, "the scene has a light that is not written for POV-Ray");
 }
 
-// With `radiosity`, the material has no ambient light.
+// With `radiosity`, the material gets no ambient light: radiosity replaces it.
 std::string texture(const Material& material, const Vec3& ambient_light, bool radiosity) {
   if (material.mask)
     throw Error(ExitCode::bad_input, "material \"{}\" has cutouts, which are not written for POV-Ray",
