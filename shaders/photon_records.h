@@ -9,12 +9,12 @@ SHADER_BEGIN
 // A photon where a surface has stopped it that scatters light widely, 64 bytes.
 struct Photon {
   vec3 position;
-  uint key;        // of its cell (integrators/photon_cells.glsl)
+  uint key;        // key of its cell (integrators/photon_cells.glsl)
   vec3 direction;  // unit, towards where it came from
-  uint number;     // of those of its sample
+  uint number;     // its number among the photons of its sample
   vec3 normal;     // unit, of the surface's shape, on the side that it came to
   uint depth;      // how often it was scattered before
-  vec3 flux;       // of the photon, times the number of all
+  vec3 flux;       // flux of the photon, times the number of all
   uint unused;
 };
 
@@ -30,15 +30,15 @@ struct PhotonResult {
 
 // The values that all photons of a sample share, 304 bytes.
 struct PhotonPass {
-  vec3 center;           // of a sphere around all that has an end: lights from afar send their photons there
+  vec3 center;           // center of a sphere around all that has an end: lights from afar send their photons there
   float reach;           // its radius
-  float radius_squared;  // of the disk that photons are gathered on
+  float radius_squared;  // squared radius of the disk that photons are gathered on
   float height;          // how far above and below it
   float cells;           // a unit of length: a cell is as wide as the disk
   float scale;           // 2 / (π radius²) / the number of photons
   uint key_mask;         // which bits of a cell's hash are its key
   uint capacity;         // how many photons there is room for
-  uint target_count;     // of objects that photons are aimed at
+  uint target_count;     // number of objects that photons are aimed at
   uint unused;
   vec4 targets[MOST_PHOTON_TARGETS];  // center, radius
 };

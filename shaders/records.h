@@ -110,7 +110,7 @@ struct Bvh {
   vec3 extent;      // the most that |q · step| is
   float slack;      // by which share of its reach a ray's boxes are widened
   uint root;        // which may be a leaf
-  uint first_slot;  // of its primitives
+  uint first_slot;  // first slot of its primitives
   uint end_slot;
   uint unused_2;
 };
@@ -123,8 +123,8 @@ struct Bvh {
 // In its space ids count from 0, those of a group's meshes with ID_OF_TRIANGLE set.
 struct Instance {
   uint bvh;
-  uint first_id;           // of its first shape, of a mesh its first triangle
-  uint material;           // of a mesh's triangles; NONE of a group, whose primitives have their own
+  uint first_id;           // first id of its first shape, of a mesh its first triangle
+  uint material;           // material of a mesh's triangles; NONE of a group, whose primitives have their own
   uint depth_or_triangle;  // mesh_optical_depth, first_triangle_of
   vec4 to_local[3];        // rows: the linear map into its space, of vectors relative to that space's origin; w unused
   vec4 to_world[3];        // rows: the affine map back, its w's that origin
@@ -158,7 +158,7 @@ struct Material {
   vec4 b;
   vec3 c;
   uint coat_roughness;
-  uint specular_level;  // of these two textures the red channel counts, as of coat
+  uint specular_level;  // the red channel of these two textures counts, as in `coat`
   uint transmission;
   uint specular_color;
   uint sheen;
@@ -174,8 +174,8 @@ struct Material {
 #define MATERIAL_BLINN 1u
 #define MATERIAL_PANE 2u   // it has no inside: paths may pass it straight
 #define MOST_PANES 8u      // that a shadow ray to a light with an extent goes through; paths find the light behind more
-#define MOST_CROSSINGS 65536u  // of panes and interfaces, by any shadow ray: more set FLAG_ITERATION_LIMIT
-#define MATERIAL_CLEAR 4u  // of principled: Whitted's pictures show glass, and `base` is its colour
+#define MOST_CROSSINGS 65536u  // the most panes and interfaces that a shadow ray crosses; more set FLAG_ITERATION_LIMIT
+#define MATERIAL_CLEAR 4u  // for principled: Whitted's pictures show glass, and `base` is its colour
 #define MATERIAL_EMITS_IN_FRONT 8u  // its own light goes only where normals point
 #define MATERIAL_FRONT_ONLY 32u  // rays that come from behind a triangle do not hit it
 #define MATERIAL_BLENDS 64u  // rays hit it with a probability of its alpha, for any alpha_cutoff
@@ -249,22 +249,22 @@ struct Emitter {
   vec4 b;
   vec4 c;
   uint primitive;  // whose surface it is
-  uint end;        // of the numbers by which it is chosen (emitters/emitter.glsl)
+  uint end;        // end of the numbers by which it is chosen (emitters/emitter.glsl)
   float area;
   float offset;  // a point this far off it is off it, however it is rounded
   uint trail;    // to it through the light BVH: bit k is set where it is the second child at level k; NONE where it is not in that
-  uint texture;  // of its radiance, or NONE
-  uint corners;  // of a triangle with a texture, four of vertices: color.rgb and u of each corner, the three v; or NONE
+  uint texture;  // texture of its radiance, or NONE
+  uint corners;  // corners of a triangle with a texture, four of vertices: color.rgb and u of each corner, the three v; or NONE
   float side;    // 1 where it lights only the side that its normal points to, −1 the other side; 0 both sides
 };
 
 // ---- A node of the light BVH: 48 bytes; nodes are pairs of children, the root's first -------------------------------
 struct LightNode {
-  vec3 center;  // of a sphere around its lights
+  vec3 center;  // center of a sphere around its lights
   float radius;
   vec3 axis;  // that their normals are not far from
   float power;
-  float cos_spread;  // of the largest angle between the axis and a normal
+  float cos_spread;  // cosine of the largest angle between the axis and a normal
   float cos_reach;   // and of that between a normal and a way that light goes
   uint child;        // its own pair of children; or LEAF | the light, as emitters are counted
   uint both_sides;   // 1 where light also goes along the normals' opposites
@@ -294,7 +294,7 @@ struct Frame {
   vec3 right;
   float min_throughput;
   vec3 up;
-  float pixel_width;  // of a picture that is 2 wide
+  float pixel_width;  // pixel width of a picture that is 2 wide
   vec3 forward;
   float pixel_height;
   vec3 background;
@@ -305,12 +305,12 @@ struct Frame {
   float blade_rotation;  // radians
   uint blades;           // corners of the lens; 0: it is a disk
   uint pixel_filter;     // FILTER_
-  uint environment_width;    // of the picture; 0 without one
+  uint environment_width;    // environment width of the picture; 0 without one
   uint environment_height;
-  uint environment_numbers;  // of 2^24, that choose the environment and not a light
+  uint environment_numbers;  // how many numbers of 2^24 choose the environment and not a light
   float environment_turn;    // by how much of a whole turn it is turned about y
   float filter_width;        // pixels
-  uint light_bvh_numbers;    // of 2^24, that choose a light by the light BVH; 0 without one
+  uint light_bvh_numbers;    // how many numbers of 2^24 choose a light by the light BVH; 0 without one
   uint camera_formula;       // the number of the camera's, where it has one
   uint has_medium_extent;    // 1 where the medium around all has the extent that follows (materials/medium_extent.glsl)
   vec3 medium_min;  // corners of a box; ±T_MISS where a side is infinitely far away
@@ -329,9 +329,9 @@ struct Dispatch {
   uint tile_width;
   uint tile_height;
   uint sample_index;
-  uint depth;  // of a wavefront: the reflections before it
+  uint depth;  // the reflections before this wavefront
   uint count;   // pixels of the tile, or rays of a query
-  uint stride;  // of so many pixels of the picture along each axis the tile has one
+  uint stride;  // the tile has one of so many pixels along each axis of the picture
 };
 
 SHADER_END

@@ -13,11 +13,11 @@ SHADER_BEGIN
 // One sample of one pixel, 32 bytes.
 struct SampleResult {
   vec3 color;
-  uint trail;  // of a random walk (integrators/trail.glsl); else 1
+  uint trail;  // trail of a random walk (integrators/trail.glsl); else 1
   uint rays;
   uint hits;
   uint flags;       // with RAY_KINDS below refracted_of
-  uint iterations;  // of loops; with RAY_KINDS reflected_of and total_reflections_of instead
+  uint iterations;  // iterations of loops; with RAY_KINDS reflected_of and total_reflections_of instead
 };
 INLINE SampleResult sample_result(vec3 color, uvec4 counts, uint trail) {
   SampleResult result;
@@ -52,7 +52,7 @@ struct HitResult {
   float u;
   vec3 normal_geometric;
   float v;
-  float cosine;  // of the angle between normal_geometric and the way back along the ray
+  float cosine;  // cosine of the angle between normal_geometric and the way back along the ray
   uint primitive;
   uint material;
   uint flags;
@@ -107,7 +107,7 @@ struct PathState {
 // had room.
 struct ProbeRecord {
   uint name;  // PROBED_name (features.h), or PROBE_OPENS_RAY, PROBE_RETURNS
-  uint line;  // of the shader's file
+  uint line;  // line of the shader's file
   uint type;
   uint size;    // components
   uvec4 value;  // the bits of each; of a ray kind, number and depth

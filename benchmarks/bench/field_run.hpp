@@ -5,10 +5,10 @@
 namespace eyeray::engine::bench {
 
 struct FieldOptions {
-  int width = 1024;  // of the picture whose camera rays are traced
+  int width = 1024;  // width of the picture whose camera rays are traced
   int height = 1024;
   int runs = 5;
-  uint32_t seed = 0;  // of the bounced rays
+  uint32_t seed = 0;  // seed of the bounced rays
 };
 
 // Builds Embree's BVH, makes the three batches, and races `ours` on them beside Embree by single rays and

@@ -42,8 +42,9 @@ struct References {
 // The figures of a renderer's runs with one number of samples.
 struct Pictures {
   std::vector<double> sum, sum_of_squares;  // over the runs, for each channel of each pixel
-  std::vector<std::vector<double>> means;   // of each region and channel, then of the picture, over the runs
-  double squares = 0;                       // of differences from the references, summed over the runs
+  std::vector<std::vector<double>>
+      means;           // means of each region and channel, then of the picture, over the runs
+  double squares = 0;  // squares of differences from the references, summed over the runs
   int runs = 0;
 
   // `references`: null where the error is the variance over the runs.

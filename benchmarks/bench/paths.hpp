@@ -27,10 +27,10 @@ struct PathOptions {
 // All runs of a renderer with one number of samples a pixel.
 struct PathLevel {
   int samples = 0;
-  Spread seconds;          // of rendering alone, on the wall clock
+  Spread seconds;          // seconds of rendering alone, on the wall clock
   Spread processor;        // seconds of all threads, of rendering alone
   Spread whole_processor;  // seconds of all threads, of the whole process
-  uint64_t rays = 0;       // of a run; 0 where unknown
+  uint64_t rays = 0;       // rays of a run; 0 where unknown
   // Mean squared error over pixels and channels: the variance over the runs, which is the error of an
   // unbiased renderer, or the squared difference from PathReport::reference.
   double error = 0;
@@ -60,11 +60,11 @@ struct PathSeries {
 // the most samples.
 struct Likeness {
   std::string name;
-  int regions = 0;              // of the picture, each with three channels
+  int regions = 0;              // regions of the picture, each with three channels
   double ours = 0, theirs = 0;  // means of the picture
-  double standard_error = 0;    // of their difference
+  double standard_error = 0;    // standard error of their difference
   double greatest = 0;          // the greatest difference of a region, relative to ours
-  double t = 0, p = 1;          // of the least likely region; p is 1 if the other is not random
+  double t = 0, p = 1;          // t and p of the least likely region; p is 1 if the other is not random
   double threshold = 0;         // for p: by chance, one comparison in a thousand is below it
   bool judged = true;           // false: the other renderer is biased, so p means nothing
 

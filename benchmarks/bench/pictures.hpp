@@ -25,7 +25,7 @@ struct PictureOptions {
   bool povray = true;                  // if it is installed, and the scene exists as .pov too
   std::filesystem::path povray_scene;  // used if none is beside the scene; may be empty
   bool start = true;                   // also measure cold and warm starts
-  uint64_t primitives = 0;             // of the scene, to print the memory per primitive; 0: not printed
+  uint64_t primitives = 0;  // primitives of the scene, to print the memory per primitive; 0: not printed
 };
 
 // The times of one contender's runs.
@@ -35,7 +35,7 @@ struct SeriesReport {
   std::vector<std::pair<std::string, Spread>> stages;  // seconds, "whole process" first
   Spread tracing;                                      // seconds of tracing alone
   std::optional<Spread> peak_memory;                   // bytes; absent where unknown
-  uint64_t rays = 0;                                   // of a run; 0 where unknown
+  uint64_t rays = 0;                                   // rays of a run; 0 where unknown
 };
 
 struct PictureReport {

@@ -11,7 +11,7 @@ namespace eyeray::engine::bench {
 // Seconds from the start of the first process to the end of the last. The processes run one after the other.
 struct ProcessCost {
   double wall = 0;
-  double processor = 0;  // of all threads
+  double processor = 0;  // processor seconds of all threads
 };
 
 struct ProcessReport {
@@ -24,7 +24,7 @@ struct ProcessReport {
   std::string kind;  // the counted quantity
   int count = 0;
   std::vector<Way> ways;
-  ProcessCost ratio;  // of one process to a process a frame, or of shards to one process
+  ProcessCost ratio;  // ratio of one process to a process a frame, or of shards to one process
 };
 
 // Measures frames from 0 on, rendered in one process and in one process each. Both use the user's caches,

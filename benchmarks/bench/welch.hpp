@@ -7,7 +7,7 @@ namespace eyeray::engine::bench {
 
 struct Moments {
   double mean = 0;
-  double variance = 0;  // of a run, unbiased
+  double variance = 0;  // variance of a run, unbiased
   int count = 0;
 };
 Moments moments(std::span<const double> runs);

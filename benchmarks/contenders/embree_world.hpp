@@ -57,7 +57,7 @@ class EmbreeWorld {
 
   std::unique_ptr<RTCDeviceTy, EmbreeRelease> device_;
   std::unique_ptr<RTCSceneTy, EmbreeRelease> all_, opaque_;
-  std::vector<std::unique_ptr<RTCSceneTy, EmbreeRelease>> meshes_;  // of meshes with several instances
+  std::vector<std::unique_ptr<RTCSceneTy, EmbreeRelease>> meshes_;  // the meshes with several instances
 };
 
 }  // namespace eyeray::engine::contenders

@@ -20,7 +20,7 @@ enum class ChildType : uint8_t { node, leaf, lone_item };
 struct Child {
   Box box;
   uint32_t index = 0;  // that of the node, of the leaf's first entry in Bvh::order, or of the item
-  uint8_t count = 0;   // of a leaf's items, 1 … most_in_leaf
+  uint8_t count = 0;   // count of a leaf's items, 1 … most_in_leaf
   ChildType type = ChildType::node;
 };
 

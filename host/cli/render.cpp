@@ -26,7 +26,7 @@ struct RenderCommand {
   bool quiet = false;
   bool json = false;
   std::string frames;      // FIRST:LAST[:STEP]; empty: only the frame that the scene shows
-  std::string video;       // of the frames; empty: none
+  std::string video;       // video of the frames; empty: none
   bool overwrite = false;  // render frames again whose files exist
 
   ExitCode run();

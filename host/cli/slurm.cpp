@@ -27,7 +27,7 @@ struct SlurmCommand {
   int shards = 0;
   std::string folder;
   std::string frames;  // FIRST:LAST[:STEP]; empty: only the frame that the scene shows
-  std::string video;   // of the frames; empty: none
+  std::string video;   // video of the frames; empty: none
   bool no_submit = false;
   bool quiet = false;
   bool json = false;

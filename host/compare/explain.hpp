@@ -27,7 +27,7 @@ struct Neighbour {
   uint64_t first_surfaces = 0;  // a fingerprint of the primitives that the samples' camera rays hit
   uint64_t first_colors = 0;    // a fingerprint of the surfaces' own colours at those hits
   bool direct = true;           // nothing is seen by reflection or refraction
-  FirstHit first_hit;           // of the ray through the pixel's centre
+  FirstHit first_hit;           // first hit of the ray through the pixel's centre
   double rounding = 0;          // pixels by which float32 may move the camera ray; 0 if unknown
 };
 

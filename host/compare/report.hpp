@@ -50,7 +50,7 @@ struct GoldenResult {
   std::string value;         // the executor
   std::string incomparable;  // why nothing was compared; empty when everything was
   image::Image picture;      // the golden picture before an update, or the compared part of it
-  Tally colors;              // of the golden picture, with the executor's as the reference
+  Tally colors;              // colors of the golden picture, with the executor's as the reference
   std::optional<Metrics> metrics;
   std::vector<std::string> changed;  // changed inputs of the golden picture: "scene hash", "executor"
   bool updated = false;              // whether the executor's picture has replaced it
@@ -65,7 +65,7 @@ struct PhotonTally {
   int64_t sent = 0;
   int64_t diverged = 0;
   int64_t displaced = 0;
-  int64_t unexplained = 0;  // of the diverged and the displaced
+  int64_t unexplained = 0;  // the unexplained among the diverged and the displaced
   std::string worst;        // the first unexplained photon, and its effect
   int depth = 0;            // the scene's max_depth
 
@@ -90,7 +90,7 @@ struct Report {
   std::string scene;
   std::vector<std::string> changed_shaders;  // files that take the place of eyeray's own and differ from them
   bool twin_has_changed_shaders = false;     // whether the twin has them, as the gpu does
-  int width = 0, height = 0;                 // of the whole picture
+  int width = 0, height = 0;                 // width of the whole picture
   Rect area;                                 // the compared area
   int samples = 1;
   std::vector<Participant> participants;

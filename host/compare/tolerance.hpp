@@ -6,10 +6,10 @@
 namespace eyeray::engine::compare {
 
 struct Tolerances {
-  double color = 1e-4;           // of each channel, × max(1, |reference|)
+  double color = 1e-4;           // tolerance of each channel, × max(1, |reference|)
   double t = 1e-5;               // relative; see t_tolerance
-  double normal = 1e-4;          // of each component
-  double uv = 1e-4;              // of each component, × max(1, |reference|)
+  double normal = 1e-4;          // tolerance of each component
+  double uv = 1e-4;              // tolerance of each component, × max(1, |reference|)
   double max_explained = 0.005;  // the share of pixels that may differ for a reason (and four in any case)
 
   // A tolerance so wide that the gate could not fail is a defect of the caller: CHECK.

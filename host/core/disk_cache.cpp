@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view ending = ".eyeray-cache";
 constexpr size_t most_entries = 512;
-constexpr size_t most_bytes = size_t{1} << 30;  // of one entry
+constexpr size_t most_bytes = size_t{1} << 30;  // most bytes of one entry
 
 std::filesystem::path path_from(const char* variable) {
   const char* value = std::getenv(variable);

@@ -42,7 +42,7 @@ enum SampleFlag : uint32_t {
 
 // The cost of one ray's search for its closest hit; −1 from an executor that does not count it.
 struct SearchCost {
-  int64_t nodes = -1;  // of BVHs, visited
+  int64_t nodes = -1;  // visited nodes of BVHs
   int64_t tests = -1;  // primitives tested
 };
 
@@ -61,7 +61,7 @@ struct FirstHit {
   // The largest coordinate that t was computed from, relative to the eye, divided by the cosine of incidence.
   // The rounding of coordinates shifts t in proportion to it. Only the reference sets it; else it is 0.
   double t_scale = 0;
-  SearchCost cost{};  // of the search, with or without a hit: gates do not compare it
+  SearchCost cost{};  // cost of the search, with or without a hit: gates do not compare it
 };
 
 }  // namespace eyeray::engine

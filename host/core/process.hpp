@@ -66,7 +66,7 @@ struct ProcessResult {
   std::string out;
   std::string err;
   double seconds = 0;            // from start to end, on the wall clock
-  double processor_seconds = 0;  // of all its threads
+  double processor_seconds = 0;  // processor seconds of all its threads
   long page_faults = 0;
 };
 

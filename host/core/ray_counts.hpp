@@ -9,7 +9,7 @@ namespace eyeray::engine {
 
 struct RayCounts {
   uint64_t eye = 0;
-  uint64_t eye_hits = 0;  // of `eye`, those that hit something
+  uint64_t eye_hits = 0;  // the rays of `eye` that hit something
   uint64_t reflected = 0;
   uint64_t refracted = 0;
   uint64_t total_reflections = 0;  // where a refracted ray would else be followed

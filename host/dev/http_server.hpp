@@ -10,7 +10,7 @@
 namespace eyeray::engine::dev {
 
 struct WebLimits {
-  size_t header_bytes = 16 << 10;  // of a request
+  size_t header_bytes = 16 << 10;  // header bytes of a request
   size_t body_bytes = 1 << 20;
   double request_seconds = 5;  // from accepting a connection to the end of its request
   unsigned write_seconds = 5;  // without a byte that the client accepts
@@ -19,7 +19,7 @@ struct WebLimits {
 };
 
 struct Request {
-  int port = 0;        // of the server
+  int port = 0;        // port of the server
   std::string method;  // "GET"
   std::string path;    // decoded, without the query
   // By name, in lower case for the header. Values of a repeated name are joined by ", ".

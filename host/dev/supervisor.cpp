@@ -168,7 +168,8 @@ void Supervisor::take_messages() {
     if (message) {
       // A shader may have written over the worker's message.
       try {
-        if (message->json.value("generation", int64_t{-1}) != generation_) continue;  // of an older request
+        if (message->json.value("generation", int64_t{-1}) != generation_)
+          continue;  // it answers an older request
         heard_ = true;
         since_message_ = {};
         handle(*message);

@@ -41,7 +41,7 @@ struct ExecutorFacts {
   std::shared_ptr<OpenDevice> device;
 
   // The next two grow as kernels are made. Some kernels are made only when they are first needed.
-  uint64_t geometry_bytes = 0;                      // of geometry and the BVHs over it; 0 where unknown
+  uint64_t geometry_bytes = 0;                      // bytes of geometry and the BVHs over it; 0 where unknown
   std::vector<std::filesystem::path> source_files;  // read from the folder of shaders, for a watcher
 };
 

@@ -33,7 +33,7 @@ class OpenDevice {
 
  private:
   struct Built {
-    std::string hash;  // of the SPIR-V
+    std::string hash;  // hash of the SPIR-V
     std::shared_ptr<gpu::Kernel> kernel;
   };
 

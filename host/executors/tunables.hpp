@@ -28,7 +28,7 @@ struct Tunable {
   std::string file, name;
   int line = 0;
   Type type = Type::floating;
-  double low = 0, high = 1;  // of a slider
+  double low = 0, high = 1;  // range of a slider
   Value written{};           // in the text
 };
 

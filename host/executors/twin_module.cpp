@@ -28,7 +28,7 @@ namespace eyeray::engine::executors {
 namespace {
 
 constexpr double longest_compilation = 300;  // seconds
-constexpr size_t most_kept = 16;             // of modules in the cache
+constexpr size_t most_kept = 16;             // most kept of modules in the cache
 constexpr size_t most_diagnostics = 20;
 
 bool has_text(const fs::path& file, std::string_view text) {

@@ -17,7 +17,7 @@
 namespace eyeray::engine::executors {
 
 struct WavefrontOptions {
-  uint32_t shadow_rays = 0;  // of each hit
+  uint32_t shadow_rays = 0;  // shadow rays of each hit
   uint32_t bounces = 0;      // the most bounces after the camera ray
   // True if rays split in two. Then kernels/render.comp.glsl restarts the pixels whose paths go on.
   bool splits = false;

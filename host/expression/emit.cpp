@@ -9,7 +9,7 @@ namespace {
 
 // The kind of number in which all steps are computed.
 struct Kind {
-  std::string_view prefix;  // of the shader functions' names
+  std::string_view prefix;  // prefix of the shader functions' names
   std::string_view number;
   std::string_view truth;
 };

@@ -26,7 +26,7 @@ enum class Op {
   minimum,
   maximum,
   square_root,
-  power,  // of a number ≥ 0; the exponent is a constant > 0
+  power,  // the base is a number ≥ 0; the exponent is a constant > 0
   sine,
   cosine,
   exponential,
@@ -55,7 +55,7 @@ constexpr Term no_term = -1;
 struct Step {
   Op op;
   std::array<Term, 3> from{no_term, no_term, no_term};
-  double value = 0;  // of a constant or truth; an input's index; a scale's factor; a power's exponent
+  double value = 0;  // value of a constant or truth; an input's index; a scale's factor; a power's exponent
   double error = 0;  // error of a constant, for instance of a decimal fraction
 };
 

@@ -11,7 +11,7 @@ constexpr size_t most_effort = 400'000;
 // Copying this many numbers of a memory takes no longer than following an instruction.
 constexpr size_t effortless = 64;
 constexpr size_t most_steps = 20'000;   // steps written down, unused ones too
-constexpr int most_iterations = 1'000;  // of one loop
+constexpr int most_iterations = 1'000;  // most iterations of one loop
 
 }  // namespace
 

@@ -6,7 +6,7 @@
 namespace eyeray::engine::formula {
 
 struct Fault {
-  int line;    // of the text, from 1
+  int line;    // line of the text, from 1
   int column;  // from 1; 0 where unknown
   std::string message;
 };

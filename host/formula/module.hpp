@@ -34,9 +34,9 @@ struct Instruction {
 
 struct Block {
   uint32_t label = 0;
-  uint32_t merge = 0;  // of a loop's header: its merge block, else 0
-  uint32_t next = 0;   // of a loop's header: its continue target, else 0
-  uint32_t join = 0;   // of a selection's header: where its ways join again, else 0
+  uint32_t merge = 0;  // for a loop's header its merge block, else 0
+  uint32_t next = 0;   // for a loop's header its continue target, else 0
+  uint32_t join = 0;   // for a selection's header the block where its ways join again, else 0
   std::vector<Instruction> instructions{};
 };
 

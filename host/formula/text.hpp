@@ -23,9 +23,9 @@ struct Text {
   // A variable without an initial value: one that is declared without it, or an `out` parameter.
   struct Unset {
     size_t token;      // the initial value is to be written behind this token
-    std::string type;  // of the variable, or of an array's elements
-    size_t length;     // of an array, else 0
-    std::string name;  // of a parameter, else empty
+    std::string type;  // type of the variable, or of an array's elements
+    size_t length;     // length of an array, else 0
+    std::string name;  // name of a parameter, else empty
   };
   std::vector<Unset> unset{};  // in the order of their tokens
 

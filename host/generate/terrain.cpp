@@ -12,8 +12,8 @@ namespace eyeray::engine::generate {
 namespace {
 
 constexpr double reach = 5;        // half the side of the square
-constexpr double height = 1.4;     // of the first octave
-constexpr double frequency = 0.3;  // of the first octave, in lattice cells a unit of length
+constexpr double height = 1.4;     // height of the first octave
+constexpr double frequency = 0.3;  // frequency of the first octave, in lattice cells a unit of length
 constexpr int rows_at_once = 64;
 
 // Rows of heights, made in parallel.

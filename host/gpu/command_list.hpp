@@ -45,7 +45,7 @@ class CommandList {
   RunTime run(double timeout_seconds);
 
   std::shared_ptr<Context> context_;
-  std::string name_;  // of the kernels, for errors
+  std::string name_;  // name of the kernels, for errors
 };
 
 // Runs a list of one dispatch. Drivers put off compiling a kernel until its first dispatch (lavapipe: its

@@ -9,7 +9,7 @@
 namespace eyeray::engine::gpu {
 namespace {
 
-constexpr size_t pixel_bytes = 4;  // of each image
+constexpr size_t pixel_bytes = 4;  // pixel bytes of each image
 
 struct AttachmentType {
   const char* name;

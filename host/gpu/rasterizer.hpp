@@ -21,7 +21,7 @@ struct RasterVertex {
 
 // A drawn picture, row by row.
 struct RasterPicture {
-  std::vector<uint32_t> ids;  // of the nearest triangle at the pixel's centre; of a tie, the first
+  std::vector<uint32_t> ids;  // ids of the nearest triangle at the pixel's centre; of a tie, the first
   std::vector<float> depths;  // that triangle's depth there; id and depth are 0 if there is no triangle
 };
 

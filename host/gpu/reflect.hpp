@@ -28,7 +28,7 @@ enum class BindingKind {
 };
 
 struct Reflection {
-  std::map<uint32_t, BindingKind> bindings;  // of descriptor set 0
+  std::map<uint32_t, BindingKind> bindings;  // bindings of descriptor set 0
   uint32_t push_constant_bytes = 0;
   std::array<uint32_t, 3> local_size{1, 1, 1};
   std::vector<ReflectedStruct> structs;

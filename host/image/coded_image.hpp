@@ -19,7 +19,7 @@ struct CodedImage {
 };
 
 inline constexpr int most_coded_side = 16384;                // pixels; hence at most 2^28 of them
-inline constexpr size_t most_coded_bytes = size_t{1} << 30;  // of a file
+inline constexpr size_t most_coded_bytes = size_t{1} << 30;  // most coded bytes of a file
 
 // The error that a scene's images have too many pixels.
 class TooManyPixels : public Error {

@@ -32,7 +32,7 @@ struct MeshCounts {
 // The vertices of a file, from which several meshes may take theirs.
 struct VertexPool {
   std::vector<Vec3> positions;
-  std::vector<Vec3> normals;  // of any length
+  std::vector<Vec3> normals;  // vectors of any length
   std::vector<Vec2> uv;
   std::vector<Vec3> colors;     // linear RGB, one a position or one a face (RawTriangles::colors), or none
   std::vector<double> alphas;   // one a position, or none; only with colours

@@ -17,7 +17,7 @@ constexpr Vec3 rayleigh(0.005802, 0.013558, 0.033100), ozone(0.000650, 0.001881,
 constexpr double mie_scattering = 0.003996, mie_extinction = 0.004440, mie_forward = 0.8;
 constexpr double sun_angle = 0.533;  // degrees
 
-constexpr int width = 512, height = 256;  // of the map
+constexpr int width = 512, height = 256;  // width of the map
 
 struct Medium {
   Vec3 rayleigh_scattering;

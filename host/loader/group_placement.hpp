@@ -24,7 +24,7 @@ class GroupPlacer {
   Scene& scene_;
   const MeshPlacer& meshes_;
   struct Extent {
-    Bounds bounds;     // of the shapes
+    Bounds bounds;     // bounds of the shapes
     double thickness;  // the least thickness_margin() of any shape
     double condition;  // the condition number of the worst map
   };

@@ -177,8 +177,8 @@ class Builder {
   std::optional<GroupPlan> plan_;
   GroupPlacer group_placer_{scene_, placer_};
   std::map<const toml::table*, int> instanced_groups_;  // indices in Scene::groups
-  double worst_condition_ = 0;                          // of all maps since the current group was begun
-  Group* building_ = nullptr;                           // receives shapes and meshes; null: the scene does
+  double worst_condition_ = 0;  // worst condition number of all maps since the current group was begun
+  Group* building_ = nullptr;   // receives shapes and meshes; null: the scene does
   size_t lights_ = 0;
   std::vector<SourcePosition> light_positions_ = {};  // one for each of scene_.lights
   std::vector<std::pair<const AreaShape*, const toml::table*>> area_lights_ = {};

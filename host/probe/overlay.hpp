@@ -28,7 +28,7 @@ struct Range {
 
 struct Line {
   std::string name;
-  std::vector<std::optional<ProbedValue>> values;  // of each executor
+  std::vector<std::optional<ProbedValue>> values;  // values of each executor
   std::optional<Range> range = {};
   Verdict verdict = Verdict::agrees;
   std::string difference = {};  // "gpu and twin: 3 ULP"; empty where they agree
@@ -44,7 +44,7 @@ struct Ray {
   std::vector<Line> lines = {};
   bool missed_around = false;         // whether the reference lacks the ray at some point around the pixel
   bool traced_around = false;         // whether the reference has the ray at some point around the pixel
-  Verdict verdict = Verdict::agrees;  // of `traced`
+  Verdict verdict = Verdict::agrees;  // verdict of `traced`
   std::string difference = {};
 };
 

@@ -31,7 +31,7 @@ struct Findings {
   std::string scene;  // its file
   int width = 0, height = 0;
   int x = 0, y = 0;
-  uint32_t sample = 0;  // of `samples`
+  uint32_t sample = 0;  // sample of `samples`
   int samples = 1;
   Vec3 eye{0.0};  // points in the overlay are relative to it
   std::vector<Participant> participants;

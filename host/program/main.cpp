@@ -28,7 +28,7 @@ namespace eyeray::engine::program {
 namespace {
 
 struct Reporter {
-  std::string name;  // of the program
+  std::string name;  // name of the program
   bool json;
 
   // Reports once why the program ends, since the cause and its consequence may both call this.

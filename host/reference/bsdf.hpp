@@ -15,8 +15,8 @@ struct BsdfValue {
 struct BsdfSample {
   enum class Kind { lobe, mirrored, refracted, passed };
   Kind kind;
-  Vec3 i;         // of a lobe: the direction from which light may come; 0 if the surface itself blocks it
-  Vec3 weight;    // of a single direction: throughput / probability; without layers, unless passed
+  Vec3 i;         // for a lobe the direction from which light may come; 0 if the surface itself blocks it
+  Vec3 weight;    // for a single direction throughput / probability; without layers, unless passed
   uint32_t lobe;  // its number in the shaders
 };
 

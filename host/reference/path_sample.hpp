@@ -46,7 +46,7 @@ struct Arriving {
 struct Flight {
   double t;
   bool scattered;
-  Vec3 weight;  // of the light that comes from there
+  Vec3 weight;  // weight of the light that comes from there
 };
 
 class PathSample {
@@ -137,8 +137,8 @@ class PathSample {
   Vec3 vertex_{0};                 // the path's last vertex, or the eye
   Vec3 throughput_{1};
   bool roulette_ = true;
-  uint64_t asked_ = 0;    // the value of Event::light of the last vertex
-  double density_ = 0;    // of the ray's direction, by solid angle; 0 if the direction was the only one
+  uint64_t asked_ = 0;  // the value of Event::light of the last vertex
+  double density_ = 0;  // density of the ray's direction, by solid angle; 0 if the direction was the only one
   LitPoint chosen_at_{};  // the point where the ray's direction was chosen
 };
 

@@ -14,7 +14,7 @@ namespace eyeray::engine::reference {
 struct Interaction {
   SurfacePoint surface;     // with both normals on the side from which the ray came
   Vec3 d;                   // the ray's direction, unit
-  double cos_view = 0;      // of the angle between the shading normal and −d, in [0, 1]
+  double cos_view = 0;      // cosine of the angle between the shading normal and −d, in [0, 1]
   uint64_t primitive;       // ~0 for a point of a medium
   bool has_medium = false;  // the surface's material fills its object with a medium
   Vec3 dimming{1};          // the medium's transmittance on the way here

@@ -39,7 +39,7 @@ struct IdentityPart {
 // The progress of a render.
 struct RenderPosition {
   uint64_t finished_rows = 0;   // above the band, counted from the top of the rendered rows
-  uint64_t samples = 0;         // of each pixel in the band's sums; with adaptive sampling the most
+  uint64_t samples = 0;         // samples of each pixel in the band's sums; with adaptive sampling the most
   uint64_t extra_rows = 0;      // the number of rows, from the band's top, whose sums hold one more sample
   uint64_t rays = 0;            // traced so far
   uint64_t flagged_pixels = 0;  // in the finished rows

@@ -331,7 +331,7 @@ class Driver {
   uint64_t samples_given_ = 0;                // samples of the rows passed to the sink
   int least_samples_;                         // the least that a pixel of these rows has
   double luminances_given_ = 0;               // the sum of the luminances in these rows
-  Brightness brightness_;                     // of all samples
+  Brightness brightness_;                     // brightness of all samples
   std::vector<PixelSample> tile_samples_;
   std::vector<AuxiliarySample> tile_auxiliaries_;
   RowsAtATime at_a_time_;

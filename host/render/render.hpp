@@ -16,7 +16,7 @@ class Checkpoint;  // render/checkpoint.hpp
 struct Progress {
   uint64_t samples_done = 0;     // the samples of all pixels so far, resumed ones included
   uint64_t samples_total = 0;    // with RenderOptions::noise an estimate
-  uint64_t samples_resumed = 0;  // of samples_done, those that an earlier run took
+  uint64_t samples_resumed = 0;  // the part of samples_done that an earlier run took
   uint64_t rays = 0;             // traced by this run
   double seconds = 0;            // since this run's sampling began
   int band = 0;                  // the present one of `bands`, from 0
@@ -65,10 +65,10 @@ struct RenderTotals {
   uint64_t samples_total = 0;    // as in Progress
   uint64_t samples_resumed = 0;
   uint64_t rays_resumed = 0;
-  RayCounts ray_kinds;     // of this run, if requested
+  RayCounts ray_kinds;     // ray kinds of this run, if requested
   int most_samples = 0;    // the most samples of a pixel
   uint64_t fireflies = 0;  // Brightness::fireflies of this run
-  Brightness brightness;   // of this run's samples
+  Brightness brightness;   // brightness of this run's samples
   uint64_t clamped = 0;    // samples of this run that RenderOptions::clamp changed
   // With RenderOptions::noise: the number of pixels with at most that noise, and the greatest noise of a
   // pixel.
@@ -97,8 +97,8 @@ bool trace_first_hits(executors::Executor& executor, const Rect& crop, const Fir
 
 // The whole result of a render.
 struct Rendering : RenderTotals {
-  image::Image color;                // of the crop; linear RGB, the mean of the samples
-  std::vector<FirstHit> first_hits;  // of the crop; empty unless asked for
+  image::Image color;                // color of the crop; linear RGB, the mean of the samples
+  std::vector<FirstHit> first_hits;  // first hits of the crop; empty unless asked for
   image::Image hits, rays_traced;    // the channels `hits` and `rays`
 };
 

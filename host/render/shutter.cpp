@@ -89,7 +89,7 @@ class Shutter final : public Executor {
   executors::Backend backend_;
   const Scene& scene_;
   executors::ExecutorOptions options_;
-  StageTimes gone_;  // of the earlier executors
+  StageTimes gone_;  // times of the earlier executors
   double shown_ = 0;
   std::unique_ptr<Scene> moment_;  // the scene of executor_
   std::unique_ptr<Executor> executor_;

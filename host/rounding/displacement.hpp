@@ -19,7 +19,7 @@ struct Displacement {
   double share = 0;
   // Rays always leave along the normal, and a surface that a ray grazes shows its other side.
   bool along_normal = false;
-  uint32_t seed = 0;  // of the shifts
+  uint32_t seed = 0;  // seed of the shifts
   TextureChoice textures = TextureChoice::at_hit;
   bool coincident = false;  // the farther of two surfaces that float32 cannot distinguish is hit
   uint32_t numbers = 0;     // unless 0: the seed that displaces each random number, by up to 4 units of 2^-24

@@ -13,7 +13,7 @@ struct Bsdf {
   double layered = 1;          // the share of the surface that mirrors by `layer`
   optics::Fresnel metal = {};
   double metallic = 0;   // the share of the surface that mirrors by `metal`
-  double roughness = 1;  // of `layer`, `metal`, `glass` and `thin`
+  double roughness = 1;  // roughness of `layer`, `metal`, `glass` and `thin`
   double coat = 0;       // the share of the surface that is coated
   double coat_roughness = 1;
   Vec3 coat_normal{0, 0, 1};  // in the surface's own frame

@@ -34,7 +34,7 @@ struct Emitter {
 // The emitting surfaces of a scene.
 struct Emitters {
   std::vector<Emitter> sampled;           // in the order of their primitives
-  std::vector<SourcePosition> unsampled;  // of emitting shapes and meshes that only random paths find
+  std::vector<SourcePosition> unsampled;  // the emitting shapes and meshes that only random paths find
 };
 
 // Error (bad_input) where more than 2²⁰ surfaces emit.

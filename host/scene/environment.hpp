@@ -17,7 +17,7 @@ namespace eyeray::engine {
 // light.
 struct EnvironmentCells {
   std::vector<uint32_t> row_ends;     // as whole_shares() sets them
-  std::vector<uint32_t> column_ends;  // of each row's cells, row after row
+  std::vector<uint32_t> column_ends;  // column ends of each row's cells, row after row
 
   // True if there is any light.
   bool lit() const { return row_ends.back() > 0; }

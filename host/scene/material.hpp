@@ -43,9 +43,9 @@ struct Scattering {
 struct ScatteringContext {
   TextureContext place;
   double cos_view;  // cosine between the shading normal and the direction back along the ray, in [0, 1]
-  double ior_from;  // of the medium the ray comes through
-  double ior_to;    // of the medium behind the surface
-  Vec3 color{1.0};  // of a mesh's vertices: the factor of the colours that scatter
+  double ior_from;  // index of refraction of the medium the ray comes through
+  double ior_to;    // index of refraction of the medium behind the surface
+  Vec3 color{1.0};  // color of a mesh's vertices: the factor of the colours that scatter
   Vec3 coat_normal{0, 0, 1};  // in the surface's own frame, whose z is the shading normal
 };
 

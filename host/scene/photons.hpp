@@ -12,7 +12,7 @@ namespace eyeray::engine {
 
 struct PhotonSettings {
   uint32_t count;  // number of photons of each sample
-  double radius;   // of the disk on which the first sample gathers photons
+  double radius;   // radius of the disk on which the first sample gathers photons
   // The centre of a sphere around all bounded objects. Lights that are infinitely far away emit their photons
   // towards it.
   Vec3 center;

@@ -34,8 +34,8 @@ class PrimitiveIds {
   struct Location {
     int group_instance = -1;  // −1: the scene's own
     bool is_shape = true;
-    size_t index = 0;     // of the shape, or of the instance of a mesh
-    size_t triangle = 0;  // of the instance's mesh
+    size_t index = 0;     // index of the shape, or of the instance of a mesh
+    size_t triangle = 0;  // triangle of the instance's mesh
   };
   Location locate(uint64_t primitive, const Scene& scene) const;
 

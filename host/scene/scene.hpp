@@ -39,7 +39,7 @@ struct ImageSettings {
   SamplePattern pattern{0};  // regular
   PixelFilter filter = PixelFilter::box;
   double filter_width = 1;  // in pixels, from end to end; 1 for a box
-  image::Tone tone = {};    // of .png pictures
+  image::Tone tone = {};    // tone of .png pictures
 
   Vec2 size() const { return {width, height}; }  // in pixels
   int64_t all_samples() const { return int64_t{width} * height * samples; }
@@ -59,7 +59,7 @@ struct RenderSettings {
   TriangleMethod triangle_method = TriangleMethod::woop;
   LightSampler light_sampler = LightSampler::automatic;
   GroupStorage groups = GroupStorage::automatic;  // which groups are instanced
-  int photons = 1 << 17;                          // of `sppm`, emitted for each sample
+  int photons = 1 << 17;                          // photons of `sppm`, emitted for each sample
   double photon_radius = 0;  // within which the first sample gathers photons; 0: see scene/photons.hpp
   Vec3 background{0.0};      // the light of a ray that hits nothing
   Vec3 ambient{0.0};         // light that reaches every point from everywhere
@@ -74,7 +74,7 @@ struct VerifySettings {
 // counted from 0.
 struct Animation {
   double frame = 0;               // the frame shown
-  double frames_per_second = 24;  // of a video
+  double frames_per_second = 24;  // frames per second of a video
   int tracks = 0;                 // number of values that move
   double first = 0, last = 0;     // the frames between which values move
   // Motion blur: the shutter is open for `shutter` frames around `frame`, and a picture shows `shutter_steps`
@@ -101,7 +101,7 @@ struct Scene {
   VerifySettings verify;
   Animation animation;
   Medium medium;               // around all shapes, for paths; of ior 1
-  MediumExtent medium_extent;  // of that medium
+  MediumExtent medium_extent;  // extent of that medium
   bool is_mesh_alone = false;  // a mesh file in place of a scene, in eyeray's own light
   std::shared_ptr<const EnvironmentMap> environment;  // in place of the background; null where there is none
   std::vector<std::unique_ptr<Light>> lights;
@@ -113,7 +113,7 @@ struct Scene {
   std::vector<Instance> instances;
   std::vector<Group> groups;  // those that are instanced
   std::vector<GroupInstance> group_instances;
-  Names names;  // of shapes and instances
+  Names names;  // names of shapes and instances
 
   // The number of primitives for rays; scene/primitive_ids.hpp has their order.
   uint64_t primitive_count() const;

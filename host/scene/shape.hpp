@@ -32,7 +32,7 @@ struct Intersection {
   double t = 0;
   double u = 0;
   double v = 0;
-  uint32_t part = 0;             // of a CSG object: the part whose surface is hit
+  uint32_t part = 0;             // part of a CSG object: the part whose surface is hit
   bool iteration_limit = false;  // no hit up to t; beyond t the allowed steps did not suffice
 };
 
@@ -59,7 +59,7 @@ struct SurfacePoint {
     Vec4 tangent;
   };
   std::optional<SecondUv> second = {};
-  Vec3 color{1.0};        // of a mesh's vertices
+  Vec3 color{1.0};        // color of a mesh's vertices
   Vec3 coat_normal{0.0};  // unit normal of a clear coat, like `normal`, once the material has set it
   // The distance by which a triangle with normals at its corners lifts its scattered rays along its
   // interpolated normal, in front and behind (docs/numerics.md); −1 for any other surface.
@@ -204,7 +204,7 @@ class Shape {
   int material = 0;                 // index in Scene::materials
   std::string_view type = "shape";  // the name of its table in a scene file; "shape" if no file made it
   NameRef name;                     // in Scene::names
-  SourcePosition position;          // of its table in the scene file
+  SourcePosition position;          // position of its table in the scene file
 };
 
 // Calls visit(leaf) for each shape that a CSG object and the CSG objects in it are made of, in the order of

@@ -22,7 +22,7 @@ struct TextureContext {
       : uv(at_uv), second_uv(at_second_uv), position(at_position) {}
 
   Vec2 uv;
-  Vec2 second_uv;  // of a mesh that has them, else uv
+  Vec2 second_uv;  // second uv of a mesh that has them, else uv
   Vec3 position;
 };
 

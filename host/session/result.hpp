@@ -23,13 +23,13 @@ struct Result {
   std::optional<render::Shard> shard;
   std::string device;         // Executor::description()
   uint64_t flagged_hits = 0;  // pixels; 0 if no channel is made of first hits
-  PictureQuality quality;     // of colour and first hits
+  PictureQuality quality;     // quality of colour and first hits
   std::vector<Diagnostic> warnings;
   std::vector<std::filesystem::path> files;  // written
   std::filesystem::path checkpoint;          // the file left to resume from; empty: none
-  std::optional<RayCounts> ray_kinds;        // of this run, if requested
+  std::optional<RayCounts> ray_kinds;        // ray kinds of this run, if requested
   StageTimes times;
-  double seconds = 0;  // of the whole request
+  double seconds = 0;  // seconds of the whole request
 
   bool interrupted() const { return totals.interrupted; }
   // The share of all samples that were taken.

@@ -10,7 +10,7 @@ namespace {
 
 // Limits on the cuts of one search. Beyond many_cuts a ray runs along the patch.
 constexpr int most_cuts = 5000, many_cuts = 1000;
-constexpr double small = 1e-13;  // of a patch, in u and v
+constexpr double small = 1e-13;  // the size of a small patch, in u and v
 
 // The patch as the ray sees it: two distances from the ray and one along it.
 struct Part {

@@ -71,8 +71,8 @@ Bend bend(const BezierNet& net) {
   const double size = std::max(glm::length(middle.along_u), glm::length(middle.along_v));
   if (!(volume > 1e-9 * size * shorter * shorter)) return {HUGE_VAL, HUGE_VAL};
   const Mat3 to_axes = glm::inverse(axes);
-  std::array<std::array<Vec3, 3>, 4> by_u;  // of each row
-  std::array<std::array<Vec3, 3>, 4> by_v;  // of each column
+  std::array<std::array<Vec3, 3>, 4> by_u;  // derivatives by u, for each row
+  std::array<std::array<Vec3, 3>, 4> by_v;  // derivatives by v, for each column
   for (size_t i = 0; i < 4; ++i)
     for (size_t k = 0; k < 3; ++k) {
       by_u[i][k] = to_axes * (3.0 * (net[4 * i + k + 1] - net[4 * i + k]));

@@ -30,7 +30,7 @@ BezierNet bezier_part(const BezierNet& net, const BezierRange& range);
 struct BezierPiece {
   BezierRange range;
   Vec3 middle;
-  double radius;  // of a ball around `middle` that holds the piece
+  double radius;  // radius of a ball around `middle` that holds the piece
   Vec3 normal;    // along ∂u × ∂v, unit
   double beyond;  // share of its size by which the search for a hit goes beyond its borders; 2: it is a
                   // speck, tested as a disk

@@ -143,7 +143,7 @@ class Implicit final : public ObjectShape {
  private:
   static constexpr double itself = 6;  // Intersection::u, beside the cube's faces
   static constexpr int most_crossed = 1000;
-  static constexpr size_t typical_steps = 96;  // of a ray in the shaders
+  static constexpr size_t typical_steps = 96;  // typical steps of a ray in the shaders
 
   // Crossings with the surface, and with the cube's faces where they are within it; v is 1 if the ray enters.
   // Each search starts where f surely has the sign past the last crossing, so that entries and exits

@@ -82,8 +82,8 @@ class Torus final : public ObjectShape {
   struct Sample {
     double s;
     double depth;
-    double square_rise;  // of |p|²
-    double round_rise;   // of 2ρ
+    double square_rise;  // square rise of |p|²
+    double round_rise;   // round rise of 2ρ
   };
   Sample sample(const Ray& ray, double s) const {
     const Vec3 p = ray.o + ray.d * s;

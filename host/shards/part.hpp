@@ -66,7 +66,7 @@ struct PartTotals {
   uint64_t clamped = 0;
   render::Brightness brightness;
   std::optional<RayCounts> ray_kinds;      // where they were asked for
-  double seconds = 0;                      // of sampling
+  double seconds = 0;                      // seconds of sampling
   double processor_seconds = 0;            // the same, of all threads
   std::vector<film::LegendTally> legends;  // one for each AOV, empty if it has no legend
 

@@ -46,7 +46,7 @@ class PartReader {
   std::string totals_;  // as text: the counts of thousands of parts would take most of the memory
   uint64_t planes_begin_ = 0;
   uint32_t header_checksum_ = 0;
-  std::vector<int64_t> tile_pixels_;  // of each tile of the shard
+  std::vector<int64_t> tile_pixels_;  // tile pixels of each tile of the shard
   std::vector<Plane> planes_;
 };
 

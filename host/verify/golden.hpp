@@ -21,7 +21,7 @@ enum class Update {
 struct Golden {
   std::filesystem::path picture;
   Update update = Update::never;
-  std::string version;  // of eyeray
+  std::string version;  // version of eyeray
 };
 
 // Gate G compares the first frame's colours with the golden picture's, by the rules of gate B: where they

@@ -101,7 +101,7 @@ class [[nodiscard]] EYERAY_API Scene {
   static Scene parse(std::string_view toml, std::string_view name = "scene",
                      const SceneOptions& options = {});
 
-  int width() const noexcept;  // of the picture, in pixels
+  int width() const noexcept;  // width of the picture, in pixels
   int height() const noexcept;
   int samples() const noexcept;  // a pixel
   const std::vector<Diagnostic>& warnings() const noexcept;

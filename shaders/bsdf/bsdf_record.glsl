@@ -31,7 +31,7 @@ struct Bsdf {
 #if HAS_PANES
   vec3 passed;             // throughput of the light that goes straight on, through a pane
 #endif
-  float roughness;         // of layer and metal, of rough glass and of a rough pane
+  float roughness;         // roughness of layer and metal, of rough glass and of a rough pane
 #if HAS_GLOSSY
   Fresnel layer;           // that light goes through to the diffuse lobe and back
   float layered;           // the share of the surface that mirrors by the layer
@@ -49,7 +49,7 @@ struct Bsdf {
 #endif
 #if HAS_ROUGH_GLASS
   vec3 glass;              // throughput of rough glass, before Fresnel
-  vec3 glass_color;        // of the refracted light
+  vec3 glass_color;        // glass color of the refracted light
   float glass_albedo;      // glass_table towards the viewer
   float ior_from;
   float ior_to;
@@ -63,7 +63,7 @@ struct Bsdf {
   vec3 thin;               // throughput of a rough pane, under the layer
 #endif
 #if HAS_ADJOINT
-  bool adjoint;            // of a photon, which comes from `o`
+  bool adjoint;            // true for a photon, which comes from `o`
 #endif
 };
 

@@ -19,7 +19,7 @@ struct TraversalState {
   float sure_until;  // the least t at which a shape's search reached its iteration limit; T_MISS if none did
 #endif
 #if SEARCH_COST
-  uint nodes;  // of BVHs, visited so far
+  uint nodes;  // visited nodes of BVHs so far
   uint tests;  // primitives tested so far
 #endif
 };

@@ -8,7 +8,7 @@ SHADER_BEGIN
 
 // The faces that a point may choose from: of each axis the one that is turned to it; within the box both, as likely as each other.
 struct BoxFaces {
-  vec3 weight;  // of each axis; from outside area · cosine / distance² of the face's centre, up to a factor
+  vec3 weight;  // weight of each axis; from outside area · cosine / distance² of the face's centre, up to a factor
   vec3 side;
   bool inside;
 };

@@ -20,7 +20,7 @@ struct SphericalTriangle {
   float to_first;  // the cosines of its edges
   float to_second;
   float across;      // from the first to the second
-  float volume;      // of the parallelepiped of the three directions
+  float volume;      // volume of the parallelepiped of the three directions
   float half_angle;  // half its solid angle
 };
 

@@ -10,7 +10,7 @@
 SHADER_BEGIN
 
 #if HAS_SMOOTH
-#define MOST_LIFT 0.25f  // of the longest edge
+#define MOST_LIFT 0.25f  // the largest lift, as a share of the longest edge
 
 // The point lies at these heights above the planes through the corners perpendicular to their normals. `x`: how far it is below them, y:
 // how far above, both averaged by its weights, along the interpolated normal and in the primitive's own space. −1: no smooth triangle.

@@ -47,7 +47,7 @@ struct Ray {
 
 struct Hit {
   float t;        // T_MISS where nothing is hit
-  uint slot;      // of the primitive, for load_primitive; NONE where nothing is hit
+  uint slot;      // slot of the primitive, for load_primitive; NONE where nothing is hit
   uint id;        // the scene's primitive index; NONE where nothing is hit
   uint instance;  // that the primitive belongs to; NONE for one of the world's own
   vec2 uv;        // the shape's own parameters
@@ -63,7 +63,7 @@ struct Surface {
 #endif
 #if HAS_SMOOTH
   vec3 normal_side;       // unit, see side_normal; not bent by the material
-  vec2 lift;              // of a smooth triangle, see geometry/lift.glsl; −1 of any other surface
+  vec2 lift;              // lift of a smooth triangle, see geometry/lift.glsl; −1 of any other surface
 #endif
   vec2 uv;
   float offset;  // a ray that starts this far off p along the geometric normal does not hit the surface again

@@ -18,7 +18,7 @@ struct Path {
   vec3 normal;    // where it chose that, by which it asks for lights; 0 where light may come from either side
 #endif
 #if RANDOM_WALK || HAS_BLEND
-  uint pixel;     // of the picture, and which of its samples: selects its random numbers
+  uint pixel;     // pixel of the picture, and which of its samples: selects its random numbers
   uint index;
 #endif
 #if RANDOM_WALK

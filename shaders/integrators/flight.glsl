@@ -12,7 +12,7 @@ SHADER_BEGIN
 struct Flight {
   float t;         // up to the hit, or to a point before it …
   bool scattered;  // … where the path goes on, and its hit does not count
-  vec3 weight;     // of the light that comes from there
+  vec3 weight;     // weight of the light that comes from there
 };
 
 #if HAS_ABSORPTION

@@ -94,7 +94,7 @@ vec3 path_emitted(Frame frame, Path path, Interaction at) {
 
 // The normal for queries of a light BVH; 0 if the surface also transmits light from behind it.
 vec3 normal_for_lights(Interaction at) {
-  bool all_around = transmits(at.bsdf) || at.primitive == NONE;  // of a point in a medium
+  bool all_around = transmits(at.bsdf) || at.primitive == NONE;  // true for a point in a medium, too
   return all_around ? vec3(0.0f, 0.0f, 0.0f) : at.seen.normal;
 }
 
@@ -103,9 +103,9 @@ struct Arriving {
   vec3 direction;
   Ray ray;
   float distance;
-  vec3 radiance;  // of a light without extent π · its intensity, a density being 1
+  vec3 radiance;  // radiance of a light without extent π · its intensity, a density being 1
   float density;  // by solid angle, with that of the light's choice; 0 without extent
-  float share;    // of the light among all
+  float share;    // share of the light among all
   uint light;     // its number; NONE: the environment, or nothing
 };
 
@@ -227,7 +227,7 @@ bool path_shadow_ray(Frame frame, Path path, Interaction at, uint i, OUT(Ray) ra
 // The way in which a vertex continues the path.
 struct ScatterEvent {
   vec3 d;
-  vec3 weight;       // of the light from there
+  vec3 weight;       // weight of the light from there
   float density;     // by solid angle, of d; 0 where there was no choice
   bool refracted;    // to the other side
   bool straight_on;  // seen through the surface: a lift would move it

@@ -15,7 +15,7 @@ SHADER_BEGIN
 struct PhotonSource {
   vec3 o;
   vec3 d;
-  vec3 flux;   // of all photons, if each were as this one
+  vec3 flux;   // flux of all photons, if each were as this one
   uint media;  // that it starts in
   uint light;  // its number; NONE: the surroundings
   bool below;  // it leaves a surface against its normal

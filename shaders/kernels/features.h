@@ -187,7 +187,7 @@
 //   SCENE_PRIMITIVES      (X): X(name, slot, primitive) of each, in the order of their ids
 
 // ---- Loops and stacks ------------------------------------------------------------------------------------------------
-#ifndef STACK_SIZE  // of a traversal
+#ifndef STACK_SIZE  // size of a traversal's stack
 #define STACK_SIZE 128
 #endif
 #ifndef SHIFT_STACK  // whether it stays in registers (bvh/bvh.glsl)

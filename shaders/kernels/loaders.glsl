@@ -46,7 +46,7 @@ Frame load_frame() { return frame_record; }
 #endif
 #endif
 #if STORED_HITS
-uint stored_place;  // of this invocation's pixel
+uint stored_place;  // index of this invocation's pixel in the results
 PacketHit load_packet_hit() { return packet_hits[stored_place]; }
 uint load_occlusion(uint light) { return occlusions[light * dispatch.count + stored_place]; }
 #endif

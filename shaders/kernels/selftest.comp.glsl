@@ -6,7 +6,7 @@ layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Inputs { uint inputs[]; };
 layout(std430, binding = 1) writeonly buffer Outputs { uint outputs[]; };
 layout(push_constant) uniform Sizes {
-  uint count;            // of invocations; inputs are count each of a, b and c, then the special ones
+  uint count;            // count of invocations; inputs are count each of a, b and c, then the special ones
   uint loop_iterations;  // more than some drivers are willing to make
 };
 

@@ -7,7 +7,7 @@
 SHADER_BEGIN
 
 vec3 directional_towards(Light light) { return vec3(light.a); }  // the unit direction to the light
-float directional_versine(Light light) { return light.a.w; }  // of half the angle under which it is seen
+float directional_versine(Light light) { return light.a.w; }  // versine of half the angle under which it is seen
 
 LightSample directional_sample(Light light, vec3 p) {
   LightSample s = no_light();

@@ -9,8 +9,8 @@ SHADER_BEGIN
 struct LightSample {
   vec3 direction;  // unit, towards the light
   float distance;  // T_MISS for a light without a position
-  vec3 color;      // of the light that arrives when nothing is in between
-  float versine;   // of half the angle under which it is seen: one less the cosine; 0 of a light that is a point
+  vec3 color;      // color of the light that arrives when nothing is in between
+  float versine;   // versine of half the angle under which it is seen: one less the cosine; 0 of a light that is a point
 };
 
 LightSample no_light() {

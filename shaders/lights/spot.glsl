@@ -7,7 +7,7 @@
 SHADER_BEGIN
 
 vec3 spot_position(Light light) { return vec3(light.a); }
-float spot_versine(Light light) { return light.a.w; }  // of the cone's outer angle
+float spot_versine(Light light) { return light.a.w; }  // versine of the cone's outer angle
 vec3 spot_axis(Light light) { return vec3(light.b); }  // the unit direction that it opens in
 float spot_steepness(Light light) { return light.b.w; }  // 1 / (the outer angle's versine − the inner one's)
 

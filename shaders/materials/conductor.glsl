@@ -8,7 +8,7 @@ SHADER_BEGIN
 bool conductor_is_measured(Material material) { return material.b.w != 0.0f; }  // n, k and mean count
 vec3 conductor_n(Material material) { return vec3(material.b); }  // at red, green and blue
 vec3 conductor_k(Material material) { return material.c; }
-vec3 conductor_mean(Material material) { return vec3(material.a); }  // of the reflectance
+vec3 conductor_mean(Material material) { return vec3(material.a); }  // mean of the reflectance
 
 Scattering conductor_scattering(Material material, ScatteringContext context) { return phong_scattering(material, context); }
 

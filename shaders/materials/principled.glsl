@@ -9,7 +9,7 @@
 
 SHADER_BEGIN
 
-vec3 principled_f0(Material material) { return vec3(material.b); }  // of all but metal, where its texture is white; and …
+vec3 principled_f0(Material material) { return vec3(material.b); }  // F0 of all but metal, where its texture is white; and …
 float principled_f90(Material material) { return material.b.w; }  // … so seen edge-on
 
 Scattering principled_scattering(Material material, ScatteringContext context) {

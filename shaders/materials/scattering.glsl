@@ -13,7 +13,7 @@ SHADER_BEGIN
 
 struct ScatteringContext {
   TextureContext place;
-  vec3 color;      // of a mesh's vertices, white where they have none
+  vec3 color;      // color of a mesh's vertices, white where they have none
   float cos_view;  // in [0, 1]
   float ior_from;
   float ior_to;

@@ -16,13 +16,13 @@ uint pcg_hash(uint x) {
 // The uses of pairs of random numbers. Each use has its own pair, on every path.
 #define PAIR_PLACE 0u     // in the pixel
 #define PAIR_LENS 1u      // and on the lens
-#define PAIR_SCATTER 4u   // of the first vertex: which lobe, and whether the path ends; PAIRS_A_VERTEX further on those of the next
+#define PAIR_SCATTER 4u   // at the first vertex: which lobe, and whether the path ends; PAIRS_A_VERTEX further on those of the next
 #define PAIR_DIRECTION 5u
 #define PAIR_LIGHT 6u     // which light
 #define PAIR_EMITTER 7u   // where on it
 #define PAIRS_A_VERTEX 4u
 #define PHOTONS_OF 0x80000000u  // + a sample's number: for its photons, in place of a pixel; a photon's number is in place of a sample's
-#define PAIR_SIDE 3u            // of a photon: which side of a surface it leaves, and its target; before that, …
+#define PAIR_SIDE 3u            // for a photon: which side of a surface it leaves, and its target; before that, …
 #define PAIR_SOURCE 0u          // … which light, …
 #define PAIR_START 1u           // … where on it or from where around, …
 #define PAIR_HEADING 2u         // … and where to

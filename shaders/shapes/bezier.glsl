@@ -10,7 +10,7 @@ SHADER_BEGIN
 
 vec4 bezier_span(Primitive s) { return s.a; }  // the piece's u from, to, v from, to
 vec3 bezier_middle(Primitive s) { return vec3(s.b); }
-float bezier_radius(Primitive s) { return s.b.w; }  // of a ball around it
+float bezier_radius(Primitive s) { return s.b.w; }  // radius of a ball around it
 vec3 bezier_normal(Primitive s) { return vec3(s.c); }  // in the middle
 float bezier_beyond(Primitive s) { return abs(s.c.w); }  // by which share of its size the search goes beyond its borders; BEZIER_SPECK: none
 bool bezier_is_turned(Primitive s) { return s.c.w < 0.0f; }  // the patch's normal is the other one

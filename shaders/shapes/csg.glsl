@@ -11,7 +11,7 @@
 SHADER_BEGIN
 
 #if HAS_CSG
-vec3 csg_center(Primitive s) { return vec3(s.a); }  // of its bounds
+vec3 csg_center(Primitive s) { return vec3(s.a); }  // center of its bounds
 vec3 csg_half_size(Primitive s) { return vec3(s.b); }
 
 #define LEAF_WORDS 6u
@@ -22,7 +22,7 @@ struct CsgHit {
   uint leaf;     // whose surface it is
   float after;   // where the crossing before was, of any leaf
   uint side;     // on which the ray was of the leaf
-  uint optical_depth;  // of all surfaces on the way, the greatest
+  uint optical_depth;  // optical depth of all surfaces on the way, the greatest
   bool iteration_limit;  // a leaf did not find its next crossing: beyond `after` nothing is sure
 };
 

@@ -8,8 +8,8 @@
 SHADER_BEGIN
 
 vec3 polygon_normal(Primitive s) { return vec3(s.a); }
-uint polygon_turns(Primitive s) { return uint(s.a.w); }  // of the loop below
-vec3 polygon_center(Primitive s) { return vec3(s.b); }  // of the bounds, on the plane
+uint polygon_turns(Primitive s) { return uint(s.a.w); }  // iterations of the loop below
+vec3 polygon_center(Primitive s) { return vec3(s.b); }  // center of the bounds, on the plane
 vec3 polygon_half_size(Primitive s) { return vec3(s.c); }
 
 vec3 path_vertex(Ray ray, uint i) { return seen_along(ray, vec3(bits_to_floats(load_outline(i)))); }

@@ -13,7 +13,7 @@ vec3 power_norm(float a, float b, float n) {
   float larger = maximum(a, b);
   float ratio = larger > 0.0f ? minimum(a, b) / larger : 0.0f;
   float power = ratio > 0.0f ? exp_negative(n * log_positive(maximum(ratio, 1.0e-30f))) : 0.0f;
-  float share = exp_negative(-log_positive(1.0f + power) / n);  // of the larger in the norm
+  float share = exp_negative(-log_positive(1.0f + power) / n);  // share of the larger in the norm
   float by_larger = 1.0f / ((1.0f + power) * share);
   float by_smaller = ratio > 0.0f ? power / ratio * by_larger : 0.0f;
   return a < b ? vec3(larger / share, by_smaller, by_larger) : vec3(larger / share, by_larger, by_smaller);

@@ -11,7 +11,7 @@ SHADER_BEGIN
 // Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection" (JCGT 2013). The edge functions of a shared edge are
 // each other's exact negatives, so a ray cannot slip between neighbours; one that hits the edge itself belongs to both.
 struct TriangleEdges {
-  vec3 x;  // of the three vertices, from the ray's start, permuted and sheared so that the ray runs along z
+  vec3 x;  // x of the three vertices, from the ray's start, permuted and sheared so that the ray runs along z
   vec3 y;
   vec3 z;
   float u;

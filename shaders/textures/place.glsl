@@ -8,7 +8,7 @@ SHADER_BEGIN
 struct TextureContext {
   vec2 uv;
 #if HAS_SECOND_UV
-  vec2 second_uv;  // of a mesh's vertices; uv where there are none
+  vec2 second_uv;  // second uv of a mesh's vertices; uv where there are none
 #endif
   vec3 p;  // from the eye
 };

@@ -51,7 +51,7 @@ std::vector<Line> top_level(const SourceFile& file) {
   std::vector<Line> found;
   std::vector<std::string> scopes;
   std::smatch match;
-  bool in_body = false;  // of a type or a function, which ends with a brace at the margin
+  bool in_body = false;  // true inside of a type or a function, which ends with a brace at the margin
   for (size_t i = 0; i < file.lines.size(); ++i) {
     const std::string& line = file.lines[i];
     if (std::regex_match(line, match, opening)) {

@@ -133,7 +133,7 @@ TEST_CASE("paths are read back from JSON, and compared where the last level is t
   CHECK(path_changes(read_path_reports(file), {now}) == "");
   write_text(file, R"({"paths": [{"scene": "a"}]})");
   CHECK_THROWS_AS(read_path_reports(file), Error);
-  write_text(file, R"({"bench": [], "field": []})");  // of an older version
+  write_text(file, R"({"bench": [], "field": []})");  // a file of an older version
   CHECK(read_path_reports(file).empty());
 }
 

@@ -64,7 +64,7 @@ void for_each_rod(int size_factor, const std::function<void(const Rod&)>& visit)
 
 // ---- gears: a block of gears that mesh, some of glass ----
 struct Gear {
-  Vec3 center;  // of the gear's top face
+  Vec3 center;  // center of the gear's top face
   double radius;
   double thickness;
   Vec3 color;

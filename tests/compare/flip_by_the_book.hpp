@@ -158,7 +158,7 @@ inline std::vector<double> ldr_flip(const Picture& a, const Picture& b) {
   for (int y = 0; y < a.height; ++y)
     for (int x = 0; x < a.width; ++x) {
       Color lab[2];
-      double lengths[2][2];  // of edges and points
+      double lengths[2][2];  // lengths of edges and points
       for (size_t i = 0; i < 2; ++i) {
         Color seen{};
         for (size_t c = 0; c < 3; ++c) seen[c] = filters[c].apply(opponent[i], x, y, c);

@@ -78,7 +78,7 @@ TEST_CASE("under nohup SIGHUP is no signal") {
   CHECK_FALSE(child.wait(0.1));
   child.send_signal(SIGTERM);
   REQUIRE(child.ends());
-  CHECK(child.code() == 128 + SIGTERM);  // of the first signal that was seen
+  CHECK(child.code() == 128 + SIGTERM);  // the code of the first signal that was seen
 }
 
 TEST_CASE("child: does not ask" * doctest::skip()) {

@@ -16,7 +16,7 @@ RECORD = pathlib.Path("tests/documents/prose.txt")
 MESSAGES = pathlib.Path("tests/messages.txt")
 HABITS = {  # its column in prose.txt: its name, and the cure
     "H1": ("a headless clause as a noun", "name the thing: \"the primary hits\", not \"what camera rays hit\""),
-    "H2": ("a comment that begins with Of", "write a full phrase: \"Radius of the gather sphere\""),
+    "H2": ("a comment that begins with of", "write a full phrase: \"Radius of the gather sphere\""),
     "H3": ("fronting or inversion", "write subject, verb, object"),
     "H4": ("a word that docs/glossary.md lists as not used", ""),
     "long": ("a sentence of more than 35 words", "write a list, a table or two sentences"),
@@ -128,7 +128,7 @@ def findings_of(blocks, words, comment=False):
     if comment:
         for line, text in blocks:
             begin = plain(text)
-            if re.match(r"Of\b", begin):
+            if re.match(r"[Oo]f\b", begin):
                 yield line, "H2", begin, ""
             elif HEADLESS_COMMENT.match(begin) and not begin.rstrip().endswith("?"):
                 yield line, "H1", begin, ""

@@ -14,7 +14,7 @@ struct TestSurface {
   std::string_view name;
   std::string glsl;
   double (*f)(const Vec3& p);
-  double reach;        // of the cube around 0 within which it is examined
+  double reach;        // reach of the cube around 0 within which it is examined
   bool jumps = false;  // not continuous, or made of functions that are not
 };
 

@@ -18,7 +18,7 @@ namespace {
 struct Case {
   std::string what;
   Vec3 from, along;
-  double t;  // of the float64 half
+  double t;  // t of the float64 half
   BezierNet net;
 };
 

@@ -85,7 +85,7 @@ TEST_CASE("draco: corners that share a position only") {
 TEST_CASE("draco: a strip's triangles are whole already, and fans cannot be") {
   GltfFile file = draco_grid();
   file.primitive()["mode"] = 5;
-  file.json["accessors"][3]["count"] = 300;  // of the strip
+  file.json["accessors"][3]["count"] = 300;  // vertices of the strip
   check_grid(import_sound(file.gltf(), "a.gltf"), 2e-3);
   file.primitive()["mode"] = 6;
   CHECK(

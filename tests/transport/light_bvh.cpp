@@ -22,7 +22,7 @@ namespace {
 // Clusters of triangles, spots and point lights; some triangles shine to one side.
 struct Lights {
   std::vector<LightBounds> bounds;
-  std::vector<TriangleForm> triangles;  // of the lights that are triangles
+  std::vector<TriangleForm> triangles;  // triangles of the lights that are triangles
 
   Lights(Random& random, size_t count) {
     Vec3 heap(0);

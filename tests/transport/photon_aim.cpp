@@ -54,7 +54,7 @@ Scene above_balls(Aiming aiming, bool glass, std::span<const PhotonTarget> those
 
 struct Flux {
   Estimate all, at_balls;  // the emitted flux, and its part that goes towards a ball
-  double share;            // of the photons that go towards a ball
+  double share;            // share of the photons that go towards a ball
 };
 
 bool heads_for(const Ray& ray, const PhotonTarget& ball) {

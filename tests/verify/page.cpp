@@ -12,7 +12,7 @@ using namespace eyeray::engine;
 namespace {
 
 struct Parts {
-  std::string before, data, after;  // of the page; `data` is the JSON that its script reads
+  std::string before, data, after;  // parts of the page; `data` is the JSON that its script reads
 };
 
 Parts page_with(const std::string& text) {

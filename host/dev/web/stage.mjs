@@ -7,7 +7,7 @@ export class Stage {
     this.canvas = canvas;
     this.on = on;
     this.image = null;      // an ImageBitmap
-    this.size = [0, 0];     // of the picture, in pixels
+    this.size = [0, 0];     // size of the picture, in pixels
     this.marked = null;     // a pixel
     this.scale = 1;
     this.x = this.y = 0;    // the position of the picture's corner, in CSS pixels

@@ -21,9 +21,9 @@
 #define EACH_WAITING [[unroll]] for (int i = 0; i < WAITING; i++)
 #define EACH_ROW [[unroll]] for (int i = 0; i < STACK_ROWS; i++)
 
-uint lane;    // of the ray's four
+uint lane;    // the lane's number among the ray's four
 uint first;   // the subgroup's lane where these four begin
-uint member;  // of a group
+uint member;  // the lane's number in its group
 uint group;   // the subgroup's lane where it begins
 uint source;  // the lane whose ray these four trace
 

@@ -24,7 +24,7 @@ Bvh bvh;
 Ray ray[RAYS_A_LANE];
 TraversalState state[RAYS_A_LANE];
 bool waits[RAYS_A_LANE];   // until a shaft has it
-bool member[RAYS_A_LANE];  // of the shaft
+bool member[RAYS_A_LANE];  // whether the ray belongs to the shaft
 vec2 along[RAYS_A_LANE];   // where on the shaft it starts, and how far along it comes while t grows by 1
 
 Shaft shaft;

@@ -75,7 +75,7 @@ struct BezierSection {
   float w;
   vec2 uv;
   float z;
-  float slope;  // of z, and of u and v, over w
+  float slope;  // slope of z, and of u and v, over w
   vec2 uv_slope;
   float off;  // squared distance from here to the point where the patch was evaluated
 };

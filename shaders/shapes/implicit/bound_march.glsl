@@ -25,7 +25,7 @@ SHADER_BEGIN
 struct March {
   float t;        // up to here the sign is known, but for the pieces passed over
   float h;        // half the length of the piece that is next
-  float end;      // of the ray
+  float end;      // end of the ray
   float finest;   // a piece with a smaller h cannot be distinguished from a point; at least an ulp of t, so that every piece leads on
   float sign;     // the last that was known; 0 where none was
   float unknown;  // from here to t pieces were passed over
@@ -37,7 +37,7 @@ struct March {
   float value;    // a of the last of them, …
   float rise;     // … less that of the one before it
   float stray;    // their greatest second difference
-  float share;    // of e of a point, the part taken for rounding: 1 where all of it is; below 0 while points are evaluated, 0 before
+  float share;    // the part of a point's e that is taken for rounding: 1 where all of it is; below 0 while points are evaluated, 0 before
   float root;     // once found
   float low;      // while that is narrowed down among pieces that were passed over: before it, …
   float high;     // … and past it

@@ -10,7 +10,7 @@ SHADER_BEGIN
 
 // f ≤ 0 in a box of the user's space, which is the cube from −1 to 1 of object space.
 struct Implicit {
-  vec3 center;  // of the box
+  vec3 center;  // center of the box
   vec3 extent;  // half its sides
   float lipschitz;
   uint formula;
@@ -33,9 +33,9 @@ float crossing_t(ObjectRay r, float s, float before) { return maximum(r.t + s, b
 #define IMPLICIT_REFINEMENTS 40u
 #define IMPLICIT_CROSSINGS 64u  // that are passed in CSG objects
 #define IMPLICIT_LEAST_STEP 1.0e-5f
-#define IMPLICIT_MOST_LEAST 32.0f   // of those
-#define IMPLICIT_RELAXED 1.9f       // of 2, where the free ways would just touch
-#define IMPLICIT_MOST_STRETCH 3.0f  // of a free way
+#define IMPLICIT_MOST_LEAST 32.0f   // the least step grows to at most so many of the shortest
+#define IMPLICIT_RELAXED 1.9f       // below 2, where the free ways would just touch
+#define IMPLICIT_MOST_STRETCH 3.0f  // the most by which a free way is stretched
 #define IMPLICIT_WIDTH 1.2e-7f
 #define IMPLICIT_DIFFERENCE 0.00390625f
 #define IMPLICIT_PIECES 4096u
