@@ -15,6 +15,7 @@ PLANTED = [  # file, text that is added, where and what is found (None: nothing)
     ("docs/a.md", "\nA lamp shines.\n", "docs/a.md:3: H4"),
     ("docs/a.md", f"\n| a | b |\n| --- | --- |\n| c | {LONG} |\n", "docs/a.md:5: long"),
     ("host/a.cpp", "// Of the sphere, in metres.\n", "host/a.cpp:1: H2"),
+    ("host/a.cpp", "double radius;  // of the sphere, in metres\n", "host/a.cpp:1: H2"),
     ("shaders/a.glsl", "float a;  // What the lamp sends.\n", "shaders/a.glsl:1: H1"),
     ("tests/messages.txt", "# Messages.\nhost/a.cpp: the lamp is broken\n", "tests/messages.txt:2: H4"),
     ("docs/a.md", "\n```\nThe lamp shows what is drawn.\n```\n`lamp`, [light](lamp.md), in place of it.\n", None),
