@@ -21,7 +21,7 @@ GltfFile two_uv_file(const Json& material) {
   attributes["TEXCOORD_1"] = file.add({0, 0, 0.5, 0, 0.5, 0.5, 0, 0.5}, 5126, "VEC2", 2);
   file.json["textures"] = {{{"source", 0}}};
   file.json["images"] = {{{"uri", "data:image/png;base64," + base64(picture)}}};
-  file.json["materials"] = {material};
+  file.json["materials"] = Json::array({material});  // {material} alone is a copy to Clang
   file.primitive()["material"] = 0;
   return file;
 }
