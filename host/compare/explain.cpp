@@ -143,16 +143,17 @@ const char* name(Cause cause) {
 }
 
 Neighbourhood::Neighbourhood(const Reference& reference, Pixel pixel, int angles, bool between) {
-  const auto look = [&](const Vec2& shift, rounding::Chance chance) {
-    neighbours_.push_back(reference(pixel.x, pixel.y, shift, chance));
+  const auto look = [&](const Vec2& shift, rounding::Coincidence coincidence) {
+    neighbours_.push_back(reference(pixel.x, pixel.y, shift, coincidence));
   };
-  for (const rounding::Chance chance : {rounding::Chance::none, rounding::Chance::coincident})
-    look(Vec2(0.0), chance);
-  const rounding::Places places = rounding::places_around(
+  for (const rounding::Coincidence coincidence :
+       {rounding::Coincidence::none, rounding::Coincidence::coincident})
+    look(Vec2(0.0), coincidence);
+  const rounding::Positions positions = rounding::positions_around(
       neighbours_.front().rounding, hits_per_sample(neighbours_.front()), angles, between);
-  for (size_t i = 0; i < places.innermost; ++i) look(places.all[i], rounding::Chance::turned);
-  innermost_ = neighbours_.size() + places.innermost;
-  for (const Vec2& place : places.all) look(place, rounding::Chance::none);
+  for (size_t i = 0; i < positions.innermost; ++i) look(positions.all[i], rounding::Coincidence::turned);
+  innermost_ = neighbours_.size() + positions.innermost;
+  for (const Vec2& position : positions.all) look(position, rounding::Coincidence::none);
 }
 
 bool Neighbourhood::explains(const Vec3& value, const Tolerances& tolerances) const {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "host/compare/tolerance.hpp"
-#include "host/rounding/places.hpp"
+#include "host/rounding/positions.hpp"
 #include "host/rounding/ways.hpp"
 
 namespace eyeray::engine::compare {
@@ -32,7 +32,8 @@ struct Neighbour {
 };
 
 // Renders the reference at (x, y), a pixel of the whole picture. It is called from many threads at once.
-using Reference = std::function<Neighbour(int x, int y, const Vec2& shift, rounding::Chance chance)>;
+using Reference =
+    std::function<Neighbour(int x, int y, const Vec2& shift, rounding::Coincidence coincidence)>;
 
 // The reference for single samples whose paths are random.
 struct PathReference {
@@ -68,7 +69,7 @@ const char* name(Cause cause);
 // The reference in the neighbourhood of one pixel.
 class Neighbourhood {
  public:
-  // `angles`, `between`: see rounding::places_around.
+  // `angles`, `between`: see rounding::positions_around.
   Neighbourhood(const Reference& reference, Pixel pixel, int angles, bool between = false);
 
   // True if `value` lies within [min, max] of the neighbourhood, each bound widened by the tolerance.

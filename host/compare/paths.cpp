@@ -192,9 +192,9 @@ class PathJudge {
       }
       return false;
     };
-    const rounding::Places places = rounding::places_around(
+    const rounding::Positions positions = rounding::positions_around(
         paths_.rounding(pixel), reference_.samples[sample.sample].hits, angles, between);
-    if (!reaches(Vec2(0.0)) && std::ranges::none_of(places.all, reaches)) return;
+    if (!reaches(Vec2(0.0)) && std::ranges::none_of(positions.all, reaches)) return;
     sample.outcome = Outcome::explained;
     sample.cause = Cause::diverged;
   }

@@ -11,7 +11,7 @@
 #include "host/executors/executors.hpp"
 #include "host/executors/shader_files.hpp"
 #include "host/probe/judge.hpp"
-#include "host/rounding/places.hpp"
+#include "host/rounding/positions.hpp"
 #include "host/rounding/ways.hpp"
 #include "host/scene/objects.hpp"
 

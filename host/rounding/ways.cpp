@@ -2,11 +2,11 @@
 
 namespace eyeray::engine::rounding {
 
-std::vector<Displacement> ways_of_sample(const Sampling& sampling, Chance chance, double pivot, bool moved,
-                                         uint32_t seed) {
+std::vector<Displacement> ways_of_sample(const Sampling& sampling, Coincidence coincidence, double pivot,
+                                         bool moved, uint32_t seed) {
   constexpr double share = float32_share;
   // Rays that left the farther surface without displacement would hit the nearer one.
-  const Displacement plain = chance == Chance::coincident
+  const Displacement plain = coincidence == Coincidence::coincident
                                  ? Displacement{.share = share, .along_normal = true, .seed = seed}
                                  : Displacement{};
   std::vector<Displacement> ways = {
@@ -30,7 +30,7 @@ std::vector<Displacement> ways_of_sample(const Sampling& sampling, Chance chance
     for (const TextureChoice textures : {TextureChoice::darkest, TextureChoice::brightest})
       ways.push_back({.share = share, .seed = seed, .textures = textures});
   for (Displacement& way : ways) {
-    way.coincident = chance == Chance::coincident;
+    way.coincident = coincidence == Coincidence::coincident;
     way.pivot = pivot;
   }
   return ways;

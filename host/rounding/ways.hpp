@@ -11,7 +11,7 @@
 namespace eyeray::engine::rounding {
 
 // Effects of float32 on a displaced camera ray, in addition to its displacement.
-enum class Chance {
+enum class Coincidence {
   none,
   coincident,  // the ray hits the farther of two surfaces that float32 cannot distinguish
   turned,      // the ray pivots at its hit: displaced to one side in front of it, to the other side behind it
@@ -23,11 +23,11 @@ struct Sampling {
   bool photons = false;
 };
 
-// The ways of a sample whose camera ray `chance` displaces. The first way displaces no other ray, unless
-// `chance` is coincident. `pivot`: the t at which the ray pivots. `moved`: the ray passes through another
-// position than the sample's own.
-std::vector<Displacement> ways_of_sample(const Sampling& sampling, Chance chance, double pivot, bool moved,
-                                         uint32_t seed);
+// The ways of a sample whose camera ray `coincidence` displaces. The first way displaces no other ray, unless
+// `coincidence` is coincident. `pivot`: the t at which the ray pivots. `moved`: the ray passes through
+// another position than the sample's own.
+std::vector<Displacement> ways_of_sample(const Sampling& sampling, Coincidence coincidence, double pivot,
+                                         bool moved, uint32_t seed);
 
 // The ways of a random path that may diverge from another path. The last way pivots the camera ray.
 inline constexpr int path_ways = 11;

@@ -33,15 +33,15 @@ uint32_t seed_of(const Vec2& shift) {
 
 // `count` samples of pixel (x, y) from `first` on, every ray moved by `shift`.
 compare::Neighbour neighbour(const Scene& scene, const reference::Renderer& renderer, int x, int y,
-                             const Vec2& shift, rounding::Chance chance, int first, int count) {
+                             const Vec2& shift, rounding::Coincidence coincidence, int first, int count) {
   compare::Neighbour result;
   result.samples.clear();
   const uint32_t seed = seed_of(shift);
   const IntegratorType integrator = scene.render.integrator;
-  const bool coincident = chance == rounding::Chance::coincident;
-  const double pivot = chance == rounding::Chance::turned ? renderer.pivot(x, y, seed) : 0;
+  const bool coincident = coincidence == rounding::Coincidence::coincident;
+  const double pivot = coincidence == rounding::Coincidence::turned ? renderer.pivot(x, y, seed) : 0;
   const std::vector<rounding::Displacement> ways = rounding::ways_of_sample(
-      {walks_at_random(integrator), sends_photons(integrator)}, chance, pivot, shift != Vec2(0.0), seed);
+      {walks_at_random(integrator), sends_photons(integrator)}, coincidence, pivot, shift != Vec2(0.0), seed);
   for (int i = first; i < first + count; ++i) {
     const PixelSample sample = renderer.sample(x, y, uint32_t(i), shift, ways.front());
     result.samples.push_back(of(sample));
@@ -59,8 +59,8 @@ compare::Neighbour neighbour(const Scene& scene, const reference::Renderer& rend
 }  // namespace
 
 compare::Reference neighbours(const Scene& scene, const reference::Renderer& renderer) {
-  return [&](int x, int y, const Vec2& shift, rounding::Chance chance) {
-    return neighbour(scene, renderer, x, y, shift, chance, 0, scene.image.samples);
+  return [&](int x, int y, const Vec2& shift, rounding::Coincidence coincidence) {
+    return neighbour(scene, renderer, x, y, shift, coincidence, 0, scene.image.samples);
   };
 }
 
@@ -68,8 +68,8 @@ compare::PathReference path_neighbours(const Scene& scene, const reference::Rend
                                        const executors::Twin* twin) {
   compare::PathReference paths;
   paths.around = [&](int sample) -> compare::Reference {
-    return [&scene, &renderer, sample](int x, int y, const Vec2& shift, rounding::Chance chance) {
-      return neighbour(scene, renderer, x, y, shift, chance, sample, 1);
+    return [&scene, &renderer, sample](int x, int y, const Vec2& shift, rounding::Coincidence coincidence) {
+      return neighbour(scene, renderer, x, y, shift, coincidence, sample, 1);
     };
   };
   paths.shaders = [twin](compare::Pixel pixel, int sample, uint32_t trail) {

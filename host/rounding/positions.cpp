@@ -1,4 +1,4 @@
-#include "host/rounding/places.hpp"
+#include "host/rounding/positions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,12 +17,12 @@ constexpr double most_reach = 8;
 
 }  // namespace
 
-Places places_around(double rounding, double surfaces, int angles, bool between) {
-  Places places;
+Positions positions_around(double rounding, double surfaces, int angles, bool between) {
+  Positions positions;
   const auto add_ring = [&](double radius, int count, double turn) {
     for (int step = 0; step < count; ++step) {
       const double angle = 2 * M_PI * (step + turn) / count;
-      places.all.push_back(radius * Vec2(std::cos(angle), std::sin(angle)));
+      positions.all.push_back(radius * Vec2(std::cos(angle), std::sin(angle)));
     }
   };
   const double reach = std::min(most_reach, 1 + surfaces / 8);
@@ -31,7 +31,7 @@ Places places_around(double rounding, double surfaces, int angles, bool between)
   // rim may be a hundred-thousandth of a pixel wide.
   if (const double least = std::min(rounding, radius_step); least > 0) {
     add_ring(least, angles, 0.25);
-    places.innermost = places.all.size();
+    positions.innermost = positions.all.size();
     if (between)
       for (double radius = radius_growth * least; radius < radius_step; radius *= radius_growth)
         add_ring(radius * reach, angles / 2, 0.25);
@@ -39,7 +39,7 @@ Places places_around(double rounding, double surfaces, int angles, bool between)
   // Each ring is turned a little, so that no direction is tried twice.
   for (int ring = 1; ring <= rings; ++ring)
     add_ring(ring * radius_step * reach, angles, (ring - 1.0) / rings);
-  return places;
+  return positions;
 }
 
 }  // namespace eyeray::engine::rounding

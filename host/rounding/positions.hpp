@@ -13,10 +13,10 @@ namespace eyeray::engine::rounding {
 // the first `angles` positions are on a ring as wide as that. The last positions are `angles` on each of four
 // rings. `between`: in the middle come `angles` / 2 positions on each ring between the first ring and the
 // four. `surfaces`: the number of surfaces that the pixel's rays hit.
-struct Places {
+struct Positions {
   std::vector<Vec2> all;
   size_t innermost = 0;  // the number of positions on the ring of a rounding error
 };
-Places places_around(double rounding, double surfaces, int angles, bool between = false);
+Positions positions_around(double rounding, double surfaces, int angles, bool between = false);
 
 }  // namespace eyeray::engine::rounding
