@@ -69,7 +69,7 @@ Bsdf only_bsdf(const Material& material) {
   for (int i = 0; i < 64; ++i) {
     const double x = 0.754877666 * i, y = 0.569840291 * i;  // spread over all points
     const ScatteringContext context{
-        .place = {8.0 * Vec2(x - std::floor(x), y - std::floor(y)), Vec3(x, -y, y - x)},
+        .point = {8.0 * Vec2(x - std::floor(x), y - std::floor(y)), Vec3(x, -y, y - x)},
         .cos_view = 1 - i / 128.0,
         .ior_from = 1,
         .ior_to = 1};

@@ -103,7 +103,7 @@ std::string texture(const Material& material, const Vec3& ambient_light, bool ra
   if (material.mask)
     throw Error(ExitCode::bad_input, "material \"{}\" has cutouts, which are not written for POV-Ray",
                 material.name);
-  const Scattering s = material.scattering({.place = Vec2(0.0), .cos_view = 1, .ior_from = 1, .ior_to = 1});
+  const Scattering s = material.scattering({.point = Vec2(0.0), .cos_view = 1, .ior_from = 1, .ior_to = 1});
   const std::string highlight =
       fmt::format("phong {} phong_size {}", mean(s.specular), std::max(1.0, s.shininess));
   if (material.medium())

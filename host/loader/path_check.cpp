@@ -13,7 +13,7 @@ namespace eyeray::engine::loader {
 
 void warn_of_paths(const Scene& scene, DiagnosticLog& log) {
   for (const auto& material : scene.materials) {
-    const ScatteringContext context{.place = Vec2(0.5), .cos_view = 1, .ior_from = 1, .ior_to = 1};
+    const ScatteringContext context{.point = Vec2(0.5), .cos_view = 1, .ior_from = 1, .ior_to = 1};
     const Scattering scattering = material->scattering(context);
     const Bsdf bsdf = material->bsdf(context, scattering);
     const auto exceeds = [](const Vec3& share) { return glm::any(glm::greaterThan(share, Vec3(1 + 1e-9))); };

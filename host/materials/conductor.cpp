@@ -67,14 +67,14 @@ class Conductor final : public Physical {
   Conductor(const ConductorValues& values, const PhongValues& stand_in)
       : Physical(make_phong(stand_in)), values_(values) {}
 
-  Vec3 base_color(const TextureContext& place) const override { return color()->at(place); }
+  Vec3 base_color(const TextureContext& point) const override { return color()->at(point); }
 
   Bsdf bsdf(const ScatteringContext& context, const Scattering&) const override {
     return {.metal = values_.color
-                         ? optics::schlick(values_.color->at(context.place) * context.color, Vec3(1))
+                         ? optics::schlick(values_.color->at(context.point) * context.color, Vec3(1))
                          : values_.index,
             .metallic = 1,
-            .roughness = values_.roughness->at(context.place).y};
+            .roughness = values_.roughness->at(context.point).y};
   }
 
   void pack(records::Packer& packer) const override {

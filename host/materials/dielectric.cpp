@@ -90,13 +90,13 @@ class Dielectric final : public Material {
     Scattering scattering;
     scattering.reflected = Vec3(mirrored);
     scattering.transmitted = Vec3(1 - mirrored);
-    values_.highlight.apply(context.place, scattering);
+    values_.highlight.apply(context.point, scattering);
     return scattering;
   }
 
   Bsdf bsdf(const ScatteringContext& context, const Scattering& scattering) const override {
     Bsdf bsdf = Material::bsdf(context, scattering);
-    bsdf.roughness = values_.roughness->at(context.place).y;
+    bsdf.roughness = values_.roughness->at(context.point).y;
     if (values_.thin) {
       std::swap(bsdf.transmitted, bsdf.passed);
       if (bsdf.roughness == 0) return bsdf;

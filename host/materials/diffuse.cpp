@@ -46,7 +46,7 @@ class Diffuse final : public Physical {
       : Physical(make_phong(stand_in)), roughness_(roughness) {}
 
   Bsdf bsdf(const ScatteringContext& context, const Scattering& scattering) const override {
-    return {.diffuse = scattering.diffuse, .diffuse_roughness = roughness_->at(context.place).y};
+    return {.diffuse = scattering.diffuse, .diffuse_roughness = roughness_->at(context.point).y};
   }
 
   void pack(records::Packer& packer) const override {

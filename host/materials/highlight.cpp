@@ -6,8 +6,8 @@
 
 namespace eyeray::engine::materials {
 
-void Highlight::apply(const TextureContext& place, Scattering& scattering) const {
-  scattering.specular = specular->at(place);
+void Highlight::apply(const TextureContext& point, Scattering& scattering) const {
+  scattering.specular = specular->at(point);
   scattering.shininess = shininess;
   scattering.blinn = blinn;
 }

@@ -15,7 +15,7 @@ struct Highlight {
   bool blinn = false;
 
   // Fills the highlight's part of a Scattering.
-  void apply(const TextureContext& place, Scattering& scattering) const;
+  void apply(const TextureContext& point, Scattering& scattering) const;
 };
 
 // The keys that a material with a highlight declares, and the function that reads them.

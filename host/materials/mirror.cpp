@@ -42,12 +42,12 @@ class Mirror final : public Material {
 
   Scattering scattering(const ScatteringContext& context) const override {
     Scattering scattering;
-    scattering.reflected = values_.reflectance->at(context.place);
-    values_.highlight.apply(context.place, scattering);
+    scattering.reflected = values_.reflectance->at(context.point);
+    values_.highlight.apply(context.point, scattering);
     return scattering;
   }
 
-  Vec3 base_color(const TextureContext& place) const override { return values_.reflectance->at(place); }
+  Vec3 base_color(const TextureContext& point) const override { return values_.reflectance->at(point); }
 
   void pack(records::Packer& packer) const override {
     auto record = make_record(shader::MATERIAL_mirror, values_.highlight, shadow_transmittance(), packer);

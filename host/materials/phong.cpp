@@ -59,16 +59,16 @@ class Phong final : public Material {
 
   Scattering scattering(const ScatteringContext& context) const override {
     Scattering scattering;
-    scattering.ambient = ambient()->at(context.place) * context.color;
-    scattering.diffuse = values_.diffuse->at(context.place) * context.color;
-    scattering.emitted = values_.emission->at(context.place) * context.color;
-    scattering.reflected = values_.reflectance->at(context.place);
-    values_.highlight.apply(context.place, scattering);
+    scattering.ambient = ambient()->at(context.point) * context.color;
+    scattering.diffuse = values_.diffuse->at(context.point) * context.color;
+    scattering.emitted = values_.emission->at(context.point) * context.color;
+    scattering.reflected = values_.reflectance->at(context.point);
+    values_.highlight.apply(context.point, scattering);
     return scattering;
   }
 
-  Vec3 base_color(const TextureContext& place) const override {
-    return values_.diffuse->at(place) + values_.emission->at(place);
+  Vec3 base_color(const TextureContext& point) const override {
+    return values_.diffuse->at(point) + values_.emission->at(point);
   }
 
   bool emits() const override { return constant_emission() != Vec3(0); }

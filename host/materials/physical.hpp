@@ -14,7 +14,7 @@ class Physical : public Material {
   Scattering scattering(const ScatteringContext& context) const override {
     return stand_in_->scattering(context);
   }
-  Vec3 base_color(const TextureContext& place) const override { return stand_in_->base_color(place); }
+  Vec3 base_color(const TextureContext& point) const override { return stand_in_->base_color(point); }
   std::optional<Medium> medium() const override { return stand_in_->medium(); }
   bool thin() const override { return stand_in_->thin(); }
   double shadow_transmittance() const override { return stand_in_->shadow_transmittance(); }

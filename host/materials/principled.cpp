@@ -159,32 +159,32 @@ class Principled final : public Physical {
 
   Scattering scattering(const ScatteringContext& context) const override {
     Scattering scattering = Physical::scattering(context);
-    if (shown_as_glass_) scattering.emitted = values_.emission->at(context.place) * context.color;
+    if (shown_as_glass_) scattering.emitted = values_.emission->at(context.point) * context.color;
     return scattering;
   }
 
-  Vec3 base_color(const TextureContext& place) const override {
-    return (shown_as_glass_ ? Physical::base_color(place) : values_.color->at(place)) +
-           values_.emission->at(place);
+  Vec3 base_color(const TextureContext& point) const override {
+    return (shown_as_glass_ ? Physical::base_color(point) : values_.color->at(point)) +
+           values_.emission->at(point);
   }
 
   Bsdf bsdf(const ScatteringContext& context, const Scattering&) const override {
-    const Vec3 color = values_.color->at(context.place) * context.color;
-    const double metallic = values_.metallic->at(context.place).z;
-    const double level = values_.specular->at(context.place).x;
-    const Vec3 f0 = mirrored(values_.specular_color->at(context.place), level), edge(level);
-    const double through = values_.transmission->at(context.place).x * (1 - metallic);
+    const Vec3 color = values_.color->at(context.point) * context.color;
+    const double metallic = values_.metallic->at(context.point).z;
+    const double level = values_.specular->at(context.point).x;
+    const Vec3 f0 = mirrored(values_.specular_color->at(context.point), level), edge(level);
+    const double through = values_.transmission->at(context.point).x * (1 - metallic);
     Bsdf bsdf{.diffuse = color * (1 - metallic - through),
               .layer = optics::schlick(f0, edge),
               .layered = 1 - metallic,
               .metal = optics::schlick(color, Vec3(1)),
               .metallic = metallic,
-              .roughness = values_.roughness->at(context.place).y,
-              .coat = values_.coat->at(context.place).x,
-              .coat_roughness = values_.coat_roughness->at(context.place).y,
+              .roughness = values_.roughness->at(context.point).y,
+              .coat = values_.coat->at(context.point).x,
+              .coat_roughness = values_.coat_roughness->at(context.point).y,
               .coat_normal = context.coat_normal,
-              .sheen = values_.sheen->at(context.place),
-              .sheen_roughness = values_.sheen_roughness->at(context.place).y};
+              .sheen = values_.sheen->at(context.point),
+              .sheen_roughness = values_.sheen_roughness->at(context.point).y};
     if (through == 0) return bsdf;
     if (values_.thin) {
       (bsdf.roughness == 0 ? bsdf.passed : bsdf.thin) = color * through;

@@ -6,7 +6,7 @@
 
 namespace eyeray::engine::reference {
 
-inline TextureContext place_on(const SurfacePoint& point) {
+inline TextureContext context_on(const SurfacePoint& point) {
   return {point.uv, point.second ? point.second->uv : point.uv, point.position};
 }
 

@@ -19,10 +19,10 @@ bool outside(const SphereForm& sphere, const Vec3& from) {
 }
 
 // The density, by solid angle, of a point that is chosen evenly on an area.
-double density_of_area(double area, const Vec3& from, const EmitterSample& place) {
-  const Vec3 way = place.position - from;
+double density_of_area(double area, const Vec3& from, const EmitterSample& point) {
+  const Vec3 way = point.position - from;
   const double distance = glm::length(way);
-  return distance * distance * distance / (area * std::abs(glm::dot(way, place.normal)));
+  return distance * distance * distance / (area * std::abs(glm::dot(way, point.normal)));
 }
 
 // 1 − the cosine of half the angle under which the sphere is seen.
@@ -119,24 +119,24 @@ EmitterSample on_box(const BoxForm& box, const Vec3& from, const Vec2& u) {
   return {Vec3(box.to_world * Vec4(p, 1)), face.normal, inner_uv(0.5 + 0.5 * uv)};
 }
 
-double box_density(const BoxForm& box, const Vec3& from, const EmitterSample& place) {
+double box_density(const BoxForm& box, const Vec3& from, const EmitterSample& point) {
   bool outside;
   const auto all = faces(box, from, outside);
   double sum = 0, nearest = 0;
-  const Face* of_place = nullptr;
+  const Face* of_point = nullptr;
   for (const Face& face : all) {
     sum += face.weight;
     // The normal may be turned to either side.
-    const double cosine = glm::dot(face.normal, place.normal);
+    const double cosine = glm::dot(face.normal, point.normal);
     const double same =
-        glm::dot(place.position - Vec3(box.to_world[3]), face.normal) > 0 ? std::abs(cosine) : 0;
+        glm::dot(point.position - Vec3(box.to_world[3]), face.normal) > 0 ? std::abs(cosine) : 0;
     if (same > nearest) {
       nearest = same;
-      of_place = &face;
+      of_point = &face;
     }
   }
-  if (!of_place) return 0;
-  return of_place->weight / sum * density_of_area(of_place->area(), from, place);
+  if (!of_point) return 0;
+  return of_point->weight / sum * density_of_area(of_point->area(), from, point);
 }
 
 // Samples a point of the unit sphere in the ellipsoid's own space, and maps it to the world.
@@ -146,19 +146,19 @@ EmitterSample on_ellipsoid(const EllipsoidForm& it, const Vec3& from, const Vec2
   return {map.point(own.position), map.normal(own.normal), globe(own.normal)};
 }
 
-double ellipsoid_density(const EllipsoidForm& it, const Vec3& from, const EmitterSample& place) {
+double ellipsoid_density(const EllipsoidForm& it, const Vec3& from, const EmitterSample& point) {
   const Affine map(it.to_world), back(glm::inverse(it.to_world));
   const SphereForm own{Vec3(0), 1};
   const double determinant = std::abs(glm::determinant(back.linear));
   if (outside(own, back.point(from))) {
     // The density by solid angle in the ellipsoid's own space, mapped to the world.
-    const double stretch = glm::length(back.linear * glm::normalize(place.position - from));
+    const double stretch = glm::length(back.linear * glm::normalize(point.position - from));
     return determinant / std::pow(stretch, 3) / (2 * M_PI * versine(own, back.point(from)));
   }
   // The ratio of an area in the world to that in the ellipsoid's own space.
-  const Vec3 normal = glm::normalize(glm::transpose(map.linear) * place.normal);
+  const Vec3 normal = glm::normalize(glm::transpose(map.linear) * point.normal);
   const double stretch = glm::length(map.cotangent * normal) / determinant;
-  return density_of_area(4 * M_PI * stretch, from, place);
+  return density_of_area(4 * M_PI * stretch, from, point);
 }
 
 EmitterSample on_cylinder(const CylinderForm& it, const Vec2& u) {
@@ -176,14 +176,14 @@ EmitterSample on_cylinder(const CylinderForm& it, const Vec2& u) {
   return {map.point({at.x, up, at.y}), map.normal({0, up, 0}), {0.5 + 0.5 * at.x, 0.5 - 0.5 * at.y * up}};
 }
 
-double cylinder_density(const CylinderForm& it, const Vec3& from, const EmitterSample& place) {
+double cylinder_density(const CylinderForm& it, const Vec3& from, const EmitterSample& point) {
   const Mat3 m(it.to_world);
   const double side = share_of_side(it);
-  const Vec3 own = glm::normalize(glm::transpose(m) * place.normal);
+  const Vec3 own = glm::normalize(glm::transpose(m) * point.normal);
   if (std::abs(own.y) > 0.7)
-    return (1 - side) / 2 * density_of_area(M_PI * glm::length(glm::cross(m[0], m[2])), from, place);
+    return (1 - side) / 2 * density_of_area(M_PI * glm::length(glm::cross(m[0], m[2])), from, point);
   const Vec3 along = m * glm::normalize(Vec3(-own.z, 0, own.x));
-  return side * density_of_area(4 * M_PI * glm::length(glm::cross(along, m[1])), from, place);
+  return side * density_of_area(4 * M_PI * glm::length(glm::cross(along, m[1])), from, point);
 }
 
 // True if points are chosen by solid angle, and not by area.
@@ -221,7 +221,7 @@ std::array<TriangleForm, 2> halves(const ParallelogramForm& it) {
 }
 
 // Samples a parallelogram without right angles by solid angle, around its first corner.
-Vec2 place_round_corner(const ParallelogramForm& it, const Vec3& from, const Vec2& u) {
+Vec2 position_around_corner(const ParallelogramForm& it, const Vec3& from, const Vec2& u) {
   const auto [low, high] = halves(it);
   const double first = seen_from(from, low).solid_angle(), second = seen_from(from, high).solid_angle();
   if (!by_solid_angle(first + second)) return u;
@@ -239,9 +239,9 @@ EmitterSample on_parallelogram(const ParallelogramForm& it, const Vec3& from, co
   Vec2 at = u;
   if (is_rectangle(it)) {
     const SphericalRectangle seen(it.corner - from, it.edge_u, it.edge_v);
-    if (by_solid_angle(seen.solid_angle(), least_rectangle)) at = seen.place(u);
+    if (by_solid_angle(seen.solid_angle(), least_rectangle)) at = seen.position(u);
   } else {
-    at = place_round_corner(it, from, u);
+    at = position_around_corner(it, from, u);
   }
   return {it.corner + at.x * it.edge_u + at.y * it.edge_v, glm::normalize(glm::cross(it.edge_u, it.edge_v)),
           at};
@@ -292,25 +292,25 @@ EmitterSample sample_emitter(const EmitterForm& form, const Vec3& from, const Ve
   return std::visit(Chooser{from, u}, form);
 }
 
-double emitter_density(const EmitterForm& form, const Vec3& from, const EmitterSample& place) {
+double emitter_density(const EmitterForm& form, const Vec3& from, const EmitterSample& point) {
   if (const auto* sphere = std::get_if<SphereForm>(&form); sphere && outside(*sphere, from))
     return 1 / (2 * M_PI * versine(*sphere, from));
-  if (const auto* box = std::get_if<BoxForm>(&form)) return box_density(*box, from, place);
-  if (const auto* it = std::get_if<EllipsoidForm>(&form)) return ellipsoid_density(*it, from, place);
-  if (const auto* it = std::get_if<CylinderForm>(&form)) return cylinder_density(*it, from, place);
+  if (const auto* box = std::get_if<BoxForm>(&form)) return box_density(*box, from, point);
+  if (const auto* it = std::get_if<EllipsoidForm>(&form)) return ellipsoid_density(*it, from, point);
+  if (const auto* it = std::get_if<CylinderForm>(&form)) return cylinder_density(*it, from, point);
   if (const auto solid_angle = sampled_solid_angle(form, from)) return 1 / *solid_angle;
-  return density_of_area(area_of(form), from, place);
+  return density_of_area(area_of(form), from, point);
 }
 
-Vec3 emitter_radiance(const Scene& scene, const Emitter& emitter, const EmitterSample& place,
+Vec3 emitter_radiance(const Scene& scene, const Emitter& emitter, const EmitterSample& point,
                       const Vec3& from) {
-  if (emitter.side * glm::dot(place.normal, from - place.position) < 0) return Vec3(0);
+  if (emitter.side * glm::dot(point.normal, from - point.position) < 0) return Vec3(0);
   if (!emitter.varies) return emitter.radiance;
-  TextureContext at(place.uv, place.position);
+  TextureContext at(point.uv, point.position);
   Vec3 color(1);
   if (const EmitterCorners* corners = emitter.corners.get()) {
     const auto between = [&](const auto& values) {
-      return (1 - place.uv.x - place.uv.y) * values[0] + place.uv.x * values[1] + place.uv.y * values[2];
+      return (1 - point.uv.x - point.uv.y) * values[0] + point.uv.x * values[1] + point.uv.y * values[2];
     };
     at.uv = between(corners->uv);
     at.second_uv = between(corners->second_uv);

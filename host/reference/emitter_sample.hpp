@@ -15,11 +15,11 @@ struct EmitterSample {
 
 // Samples a point of the form that lights the point `from`. u: two random numbers in [0, 1).
 EmitterSample sample_emitter(const EmitterForm& form, const Vec3& from, const Vec2& u);
-// The density, by solid angle at `from`, with which sample_emitter chooses `place`.
-double emitter_density(const EmitterForm& form, const Vec3& from, const EmitterSample& place);
+// The density, by solid angle at `from`, with which sample_emitter chooses `point`.
+double emitter_density(const EmitterForm& form, const Vec3& from, const EmitterSample& point);
 
-// The radiance that the point `place` of the emitter emits towards `from`.
-Vec3 emitter_radiance(const Scene& scene, const Emitter& emitter, const EmitterSample& place,
+// The radiance that `point` of the emitter emits towards `from`.
+Vec3 emitter_radiance(const Scene& scene, const Emitter& emitter, const EmitterSample& point,
                       const Vec3& from);
 
 // Maps u to a uniform point on the disk of radius 1. Shirley, Chiu: A Low Distortion Map Between Disk and

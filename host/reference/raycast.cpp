@@ -1,6 +1,6 @@
+#include "host/reference/context_on.hpp"
 #include "host/reference/environment.hpp"
 #include "host/reference/integrator.hpp"
-#include "host/reference/place_on.hpp"
 #include "host/reference/rng.hpp"
 
 namespace eyeray::engine::reference {
@@ -43,7 +43,7 @@ PixelSample raycast(const Tracer& tracer, const SampleId& id, const Ray& camera_
       if (cosine > 0) light += illumination.color * cosine;
     }
   }
-  const Vec3 base = scene.materials[size_t(hit->material)]->base_color(place_on(surface)) * surface.color;
+  const Vec3 base = scene.materials[size_t(hit->material)]->base_color(context_on(surface)) * surface.color;
   observer.value("light", base * light);
   return {.color = base * light, .rays = 1, .hits = 1, .flags = flags};
 }

@@ -6,10 +6,10 @@
 
 #include "host/core/termination.hpp"
 #include "host/reference/bsdf.hpp"
+#include "host/reference/context_on.hpp"
 #include "host/reference/crossings.hpp"
 #include "host/reference/environment.hpp"
 #include "host/reference/medium_extent.hpp"
-#include "host/reference/place_on.hpp"
 #include "host/reference/rng.hpp"
 #include "host/scene/affine.hpp"
 
@@ -84,9 +84,9 @@ Ray SampleRays::spawn_to_light(const SurfacePoint& point, const Vec3& l, Leaving
   return ray;
 }
 
-Vec3 SampleRays::end_before(const Vec3& place, const Vec3& normal, const Vec3& l) const {
-  const double off = displacement_.share * glm::dot(glm::abs(normal), glm::abs(place - scene_.camera.eye));
-  return place + normal * (glm::dot(l, normal) < 0 ? off : -off);
+Vec3 SampleRays::end_before(const Vec3& point, const Vec3& normal, const Vec3& l) const {
+  const double off = displacement_.share * glm::dot(glm::abs(normal), glm::abs(point - scene_.camera.eye));
+  return point + normal * (glm::dot(l, normal) < 0 ? off : -off);
 }
 
 Vec3 SampleRays::rounded(const Vec3& d) const {
@@ -161,8 +161,8 @@ Vec3 SampleRays::through_panes(Ray ray, double t_end, bool has_extent, MediaStac
     }
     const double cosine = std::clamp(-glm::dot(ray.d, surface.normal), 0.0, 1.0);
     const LocalFrame frame(surface.normal);
-    const ScatteringContext context{place_on(surface), cosine,        before.ior,
-                                    medium(media).ior, surface.color, frame.into(surface.coat_normal)};
+    const ScatteringContext context{context_on(surface), cosine,        before.ior,
+                                    medium(media).ior,   surface.color, frame.into(surface.coat_normal)};
     left *= ViewedBsdf(bsdf(material, context, material.scattering(context)), frame.seen(-ray.d)).passed();
     if (left == Vec3(0)) return left;
     Ray next = spawn_ray(surface, ray.d);
@@ -195,7 +195,7 @@ Scattering SampleRays::scattering(const Ray& ray, const Hit& hit, const SurfaceP
     const auto other_hit = tracer_.trace(moved);
     if (!other_hit || other_hit->primitive != hit.primitive) continue;
     const SurfacePoint other_point = tracer_.surface(moved, *other_hit);
-    context.place = place_on(other_point);
+    context.point = context_on(other_point);
     const Scattering other = material.scattering(context);
     choose(result.ambient, other.ambient);
     choose(result.diffuse, other.diffuse);
@@ -258,8 +258,8 @@ Interaction SampleRays::interaction(const Ray& ray, const Hit& hit, const MediaS
   at.ior_before = before.ior;
   at.ior_beyond = medium(at.media_beyond).ior;
   const ScatteringContext context{
-      place_on(at.surface), at.cos_view,      at.ior_before,
-      at.ior_beyond,        at.surface.color, LocalFrame(at.surface.normal).into(at.surface.coat_normal)};
+      context_on(at.surface), at.cos_view,      at.ior_before,
+      at.ior_beyond,          at.surface.color, LocalFrame(at.surface.normal).into(at.surface.coat_normal)};
   at.scattering = scattering(ray, hit, at.surface, context);
   if (!front && material.emits_in_front) at.scattering.emitted = Vec3(0);
   if (walks_at_random(scene_.render.integrator)) at.bsdf = bsdf(material, context, at.scattering);

@@ -66,7 +66,7 @@ class SampleRays {
   Ray spawn_to_light(const SurfacePoint& point, const Vec3& l, Leaving leaving, double& distance);
   // The end of a shadow ray in direction l to a point of an area light: as far off the light as rays start
   // off surfaces.
-  Vec3 end_before(const Vec3& place, const Vec3& normal, const Vec3& l) const;
+  Vec3 end_before(const Vec3& point, const Vec3& normal, const Vec3& l) const;
   // True if a light in direction l at that distance is in front of the surface. For a light in its plane
   // float32 may decide either way.
   bool faces(const SurfacePoint& point, const Vec3& l, double distance) const;

@@ -150,8 +150,8 @@ class Collector {
 
 }  // namespace
 
-Vec3 emitted(const Material& material, const TextureContext& place, const Vec3& color) {
-  return material.scattering({.place = place, .cos_view = 1, .ior_from = 1, .ior_to = 1, .color = color})
+Vec3 emitted(const Material& material, const TextureContext& point, const Vec3& color) {
+  return material.scattering({.point = point, .cos_view = 1, .ior_from = 1, .ior_to = 1, .color = color})
       .emitted;
 }
 

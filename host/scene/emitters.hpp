@@ -41,6 +41,6 @@ struct Emitters {
 Emitters emitters(const Scene& scene);
 
 // The radiance emitted at a point of a surface.
-Vec3 emitted(const Material& material, const TextureContext& place, const Vec3& color);
+Vec3 emitted(const Material& material, const TextureContext& point, const Vec3& color);
 
 }  // namespace eyeray::engine

@@ -41,7 +41,7 @@ struct Scattering {
 
 // The values at a point on which a material may depend.
 struct ScatteringContext {
-  TextureContext place;
+  TextureContext point;
   double cos_view;  // cosine between the shading normal and the direction back along the ray, in [0, 1]
   double ior_from;  // index of refraction of the medium the ray comes through
   double ior_to;    // index of refraction of the medium behind the surface
@@ -87,7 +87,7 @@ class Material {
   // them above 1.
   virtual Bsdf bsdf(const ScatteringContext& context, const Scattering& scattering) const;
   // The colour that `raycast` shades.
-  virtual Vec3 base_color(const TextureContext& place) const = 0;
+  virtual Vec3 base_color(const TextureContext& point) const = 0;
   // True if the material emits.
   virtual bool emits() const { return false; }
   // The emitted light if it is constant; else empty.

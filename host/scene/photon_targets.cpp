@@ -20,8 +20,8 @@ struct Lobes {
 
 Lobes lobes_of(const Material& material) {
   Lobes lobes;
-  for (const double place : {0.1, 0.3, 0.5, 0.7, 0.9}) {
-    const ScatteringContext context{.place = Vec2(place), .cos_view = 0.7, .ior_from = 1, .ior_to = 1};
+  for (const double coordinate : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+    const ScatteringContext context{.point = Vec2(coordinate), .cos_view = 0.7, .ior_from = 1, .ior_to = 1};
     const Bsdf bsdf = material.bsdf(context, material.scattering(context));
     const auto add = [&](bool is_there, double roughness) {
       if (is_there) (roughness >= 0.32 ? lobes.wide : lobes.sharp) = true;

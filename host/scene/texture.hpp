@@ -34,11 +34,11 @@ class Texture {
   virtual ~Texture() = default;
 
   // The colour in linear RGB. This is the reference's version: no float32.
-  virtual Vec3 at(const TextureContext& place) const = 0;
+  virtual Vec3 at(const TextureContext& point) const = 0;
   // The colour of a texture that is the same everywhere; empty for any other.
   virtual std::optional<Vec3> constant() const { return std::nullopt; }
   // The texture's value as an alpha.
-  virtual double alpha_at(const TextureContext& place) const { return at(place).x; }
+  virtual double alpha_at(const TextureContext& point) const { return at(point).x; }
   // The same texture, but with the codes of its picture as they are, for data that is not a colour; null if
   // it has no picture.
   virtual TexturePtr as_data() const { return nullptr; }

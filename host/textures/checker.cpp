@@ -31,8 +31,8 @@ class Checker final : public Texture {
  public:
   Checker(const Vec3& even, const Vec3& odd, const Vec2& size) : even_(even), odd_(odd), size_(size) {}
 
-  Vec3 at(const TextureContext& place) const override {
-    const Vec2& uv = place.uv;
+  Vec3 at(const TextureContext& point) const override {
+    const Vec2& uv = point.uv;
     const double check = std::floor(uv.x / size_.x) + std::floor(uv.y / size_.y);
     return std::fmod(std::fabs(check), 2.0) >= 0.5 ? odd_ : even_;
   }

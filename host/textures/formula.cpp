@@ -51,8 +51,8 @@ class FormulaTexture final : public Texture {
   FormulaTexture(std::shared_ptr<const formula::Formula> formula, const Vec3& tint)
       : formula_(std::move(formula)), tint_(tint) {}
 
-  Vec3 at(const TextureContext& place) const override {
-    const auto color = formula_->color(std::array{place.uv.x, place.uv.y});
+  Vec3 at(const TextureContext& point) const override {
+    const auto color = formula_->color(std::array{point.uv.x, point.uv.y});
     Vec3 shares(0.0);
     for (int i = 0; i < 3; ++i)
       if (color[size_t(i)] > 0) shares[i] = std::min(color[size_t(i)], 1.0);

@@ -83,13 +83,14 @@ Vec4 texel(const ImageTexture& image, bool srgb, double i, double j) {
 
 // The filtered RGB and alpha at `uv`, where the whole image spans [0, 1].
 Vec4 filtered(const ImageTexture& image, bool srgb, const Vec2& uv) {
-  const Vec2 place = uv * Vec2(image.width, image.height);
-  if (image.filter == Filter::nearest) return texel(image, srgb, std::floor(place.x), std::floor(place.y));
+  const Vec2 position = uv * Vec2(image.width, image.height);
+  if (image.filter == Filter::nearest)
+    return texel(image, srgb, std::floor(position.x), std::floor(position.y));
 
   // Weigh each texel by its overlap with a square of one texel around the point; texel centres are at
   // half-integers. Equal texels give exactly their value, so an alpha may be compared with it.
-  const Vec2 corner = glm::floor(place - 0.5);
-  const Vec2 share = place - 0.5 - corner;
+  const Vec2 corner = glm::floor(position - 0.5);
+  const Vec2 share = position - 0.5 - corner;
   const auto row = [&](double j) {
     const Vec4 left = texel(image, srgb, corner.x, j);
     return left + (texel(image, srgb, corner.x + 1, j) - left) * share.x;
@@ -112,8 +113,8 @@ class Image final : public Texture {
         bool second_uv)
       : image_(std::move(image)), srgb_(srgb), tint_(tint), size_(size), second_uv_(second_uv) {}
 
-  Vec3 at(const TextureContext& place) const override { return tint_ * Vec3(texel_mean(place)); }
-  double alpha_at(const TextureContext& place) const override { return tint_.x * texel_mean(place).w; }
+  Vec3 at(const TextureContext& point) const override { return tint_ * Vec3(texel_mean(point)); }
+  double alpha_at(const TextureContext& point) const override { return tint_.x * texel_mean(point).w; }
   TexturePtr as_data() const override {
     return std::make_shared<Image>(image_, false, tint_, size_, second_uv_);
   }
@@ -131,8 +132,8 @@ class Image final : public Texture {
   }
 
  private:
-  Vec4 texel_mean(const TextureContext& place) const {
-    return filtered(*image_, srgb_, (second_uv_ ? place.second_uv : place.uv) / size_);
+  Vec4 texel_mean(const TextureContext& point) const {
+    return filtered(*image_, srgb_, (second_uv_ ? point.second_uv : point.uv) / size_);
   }
 
   std::shared_ptr<const ImageTexture> image_;

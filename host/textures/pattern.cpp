@@ -73,8 +73,8 @@ Pattern::Pattern(const TableReader& table, uint32_t kind, const Vec4& parameters
       kind_(kind),
       parameters_(parameters) {}
 
-Vec3 Pattern::at(const TextureContext& place) const {
-  const double t = share(to_pattern_.point(place.position));
+Vec3 Pattern::at(const TextureContext& point) const {
+  const double t = share(to_pattern_.point(point.position));
   // Find the last color at or below t, and the next one.
   const auto after = std::ranges::find_if(colors_, [&](const Vec4& color) { return color.w > t; });
   if (after == colors_.begin()) return Vec3(colors_.front());

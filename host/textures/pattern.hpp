@@ -36,7 +36,7 @@ class Pattern : public Texture {
   // `parameters`: four numbers, whose meaning the pattern's .glsl defines.
   Pattern(const TableReader& table, uint32_t kind, const Vec4& parameters = Vec4(0));
 
-  Vec3 at(const TextureContext& place) const final;
+  Vec3 at(const TextureContext& point) const final;
   bool in_space() const final { return true; }
   double detail() const final;
   uint32_t pack(records::Packer& packer) const final;
