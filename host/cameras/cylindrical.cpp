@@ -43,8 +43,8 @@ class Cylindrical final : public RoundProjection<CylindricalCamera> {
 
   uint32_t kind() const override { return shader::CAMERA_cylindrical; }
 
-  Ray ray(const CameraAxes& camera, const Vec2& place, const Vec2&, const Vec2&) const override {
-    const Vec2 on_cylinder = half() * place;
+  Ray ray(const CameraAxes& camera, const Vec2& position, const Vec2&, const Vec2&) const override {
+    const Vec2 on_cylinder = half() * position;
     return {camera.eye, glm::normalize(std::sin(on_cylinder.x) * camera.u + on_cylinder.y * camera.v +
                                        std::cos(on_cylinder.x) * camera.w)};
   }

@@ -56,14 +56,14 @@ class Fisheye final : public Projection {
     return {across, across * (size.y / size.x), rim()};
   }
 
-  Ray ray(const CameraAxes& camera, const Vec2& place, const Vec2&, const Vec2& size) const override {
-    const double angle = this->angle(place, size), turn = std::atan2(place.y, place.x);
+  Ray ray(const CameraAxes& camera, const Vec2& position, const Vec2&, const Vec2& size) const override {
+    const double angle = this->angle(position, size), turn = std::atan2(position.y, position.x);
     const Vec3 radial = std::cos(turn) * camera.u + std::sin(turn) * camera.v;
     return {camera.eye, glm::normalize(std::sin(angle) * radial + std::cos(angle) * camera.w)};
   }
 
-  bool sees(const Vec2& place, const Vec2&, const Vec2& size) const override {
-    return angle(place, size) <= rim();
+  bool sees(const Vec2& position, const Vec2&, const Vec2& size) const override {
+    return angle(position, size) <= rim();
   }
 
   std::shared_ptr<const Projection> widened(double factor, const Vec2&) const override {
@@ -87,9 +87,10 @@ class Fisheye final : public Projection {
     return lengths[size_t(values_.fov_axis)];
   }
 
-  // The angle between the ray at `place` and the camera's axis.
-  double angle(const Vec2& place, const Vec2& size) const {
-    return wider_ * glm::length(place) * (size.x / 2) * (glm::radians(values_.fov_degrees) / diameter(size));
+  // The angle between the ray at `position` and the camera's axis.
+  double angle(const Vec2& position, const Vec2& size) const {
+    return wider_ * glm::length(position) * (size.x / 2) *
+           (glm::radians(values_.fov_degrees) / diameter(size));
   }
 
   FisheyeCamera values_;

@@ -57,15 +57,15 @@ class FormulaProjection final : public Projection {
 
   Vec3 scale(const Vec2& size) const override { return {wider_, wider_ * (size.y / size.x), 1}; }
 
-  Ray ray(const CameraAxes& camera, const Vec2& place, const Vec2& lens, const Vec2&) const override {
+  Ray ray(const CameraAxes& camera, const Vec2& position, const Vec2& lens, const Vec2&) const override {
     const auto in_world = [&](const Vec3& v) { return v.x * camera.u + v.y * camera.v + v.z * camera.w; };
-    const Own own = ask(place, lens);
+    const Own own = ask(position, lens);
     if (!own.usable()) return {camera.eye, camera.w};
     return {camera.eye + in_world(own.origin), glm::normalize(in_world(own.direction))};
   }
 
-  bool sees(const Vec2& place, const Vec2& lens, const Vec2&) const override {
-    return ask(place, lens).usable();
+  bool sees(const Vec2& position, const Vec2& lens, const Vec2&) const override {
+    return ask(position, lens).usable();
   }
 
   Aperture aperture() const override { return {.radius = 1}; }
@@ -89,8 +89,8 @@ class FormulaProjection final : public Projection {
              far.z <= farthest;
     }
   };
-  Own ask(const Vec2& place, const Vec2& lens) const {
-    const std::array<double, 4> at{wider_ * place.x, wider_ * place.y, lens.x, lens.y};
+  Own ask(const Vec2& position, const Vec2& lens) const {
+    const std::array<double, 4> at{wider_ * position.x, wider_ * position.y, lens.x, lens.y};
     const auto direction = formula_->direction(at), origin = formula_->origin(at);
     return {{direction[0], direction[1], direction[2]}, {origin[0], origin[1], origin[2]}};
   }

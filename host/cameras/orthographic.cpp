@@ -39,8 +39,8 @@ class Orthographic final : public Projection {
 
   Vec3 scale(const Vec2& size) const override { return {values_.size, values_.size * (size.y / size.x), 1}; }
 
-  Ray ray(const CameraAxes& camera, const Vec2& place, const Vec2&, const Vec2&) const override {
-    return {camera.eye + values_.size * (place.x * camera.u + place.y * camera.v), camera.w};
+  Ray ray(const CameraAxes& camera, const Vec2& position, const Vec2&, const Vec2&) const override {
+    return {camera.eye + values_.size * (position.x * camera.u + position.y * camera.v), camera.w};
   }
 
   std::shared_ptr<const Projection> widened(double factor, const Vec2&) const override {

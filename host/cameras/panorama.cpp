@@ -42,8 +42,8 @@ class Panorama final : public RoundProjection<PanoramaCamera> {
 
   uint32_t kind() const override { return shader::CAMERA_panorama; }
 
-  Ray ray(const CameraAxes& camera, const Vec2& place, const Vec2&, const Vec2&) const override {
-    const double longitude = half() * place.x, latitude = half() * place.y;
+  Ray ray(const CameraAxes& camera, const Vec2& position, const Vec2&, const Vec2&) const override {
+    const double longitude = half() * position.x, latitude = half() * position.y;
     const Vec3 level = std::sin(longitude) * camera.u + std::cos(longitude) * camera.w;
     return {camera.eye, glm::normalize(std::cos(latitude) * level + std::sin(latitude) * camera.v)};
   }

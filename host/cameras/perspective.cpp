@@ -97,9 +97,9 @@ class Perspective final : public Projection {
   // `forward` ends on an image plane whose X reaches from −1 to 1.
   Vec3 scale(const Vec2& size) const override { return {1, size.y / size.x, 1 / half_width(size)}; }
 
-  Ray ray(const CameraAxes& camera, const Vec2& place, const Vec2& lens, const Vec2& size) const override {
+  Ray ray(const CameraAxes& camera, const Vec2& position, const Vec2& lens, const Vec2& size) const override {
     const double distance = 1.0 / horizontal_tangent(size);
-    const Vec3 way = place.x * camera.u + place.y * camera.v + distance * camera.w;
+    const Vec3 way = position.x * camera.u + position.y * camera.v + distance * camera.w;
     if (values_.aperture.radius == 0) return {camera.eye, glm::normalize(way)};
     const Vec3 start = lens.x * camera.u + lens.y * camera.v;
     return {camera.eye + start, glm::normalize(values_.aperture.focus / distance * way - start)};

@@ -333,12 +333,12 @@ Vec3 ViewedBsdf::direction(Lobe lobe, double part, const Vec2& u) const {
   return (i.z > 0) == reflects ? i : Vec3(0);
 }
 
-BsdfSample ViewedBsdf::sample(double chance, const Vec2& u) const {
-  // Choose the last lobe whose range of numbers begins at or before `chance`.
+BsdfSample ViewedBsdf::sample(double random, const Vec2& u) const {
+  // Choose the last lobe whose range of numbers begins at or before `random`.
   double begin = 0, below = 0;
   Lobe chosen = diffuse;
   for (int lobe = 0; lobe < lobes; ++lobe) {
-    if (shares_[lobe] > 0 && chance >= below) {
+    if (shares_[lobe] > 0 && random >= below) {
       chosen = Lobe(lobe);
       begin = below;
     }
@@ -353,7 +353,7 @@ BsdfSample ViewedBsdf::sample(double chance, const Vec2& u) const {
     case straight:
       return {BsdfSample::Kind::passed, Vec3(0), passed() / share, 16};
     default:
-      return {BsdfSample::Kind::lobe, direction(chosen, (chance - begin) / share, u), Vec3(0),
+      return {BsdfSample::Kind::lobe, direction(chosen, (random - begin) / share, u), Vec3(0),
               uint32_t(chosen)};
   }
 }

@@ -32,8 +32,8 @@ class ViewedBsdf {
   BsdfValue at(const Vec3& i, bool before) const;
   // True if any lobe counts for light from i.
   bool faces(const Vec3& i, bool before) const;
-  // `chance` and u: random numbers in [0, 1). The BSDF must not be black.
-  BsdfSample sample(double chance, const Vec2& u) const;
+  // `random` and u: random numbers in [0, 1). The BSDF must not be black.
+  BsdfSample sample(double random, const Vec2& u) const;
   // The BSDF's wide lobes alone, or its sharp ones alone. Each lobe keeps the probability that it has in the
   // whole BSDF (shaders/bsdf/parts.glsl).
   ViewedBsdf part(bool wide) const;

@@ -31,16 +31,16 @@ Vec2 CameraRays::lens_point(const Vec2& u) const {
   return lens.radius * (lens.blades == 0 ? on_disk(u) : on_polygon(u, lens.blades, lens.blade_rotation));
 }
 
-Vec2 CameraRays::from_middle(const Vec2& place) const {
-  return {2.0 * place.x / size_.x - 1.0, (1.0 - 2.0 * place.y / size_.y) * (size_.y / size_.x)};
+Vec2 CameraRays::from_middle(const Vec2& position) const {
+  return {2.0 * position.x / size_.x - 1.0, (1.0 - 2.0 * position.y / size_.y) * (size_.y / size_.x)};
 }
 
-Ray CameraRays::ray(const Vec2& place, const Vec2& lens) const {
-  return projection_->ray(axes_, from_middle(place), lens, size_);
+Ray CameraRays::ray(const Vec2& position, const Vec2& lens) const {
+  return projection_->ray(axes_, from_middle(position), lens, size_);
 }
 
-bool CameraRays::sees(const Vec2& place, const Vec2& lens) const {
-  return projection_->sees(from_middle(place), lens, size_);
+bool CameraRays::sees(const Vec2& position, const Vec2& lens) const {
+  return projection_->sees(from_middle(position), lens, size_);
 }
 
 }  // namespace eyeray::engine::reference

@@ -12,7 +12,7 @@ namespace {
 
 // The position of a direction in the picture, as a column and a row. The column is counted from the centre of
 // the first one, and is in [−½, width − ½). The row is counted likewise, with half a row at each pole.
-Vec2 place(const EnvironmentMap& environment, const Vec3& d) {
+Vec2 position_of(const EnvironmentMap& environment, const Vec3& d) {
   const double u = 0.5 + std::atan2(d.x, -d.z) / (2 * M_PI) + environment.turn();
   const double polar = std::acos(std::clamp(d.y, -1.0, 1.0));
   return {(u - std::floor(u)) * environment.width() - 0.5, polar / M_PI * environment.height() - 0.5};
@@ -22,8 +22,8 @@ struct Cell {
   int column, row;
 };
 
-Cell cell_at(const EnvironmentMap& environment, const Vec2& place) {
-  const int column = int(std::floor(place.x)), row = int(std::floor(place.y)) + 1;
+Cell cell_at(const EnvironmentMap& environment, const Vec2& position) {
+  const int column = int(std::floor(position.x)), row = int(std::floor(position.y)) + 1;
   return {(column + environment.width()) % environment.width(), std::min(row, environment.height())};
 }
 
@@ -71,7 +71,7 @@ Choice choose(std::span<const uint32_t> ends, double u) {
 }  // namespace
 
 Vec3 environment_radiance(const EnvironmentMap& environment, const Vec3& d) {
-  const Vec2 at = place(environment, d);
+  const Vec2 at = position_of(environment, d);
   const auto [right, lower] = cell_at(environment, at + Vec2(1, 0));
   const int left = (right + environment.width() - 1) % environment.width();
   const int below = std::min(lower, environment.height() - 1), above = std::max(lower - 1, 0);
@@ -92,7 +92,7 @@ EnvironmentSample sample_environment(const EnvironmentMap& environment, const Ve
 }
 
 double environment_density(const EnvironmentMap& environment, const Vec3& d) {
-  return density(environment, cell_at(environment, place(environment, d)));
+  return density(environment, cell_at(environment, position_of(environment, d)));
 }
 
 }  // namespace eyeray::engine::reference

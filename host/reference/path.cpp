@@ -42,13 +42,13 @@ Flight PathSample::fly(const Ray& ray, const MediaStack& media, const std::optio
     return {end, false, open ? Vec3(1) : transmittance(medium, length)};
   }
   const Vec3 extinction = medium.absorption + medium.scattering;
-  const Vec2 chance = pair_of(first_flight_pair + surfaces());
+  const Vec2 random = pair_of(first_flight_pair + surfaces());
   // A path of throughput 0 continues until roulette ends it. Its flights are decided by the last channel, as
   // in the shaders.
   const double all = throughput_.x + throughput_.y + throughput_.z;
   const Vec3 shares = all > 0 ? throughput_ / all : Vec3(0, 0, 1);
-  const int channel = chance.x < shares.x ? 0 : chance.x < shares.x + shares.y ? 1 : 2;
-  const double drawn = extinction[channel] > 0 ? -std::log1p(-chance.y) / extinction[channel] : infinity;
+  const int channel = random.x < shares.x ? 0 : random.x < shares.x + shares.y ? 1 : 2;
+  const double drawn = extinction[channel] > 0 ? -std::log1p(-random.y) / extinction[channel] : infinity;
   if (drawn < length) {
     const Vec3 left = transmittance(medium, drawn);
     return {rays_.medium_distance(media, ray, drawn), true,
@@ -61,8 +61,8 @@ Flight PathSample::fly(const Ray& ray, const MediaStack& media, const std::optio
 std::optional<Ray> PathSample::scatter(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
                                        MediaStack& media) {
   if (bsdf.black()) return std::nullopt;
-  const Vec2 chance = pair(scatter_pair);  // random numbers that choose the lobe, and that roulette uses
-  const BsdfSample sample = bsdf.sample(chance.x, pair(direction_pair));
+  const Vec2 random = pair(scatter_pair);  // random numbers that choose the lobe, and that roulette uses
+  const BsdfSample sample = bsdf.sample(random.x, pair(direction_pair));
   const bool passes = sample.kind == BsdfSample::Kind::passed;
   const bool straight = passes && panes_ < most_panes;  // a crossing that is no vertex of the path
   Vec3 d;
@@ -93,7 +93,7 @@ std::optional<Ray> PathSample::scatter(const Interaction& at, const LocalFrame& 
   const Leaving side = bent                         ? Leaving::straight
                        : kind == RayKind::reflected ? Leaving::in_front
                                                     : Leaving::behind;
-  return continued(kind, at, d, side, chance.y, sample.lobe + 1 + (kind == RayKind::refracted ? through : 0),
+  return continued(kind, at, d, side, random.y, sample.lobe + 1 + (kind == RayKind::refracted ? through : 0),
                    straight);
 }
 
@@ -106,10 +106,10 @@ std::optional<Ray> PathSample::scatter_in(const Medium& medium, const Interactio
 
 // Continues a path by Russian roulette: returns the next ray, or none.
 std::optional<Ray> PathSample::continued(RayKind kind, const Interaction& at, const Vec3& d, Leaving side,
-                                         double chance, uint32_t way, bool straight) {
+                                         double random, uint32_t way, bool straight) {
   const double survival = depth_ < first_roulette ? 1 : std::clamp(largest(throughput_), least_survival, 1.0);
   observer_.value("survival", survival);
-  if (roulette_ && !(chance < survival)) return std::nullopt;
+  if (roulette_ && !(random < survival)) return std::nullopt;
   rays_.cut_off = !straight && depth_ > scene_.render.max_depth;
   if (rays_.cut_off) return std::nullopt;
   throughput_ /= survival;
@@ -157,7 +157,7 @@ std::optional<Ray> PathSample::hit_surface(const Interaction& at, const LocalFra
 
 void PathSample::gain(const Vec3& light, Vec3& color) {
   observer_.value("light", light);
-  rays_.decided(Event::light, asked_);
+  rays_.decided(Event::light, light_event_);
   color += throughput_ * light;
 }
 
@@ -165,7 +165,7 @@ PixelSample PathSample::follow(Ray ray, MediaStack media, Meet meet) {
   Vec3 color(0);
   vertex_ = ray.o;
   for (;;) {
-    asked_ = 0;
+    light_event_ = 0;
     ray = with_key(ray, 0);
     const auto hit = rays_.trace(ray);
     const Flight flight = fly(ray, media, hit);

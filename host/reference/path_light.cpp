@@ -35,8 +35,8 @@ Vec3 PathSample::emitted(const Interaction& at) const {
   const double share =
       (1 - environment_share()) *
       light_share(choice, chosen_at_, scene_.lights.size() + size_t(found - choice.emitters.begin()));
-  const EmitterSample place{at.surface.position, at.surface.normal_geometric};
-  return light * power_heuristic(density_, share * emitter_density(found->form, vertex_, place));
+  const EmitterSample point{at.surface.position, at.surface.normal_geometric};
+  return light * power_heuristic(density_, share * emitter_density(found->form, vertex_, point));
 }
 
 // The probability of choosing the environment, and not a light.
@@ -59,7 +59,7 @@ Vec3 PathSample::missed(const Vec3& d) const {
 }
 
 std::optional<Arriving> PathSample::arriving_from_around(const Interaction& at) {
-  const auto [l, by_angle] = sample_environment(*scene_.environment, pair(place_pair));
+  const auto [l, by_angle] = sample_environment(*scene_.environment, pair(emitter_pair));
   const double density = environment_share() * by_angle;
   return Arriving{l,
                   rays_.spawn_ray(at.surface, l, leaving(at, l)),
@@ -73,10 +73,10 @@ std::optional<Arriving> PathSample::arriving_from_around(const Interaction& at) 
 // counts as π.
 std::optional<Arriving> PathSample::arriving(const Interaction& at) {
   const LightChoice& choice = tracer_.light_choice();
-  const Vec2 chance = pair(light_pair);
-  if (chance.y < environment_share()) return arriving_from_around(at);
+  const Vec2 random = pair(light_pair);
+  if (random.y < environment_share()) return arriving_from_around(at);
   if (choice.ends.empty()) return std::nullopt;
-  const auto pick = pick_light(choice, lit_point(at), chance.x);
+  const auto pick = pick_light(choice, lit_point(at), random.x);
   if (!pick) return std::nullopt;
   const size_t light = pick->light;
   const double share = (1 - environment_share()) * pick->share;
@@ -85,7 +85,7 @@ std::optional<Arriving> PathSample::arriving(const Interaction& at) {
     const Illumination arriving = scene_.lights[light]->illuminate(p);
     double distance = arriving.distance;
     if (arriving.angle > 0) {
-      const Vec3 l = disk_direction(arriving, pair(place_pair));
+      const Vec3 l = disk_direction(arriving, pair(emitter_pair));
       const double density = share * disk_density(arriving);
       const Ray ray = rays_.spawn_to_light(at.surface, l, leaving(at, l), distance);
       return Arriving{l, ray, distance, disk_radiance(arriving) / density, density, light};
@@ -96,14 +96,14 @@ std::optional<Arriving> PathSample::arriving(const Interaction& at) {
   const Emitter& emitter = choice.emitters[light - scene_.lights.size()];
   // A flat emitter does not light itself.
   if (emitter.primitive == at.primitive && is_flat(emitter.form)) return std::nullopt;
-  const EmitterSample place = sample_emitter(emitter.form, p, pair(place_pair));
-  const Vec3 l = glm::normalize(place.position - p);
+  const EmitterSample point = sample_emitter(emitter.form, p, pair(emitter_pair));
+  const Vec3 l = glm::normalize(point.position - p);
   Ray ray = rays_.spawn_ray(at.surface, l, leaving(at, l));
-  const Vec3 way = rays_.end_before(place.position, place.normal, l) - ray.o;
+  const Vec3 way = rays_.end_before(point.position, point.normal, l) - ray.o;
   ray.d = glm::normalize(way);
-  const double density = share * emitter_density(emitter.form, p, place);
+  const double density = share * emitter_density(emitter.form, p, point);
   return Arriving{
-      l,       ray,  glm::length(way) * (1 - 1e-9), emitter_radiance(scene_, emitter, place, p) / density,
+      l,       ray,  glm::length(way) * (1 - 1e-9), emitter_radiance(scene_, emitter, point, p) / density,
       density, light};
 }
 
@@ -128,7 +128,7 @@ Vec3 PathSample::direct(const Interaction& at, const Arriving& light, const Bsdf
   observer_.value("contribution", contribution);
   observer_.value("visibility", seen.x);
   observer_.back(depth_);
-  asked_ = 2 * (light.light + 2) + (seen != Vec3(0) ? 1 : 0);
+  light_event_ = 2 * (light.light + 2) + (seen != Vec3(0) ? 1 : 0);
   return seen * contribution;
 }
 

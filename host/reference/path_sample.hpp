@@ -20,7 +20,7 @@ namespace eyeray::engine::reference {
 
 // The numbers of the pairs of random numbers for each use, at the first vertex. From vertex to vertex they
 // grow by `pairs_a_vertex`.
-inline constexpr uint32_t scatter_pair = 4, direction_pair = 5, light_pair = 6, place_pair = 7,
+inline constexpr uint32_t scatter_pair = 4, direction_pair = 5, light_pair = 6, emitter_pair = 7,
                           pairs_a_vertex = 4;
 inline constexpr uint32_t first_flight_pair =
     0x10000;  // at the first vertex; it grows by 1 from vertex to vertex
@@ -116,7 +116,7 @@ class PathSample {
                  const MediaStack& media);
   Vec3 direct_in(const Interaction& at, const MediaStack& media);
   std::optional<Ray> continued(RayKind kind, const Interaction& at, const Vec3& d, Leaving side,
-                               double chance, uint32_t way, bool straight = false);
+                               double random, uint32_t way, bool straight = false);
   std::optional<Ray> scatter(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
                              MediaStack& media);
   Vec3 direct_on_parts(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& wide,
@@ -137,7 +137,7 @@ class PathSample {
   Vec3 vertex_{0};                 // the path's last vertex, or the eye
   Vec3 throughput_{1};
   bool roulette_ = true;
-  uint64_t asked_ = 0;  // the value of Event::light of the last vertex
+  uint64_t light_event_ = 0;  // the value of Event::light of the last vertex
   double density_ = 0;  // density of the ray's direction, by solid angle; 0 if the direction was the only one
   LitPoint chosen_at_{};  // the point where the ray's direction was chosen
 };

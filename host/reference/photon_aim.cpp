@@ -37,9 +37,9 @@ double Aimed::weight(double own) const {
   return own > 0 ? 1 / (1 - aimed_share + aimed_share * density / own) : 0;
 }
 
-Aimed aimed(std::span<const Window> windows, double chance, const Vec3& by_chance,
+Aimed aimed(std::span<const Window> windows, double random, const Vec3& at_random,
             const std::function<Vec3(const Window&)>& in) {
-  Aimed it{by_chance, !windows.empty() && chance < aimed_share};
+  Aimed it{at_random, !windows.empty() && random < aimed_share};
   if (windows.empty()) return it;
   std::vector<double> ends;
   for (const Window& window : windows) ends.push_back((ends.empty() ? 0 : ends.back()) + window.area);
@@ -47,7 +47,7 @@ Aimed aimed(std::span<const Window> windows, double chance, const Vec3& by_chanc
   size_t chosen = windows.size();
   if (it.by_aim) {
     chosen = 0;
-    while (chosen + 1 < windows.size() && ends[chosen] <= chance / aimed_share * all) ++chosen;
+    while (chosen + 1 < windows.size() && ends[chosen] <= random / aimed_share * all) ++chosen;
     it.at = in(windows[chosen]);
   }
   uint64_t around = 0;

@@ -36,9 +36,9 @@ struct Aimed {
   double weight(double own) const;
 };
 
-// By the random number `chance`, chooses either `by_chance`, or in(window), a point of a window. The
+// By the random number `random`, chooses either `at_random`, or in(window), a point of a window. The
 // probability of a window is proportional to its area.
-Aimed aimed(std::span<const Window> windows, double chance, const Vec3& by_chance,
+Aimed aimed(std::span<const Window> windows, double random, const Vec3& at_random,
             const std::function<Vec3(const Window&)>& in);
 
 }  // namespace eyeray::engine::reference

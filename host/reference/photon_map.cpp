@@ -23,7 +23,7 @@ PhotonMap::PhotonMap(const Tracer& tracer, uint32_t index, std::span<const uint3
     for (uint32_t number = begin; number < end; ++number) {
       PhotonWay& way = ways_[number];
       way.trail = PathSample(tracer, {photons_of | index, number}, {}, {}).photon(sources, stopped[number]);
-      for (const Photon& photon : stopped[number]) way.places += photon.position;
+      for (const Photon& photon : stopped[number]) way.positions += photon.position;
     }
   });
   for (const uint32_t number : left_out)
@@ -44,8 +44,8 @@ PhotonMap::PhotonMap(const Tracer& tracer, uint32_t index, std::span<const uint3
 uint64_t PhotonMap::cell(const Vec3& p) const {
   uint64_t number = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    const double place = std::clamp(std::floor(p[axis] / (2 * radius_)), -0x1p50, 0x1p50);
-    number = number << 21 | (uint64_t(int64_t(place)) & 0x1fffff);
+    const double cell_position = std::clamp(std::floor(p[axis] / (2 * radius_)), -0x1p50, 0x1p50);
+    number = number << 21 | (uint64_t(int64_t(cell_position)) & 0x1fffff);
   }
   return number;
 }

@@ -10,7 +10,7 @@ PhotonTrace PhotonTraces::trace(uint32_t index, uint32_t number,
   std::vector<Photon> stopped;
   const Observer observer(trace.events);
   PathSample(tracer_, {photons_of | index, number}, displacement, observer).photon(sources_, stopped);
-  for (const Photon& photon : stopped) trace.places += photon.position;
+  for (const Photon& photon : stopped) trace.positions += photon.position;
   return trace;
 }
 

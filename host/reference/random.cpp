@@ -7,8 +7,8 @@ extern const Sampler random_sampler{
     .manual =
         "All random numbers are independent of each other, selected by `seed` of [render](#render). Any "
         "number of samples is possible. This is for statistics.",
-    .place = [](int, uint32_t pixel, uint32_t index,
-                uint32_t seed) { return random_pair(pixel, index, 0, seed); },
+    .position = [](int, uint32_t pixel, uint32_t index,
+                   uint32_t seed) { return random_pair(pixel, index, 0, seed); },
     .pair = random_pair};
 
 }  // namespace eyeray::engine::reference

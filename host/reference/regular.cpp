@@ -6,8 +6,8 @@ namespace eyeray::engine::reference {
 
 extern const Sampler regular_sampler{
     .manual = "Each pixel is divided into n × n cells. The samples lie at the centres of the cells.",
-    .place = [](int samples, uint32_t, uint32_t index,
-                uint32_t) { return in_grid(samples, index, Vec2(0.5)); },
+    .position = [](int samples, uint32_t, uint32_t index,
+                   uint32_t) { return in_grid(samples, index, Vec2(0.5)); },
     .pair = random_pair};
 
 }  // namespace eyeray::engine::reference

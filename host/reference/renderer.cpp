@@ -23,9 +23,9 @@ Renderer::Aim Renderer::aim(int x, int y, uint32_t index) const {
 }
 
 Ray Renderer::camera_ray(const Aim& aim, const Vec2& shift, double pivot) const {
-  const Ray moved = camera_.ray(aim.place + shift, aim.lens);
+  const Ray moved = camera_.ray(aim.position + shift, aim.lens);
   if (pivot == 0) return moved;
-  const Ray ray = camera_.ray(aim.place, aim.lens);
+  const Ray ray = camera_.ray(aim.position, aim.lens);
   const Vec3 stays = ray.o + pivot * ray.d;
   const Vec3 start = ray.o + (moved.o + pivot * moved.d - stays);
   return {start, glm::normalize(stays - start)};
@@ -37,14 +37,14 @@ SampleId Renderer::id(int x, int y, uint32_t index) const {
 
 AuxiliarySample Renderer::auxiliary(int x, int y, uint32_t index) const {
   const Aim aim = this->aim(x, y, index);
-  if (!camera_.sees(aim.place)) return {};
+  if (!camera_.sees(aim.position)) return {};
   return path_auxiliary(tracer_, id(x, y, index), camera_ray(aim, {0, 0}, 0), media_);
 }
 
 PixelSample Renderer::sample(int x, int y, uint32_t index, Vec2 shift,
                              const rounding::Displacement& displacement, const Observer& observer) const {
   const Aim aim = this->aim(x, y, index);
-  if (!camera_.sees(aim.place + shift, aim.lens)) return {};
+  if (!camera_.sees(aim.position + shift, aim.lens)) return {};
   const Ray ray = camera_ray(aim, shift, displacement.pivot);
   const IntegratorType type = scene_.render.integrator;
   observer.ray(RayKind::eye, ray, 0);
@@ -65,7 +65,7 @@ FirstHit Renderer::first_hit_of_sample(int x, int y, uint32_t index, Vec2 shift,
 FirstHit Renderer::hit(const Aim& aim, const SampleId& id, const Vec2& shift,
                        const rounding::Displacement& displacement) const {
   FirstHit result;
-  if (!camera_.sees(aim.place + shift, aim.lens)) return result;
+  if (!camera_.sees(aim.position + shift, aim.lens)) return result;
   Ray ray = camera_ray(aim, shift, displacement.pivot);
   ray.alpha_key = alpha_key(id.pixel, id.index, 0, 0, scene_.render.seed);
   const auto hit = tracer_.trace(ray, result.flags, displacement.coincident);
@@ -88,8 +88,8 @@ double Renderer::rounding(int x, int y, double t) const {
   constexpr double roundings = 8 * 0x1p-24;
   const Ray ray = camera_.ray(Vec2(x, y) + Vec2(0.5)), next = camera_.ray(Vec2(x, y) + Vec2(1.5, 0.5));
   const double distance = std::isfinite(t) ? t : 1;
-  const Vec3 place = ray.o + distance * ray.d;
-  return roundings * glm::length(place - scene_.camera.eye) / glm::length(next.o + distance * next.d - place);
+  const Vec3 point = ray.o + distance * ray.d;
+  return roundings * glm::length(point - scene_.camera.eye) / glm::length(next.o + distance * next.d - point);
 }
 
 double Renderer::pivot(int x, int y, uint32_t which) const {

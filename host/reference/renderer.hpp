@@ -39,7 +39,7 @@ class Renderer {
  private:
   // The position of a camera ray in the picture, and its position on the lens.
   struct Aim {
-    Vec2 place;
+    Vec2 position;
     Vec2 lens{0.0};
   };
   Aim aim(int x, int y, uint32_t index) const;

@@ -18,7 +18,7 @@ const Sampler& sampler(SamplePattern pattern) {
 
 Vec2 sample_position(const ImageSettings& image, uint32_t seed, int x, int y, uint32_t index) {
   const uint32_t pixel = uint32_t(y) * uint32_t(image.width) + uint32_t(x);
-  return filtered(image, sampler(image.pattern).place(image.samples, pixel, index, seed));
+  return filtered(image, sampler(image.pattern).position(image.samples, pixel, index, seed));
 }
 
 }  // namespace eyeray::engine::reference

@@ -13,7 +13,7 @@ struct Sampler {
   std::string_view manual;  // Markdown
   // The position of sample `index` of `samples` in its pixel; both coordinates are in [0, 1). `pixel`:
   // counted along the rows.
-  Vec2 (*place)(int samples, uint32_t pixel, uint32_t index, uint32_t seed);
+  Vec2 (*position)(int samples, uint32_t pixel, uint32_t index, uint32_t seed);
   // The random numbers of a path, a pair for each use (listed in path_sample.hpp): each in [0, 1), a multiple
   // of 2^-24.
   Vec2 (*pair)(uint32_t pixel, uint32_t index, uint32_t pair, uint32_t seed);

@@ -48,9 +48,9 @@ Vec2 pair(uint32_t pixel, uint32_t index, uint32_t pair, uint32_t seed) {
 
 }  // namespace
 
-extern const Sampler sobol_sampler{
-    .manual = manual,
-    .place = [](int, uint32_t pixel, uint32_t index, uint32_t seed) { return pair(pixel, index, 0, seed); },
-    .pair = pair};
+extern const Sampler sobol_sampler{.manual = manual,
+                                   .position = [](int, uint32_t pixel, uint32_t index,
+                                                  uint32_t seed) { return pair(pixel, index, 0, seed); },
+                                   .pair = pair};
 
 }  // namespace eyeray::engine::reference

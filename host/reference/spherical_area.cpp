@@ -54,7 +54,7 @@ SphericalRectangle::SphericalRectangle(const Vec3& corner, const Vec3& edge_u, c
   solid_angle_ = at_c10 + at_high - k_;
 }
 
-Vec2 SphericalRectangle::place(const Vec2& u) const {
+Vec2 SphericalRectangle::position(const Vec2& u) const {
   const double turn = u.x * solid_angle_ + k_;
   // p / q is Ureña's f. His c is the cosine of the plane through x, so that x = −z c / √(1 − c²).
   const double p = std::cos(turn) * b0_ - b1_, q = std::sin(turn);

@@ -33,7 +33,7 @@ class SphericalRectangle {
 
   double solid_angle() const { return solid_angle_; }
   // A point, as its shares of the two edges in [0, 1]. u: two numbers in [0, 1) that choose it.
-  Vec2 place(const Vec2& u) const;
+  Vec2 position(const Vec2& u) const;
 
  private:
   Vec3 low_, high_;  // opposite corners in the rectangle's own space; both z are the same, and negative

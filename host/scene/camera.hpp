@@ -80,12 +80,16 @@ class Projection {
   // The lengths of the shaders' `right`, `up` and `forward` as multiples of the axes. X·right + Y·up, with X
   // and Y in [−1, 1], spans the picture.
   virtual Vec3 scale(const Vec2& size) const = 0;
-  // The ray through `place`, with a unit direction. `place` is relative to the picture's middle, to the right
-  // and up, in half widths. If rays start on an aperture, the ray starts at `lens`, to the right and up of
-  // the eye. This is the reference's version: written from the mathematics, not from `scale` and the shader.
-  virtual Ray ray(const CameraAxes& camera, const Vec2& place, const Vec2& lens, const Vec2& size) const = 0;
+  // The ray through `position`, with a unit direction. `position` is relative to the picture's middle, to the
+  // right and up, in half widths. If rays start on an aperture, the ray starts at `lens`, to the right and up
+  // of the eye. This is the reference's version: written from the mathematics, not from `scale` and the
+  // shader.
+  virtual Ray ray(const CameraAxes& camera, const Vec2& position, const Vec2& lens,
+                  const Vec2& size) const = 0;
   // True if the camera sees anything at this point; else the picture is black there.
-  virtual bool sees(const Vec2& /*place*/, const Vec2& /*lens*/, const Vec2& /*size*/) const { return true; }
+  virtual bool sees(const Vec2& /*position*/, const Vec2& /*lens*/, const Vec2& /*size*/) const {
+    return true;
+  }
   // The formula of a camera that a scene defines; null for any other camera.
   virtual std::shared_ptr<const formula::Formula> function() const { return nullptr; }
   virtual Aperture aperture() const { return {}; }
