@@ -54,9 +54,9 @@ void refit(Bvh& bvh, std::span<const Box> boxes) {
 
 Bvh BvhHistory::build(std::span<const Box> boxes, const BvhOptions& options) {
   if (boxes.size() < least_items || options.split) return build_bvh(boxes, options);
-  const size_t place = next_++, finite = count_finite(boxes);
-  if (place < kept_.size()) {
-    Kept& kept = kept_[place];
+  const size_t index = next_++, finite = count_finite(boxes);
+  if (index < kept_.size()) {
+    Kept& kept = kept_[index];
     if (kept.items == boxes.size() && kept.finite == finite && kept.lone == options.first_lone &&
         all_finite(kept.bvh, boxes)) {
       refit(kept.bvh, boxes);
@@ -64,8 +64,8 @@ Bvh BvhHistory::build(std::span<const Box> boxes, const BvhOptions& options) {
     }
   }
   Bvh built = build_bvh(boxes, options);
-  kept_.resize(std::max(kept_.size(), place + 1));
-  kept_[place] = {built, sah_cost(built), boxes.size(), finite, options.first_lone};
+  kept_.resize(std::max(kept_.size(), index + 1));
+  kept_[index] = {built, sah_cost(built), boxes.size(), finite, options.first_lone};
   return built;
 }
 

@@ -112,15 +112,15 @@ class Judge {
   // The pixels with that outcome in any gate; unless `of_all`, only in the gates that have not failed for
   // certain.
   std::vector<size_t> of_outcome(Outcome outcome, bool of_all) const {
-    std::vector<const std::vector<Judgement>*> asked;
+    std::vector<const std::vector<Judgement>*> considered;
     for (const std::vector<Judgement>* judgements : {&first_hits_, &counts_, &colors_}) {
       const Tally tally = this->tally(*judgements);
       const bool failed = tally.capped_pixels() > tally.may_be_explained || tally.unexplained > int64_t(few);
-      if (of_all || !failed) asked.push_back(judgements);
+      if (of_all || !failed) considered.push_back(judgements);
     }
     std::vector<size_t> pixels;
     for (size_t i = 0; i < colors_.size(); ++i)
-      if (std::ranges::any_of(asked, [&](const auto* j) { return (*j)[i].outcome == outcome; }))
+      if (std::ranges::any_of(considered, [&](const auto* j) { return (*j)[i].outcome == outcome; }))
         pixels.push_back(i);
     return pixels;
   }

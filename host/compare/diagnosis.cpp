@@ -42,7 +42,7 @@ std::string side(const Report& report) {
 }
 
 // The first wrong value along the life of a ray, in words.
-std::string place(const ReferenceResult& result) {
+std::string first_wrong_value(const ReferenceResult& result) {
   const ReferenceComparison& c = result.comparison;
   const std::span<const TallyType> types = c.types();
   const auto failing =
@@ -96,7 +96,7 @@ std::string Report::diagnosis() const {
            "executors; --update keeps the new picture";
   std::string text = side(*this);
   for (const ReferenceResult& result : against_reference) {
-    const std::string found = place(result);
+    const std::string found = first_wrong_value(result);
     if (found.empty()) continue;
     return text.empty() ? found : found + "; " + text;
   }

@@ -35,18 +35,18 @@ Sums sums_of(const Frame& value, const Frame& reference, const Rect& tile) {
 // is tried as that one. If there are many, an even selection is tried: neighbours have nearly equal numbers.
 double most_near(const Frame& frame, const Rect& tile, double distance) {
   constexpr int sampled_along = 16;
-  std::vector<Vec3> places;
-  const auto each_place = [&](int step_x, int step_y, const auto& visit) {
+  std::vector<Vec3> positions;
+  const auto each_position = [&](int step_x, int step_y, const auto& visit) {
     for (int y = tile.y; y < tile.y + tile.height; y += step_y)
       for (int x = tile.x; x < tile.x + tile.width; x += step_x)
         if (const FirstHit& hit = frame.first_hit(x, y); hit.primitive >= 0) visit(hit.position);
   };
-  each_place(1, 1, [&](const Vec3& place) { places.push_back(place); });
+  each_position(1, 1, [&](const Vec3& position) { positions.push_back(position); });
   int64_t most = 1;
   const auto step = [&](int size) { return (size + sampled_along - 1) / sampled_along; };
-  each_place(step(tile.width), step(tile.height), [&](const Vec3& from) {
-    most = std::max<int64_t>(most, std::ranges::count_if(places, [&](const Vec3& place) {
-                               return glm::length(place - from) < distance;
+  each_position(step(tile.width), step(tile.height), [&](const Vec3& from) {
+    most = std::max<int64_t>(most, std::ranges::count_if(positions, [&](const Vec3& position) {
+                               return glm::length(position - from) < distance;
                              }));
   });
   return double(most);

@@ -31,7 +31,7 @@ struct ProbedRay {
   RayKind kind = RayKind::pixel;
   uint32_t number = 0;  // a shadow ray's light
   size_t parent = 0;    // index in RayTree::rays, less than this ray's; the pixel is its own parent
-  size_t place = 0;     // number of the parent's values that come before this ray
+  size_t index = 0;     // number of the parent's values that come before this ray
   std::vector<ProbedValue> values = {};
 };
 

@@ -42,7 +42,7 @@ struct Semaphore {
 } something_happened;
 
 std::atomic<int> saving = 0;
-std::atomic<const std::atomic<bool>*> stop_asked = nullptr;
+std::atomic<const std::atomic<bool>*> stop_requested = nullptr;
 
 // The current foreign call. If it has exceeded its limit, it stays here even after it returns.
 struct Call {
@@ -167,17 +167,17 @@ bool signalled() {
 }
 
 bool interrupted() {
-  const std::atomic<bool>* const asked = stop_asked.load(std::memory_order_acquire);
-  return signalled() || (asked && asked->load(std::memory_order_relaxed));
+  const std::atomic<bool>* const requested = stop_requested.load(std::memory_order_acquire);
+  return signalled() || (requested && requested->load(std::memory_order_relaxed));
 }
 
 Interruptible::Interruptible(const std::atomic<bool>& stop) {
   const std::atomic<bool>* none = nullptr;
-  CHECK(stop_asked.compare_exchange_strong(none, &stop, std::memory_order_release));
+  CHECK(stop_requested.compare_exchange_strong(none, &stop, std::memory_order_release));
 }
 
 Interruptible::~Interruptible() {
-  stop_asked = nullptr;
+  stop_requested = nullptr;
 }
 
 int exit_status(ExitCode code) {

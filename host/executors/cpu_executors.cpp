@@ -174,7 +174,7 @@ class TwinExecutor final : public Twin {
     photon_ways_.assign(count, {});
     photon_flags_ = 0;
     for (const shader::Photon& photon : all)
-      photon_ways_[photon.number].places +=
+      photon_ways_[photon.number].positions +=
           eye_ + Vec3(photon.position.x, photon.position.y, photon.position.z);
     for (uint32_t number = 0; number < count; ++number) {
       photon_ways_[number].trail = results[number].trail;

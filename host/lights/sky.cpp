@@ -120,10 +120,10 @@ class Atmosphere {
               const Source& source) const {
     const double ground = to_ground(radius, d.y), end = ground >= 0 ? ground : to_top(radius, d.y);
     Vec3 light(0), left(1);
-    const auto place = [&](double t) { return Vec3(0, radius, 0) + t * d; };
+    const auto point = [&](double t) { return Vec3(0, radius, 0) + t * d; };
     for (int i = 0; i < steps; ++i) {
       const double from = end * i * i / (steps * steps), to = end * (i + 1) * (i + 1) / (steps * steps);
-      const Vec3 p = place((from + to) / 2);
+      const Vec3 p = point((from + to) / 2);
       const double r = glm::length(p), cosine = glm::dot(p, to_sun) / r;
       const Medium medium = medium_at(r);
       const Vec3 passed = glm::exp(-medium.extinction * (to - from));
@@ -131,7 +131,7 @@ class Atmosphere {
       left *= passed;
     }
     if (with_ground && ground >= 0) {
-      const Vec3 p = place(ground);
+      const Vec3 p = point(ground);
       const double cosine = glm::dot(p, to_sun) / glm::length(p);
       const Vec3 arriving =
           std::max(0.0, cosine) * sunlight(ground_radius, cosine) + M_PI * scattered(ground_radius, cosine);

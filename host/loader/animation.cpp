@@ -71,14 +71,14 @@ constexpr Key table_of_track[] = {
 // not move that whole value or more, because the earlier track's keyframes would then have no effect.
 class MovedValues {
  public:
-  // Records that `track`, whose target is at `at`, moves the value at `place` (apply_track). If several
+  // Records that `track`, whose target is at `at`, moves the value at `path` (apply_track). If several
   // tracks undo the same earlier track, only the first of them is an error.
-  void add(const std::vector<std::string>& place, const SourcePosition& at, reading::TableReader& track) {
-    const auto earlier = tracks_.lower_bound(place);
-    const bool undone = earlier != tracks_.end() && earlier->first.size() >= place.size() &&
-                        std::equal(place.begin(), place.end(), earlier->first.begin());
+  void add(const std::vector<std::string>& path, const SourcePosition& at, reading::TableReader& track) {
+    const auto earlier = tracks_.lower_bound(path);
+    const bool undone = earlier != tracks_.end() && earlier->first.size() >= path.size() &&
+                        std::equal(path.begin(), path.end(), earlier->first.begin());
     if (!undone) {
-      tracks_.emplace(place, Track{at});
+      tracks_.emplace(path, Track{at});
     } else if (!std::exchange(earlier->second.undone, true)) {
       const SourcePosition& first = earlier->second.at;
       track.error(
@@ -174,9 +174,9 @@ Animation apply_animation(toml::table& root, DiagnosticLog& log) {
     const auto value = value_between(keyframes, animation.frame, Curve(one.choice("curve")), log);
     if (!value) continue;
     add_moving(1, frame_of(keyframes.front()), frame_of(keyframes.back()), animation);
-    const auto place =
+    const auto path =
         apply_track(root, target, *value, one.position("target"), one.position("keyframes"), log);
-    if (!place.empty()) moved.add(place, one.position("target"), one);
+    if (!path.empty()) moved.add(path, one.position("target"), one);
   }
   return animation;
 }

@@ -77,8 +77,8 @@ MeshImports::Loaded MeshImports::load(const std::string& name, std::optional<dou
   const auto [path, whole] = find(name, from);
   playing.seconds = seconds_;
   const Wanted wanted{whole, smooth, std::move(playing)};
-  const auto [place, fresh] = entries_.try_emplace(wanted);
-  Entry& entry = place->second;
+  const auto [found, fresh] = entries_.try_emplace(wanted);
+  Entry& entry = found->second;
   if (fresh) import(entry, path, wanted);
   if (!entry.refused.empty()) throw Error(entry.code, entry.refused);
   entry.shown = true;

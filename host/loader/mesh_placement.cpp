@@ -20,8 +20,8 @@ constexpr double least_thickness = thinnest_triangle / 10;
 
 }  // namespace
 
-void MeshPlacer::take_meshes(importers::ImportedScene& import, Place& place) {
-  place.first_mesh = static_cast<int>(scene_.meshes.size());
+void MeshPlacer::take_meshes(importers::ImportedScene& import, Placed& placed) {
+  placed.first_mesh = static_cast<int>(scene_.meshes.size());
   for (Mesh& mesh : import.meshes) {
     double thinnest = 1;
     for (const auto& triangle : mesh.triangles)
@@ -31,8 +31,8 @@ void MeshPlacer::take_meshes(importers::ImportedScene& import, Place& place) {
   }
 }
 
-void MeshPlacer::take_materials(importers::ImportedScene& import, Place& place) {
-  place.first_material = static_cast<int>(scene_.materials.size());
+void MeshPlacer::take_materials(importers::ImportedScene& import, Placed& placed) {
+  placed.first_material = static_cast<int>(scene_.materials.size());
   std::ranges::move(import.materials, std::back_inserter(scene_.materials));
 }
 
@@ -73,17 +73,17 @@ std::string MeshPlacer::check(size_t index, const Mat4& transform) const {
 std::string MeshPlacer::place(importers::ImportedScene& import, const Mat4& transform,
                               std::optional<int> material, const SourcePosition& position,
                               const NameRef& name, std::vector<Instance>& into) {
-  Place& place = places_[&import];
-  if (place.first_mesh < 0) take_meshes(import, place);
-  if (!material && place.first_material < 0) take_materials(import, place);
+  Placed& file = placed_[&import];
+  if (file.first_mesh < 0) take_meshes(import, file);
+  if (!material && file.first_material < 0) take_materials(import, file);
   for (const Instance& instance : import.instances) {
-    Instance placed{place.first_mesh + instance.mesh, transform * instance.transform, 0, position, name};
+    Instance placed{file.first_mesh + instance.mesh, transform * instance.transform, 0, position, name};
     if (std::string wrong = check(static_cast<size_t>(placed.mesh), placed.transform); !wrong.empty())
       return wrong;
     placed.material = material ? *material
                       : instance.material < 0
                           ? plain_material_index(scene_.meshes[static_cast<size_t>(placed.mesh)])
-                          : place.first_material + instance.material;
+                          : file.first_material + instance.material;
     into.push_back(std::move(placed));
   }
   return "";

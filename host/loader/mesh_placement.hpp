@@ -27,7 +27,7 @@ class MeshPlacer {
 
  private:
   // The indices in the scene of the first mesh and material of a file; −1 before they are added.
-  struct Place {
+  struct Placed {
     int first_mesh = -1;
     int first_material = -1;
   };
@@ -37,12 +37,12 @@ class MeshPlacer {
     double thinnest;  // least thickness() of a triangle
   };
 
-  void take_meshes(importers::ImportedScene& import, Place& place);
-  void take_materials(importers::ImportedScene& import, Place& place);
+  void take_meshes(importers::ImportedScene& import, Placed& placed);
+  void take_materials(importers::ImportedScene& import, Placed& placed);
   int plain_material_index(const Mesh& mesh);
 
   Scene& scene_;
-  std::map<const importers::ImportedScene*, Place> places_;
+  std::map<const importers::ImportedScene*, Placed> placed_;
   std::vector<Extent> extents_;  // one a mesh of the scene
   int plain_[2] = {-1, -1};      // materials for meshes without one: without and with vertex colours
 };

@@ -52,10 +52,10 @@ class Assignment {
     if (!parse()) return {};
     toml::node* const section = enter_section();
     if (!section || !assign(*section)) return {};
-    std::vector<std::string> place;
-    for (const toml::key& part : path_) place.emplace_back(part.str());
-    if (element_) place[1] = std::to_string(*element_);
-    return place;
+    std::vector<std::string> parts;
+    for (const toml::key& part : path_) parts.emplace_back(part.str());
+    if (element_) parts[1] = std::to_string(*element_);
+    return parts;
   }
 
  private:

@@ -23,12 +23,12 @@ GgxAlbedo ggx_albedo_integral(double cosine, double roughness) {
   return {mean.x, mean.y, 0, 0};
 }
 
-std::vector<GgxAlbedo> ggx_albedo_row(int places, double roughness) {
+std::vector<GgxAlbedo> ggx_albedo_row(int count, double roughness) {
   std::vector<GgxAlbedo> row;
-  const double step = 1.0 / (places - 1);
-  for (int i = 0; i < places; ++i) row.push_back(ggx_albedo_integral((i * step) * (i * step), roughness));
-  const double once = mean_by_cosine(places, [&](int i) { return row[size_t(i)].once; });
-  const double edge = mean_by_cosine(places, [&](int i) { return row[size_t(i)].edge; });
+  const double step = 1.0 / (count - 1);
+  for (int i = 0; i < count; ++i) row.push_back(ggx_albedo_integral((i * step) * (i * step), roughness));
+  const double once = mean_by_cosine(count, [&](int i) { return row[size_t(i)].once; });
+  const double edge = mean_by_cosine(count, [&](int i) { return row[size_t(i)].edge; });
   for (GgxAlbedo& albedo : row) {
     albedo.mean_once = once;
     albedo.mean_edge = edge;

@@ -19,7 +19,7 @@ struct GgxAlbedo {
 // The albedo of one direction, integrated over the microfacets that are visible from there; its means are 0.
 // Both arguments are in [0, 1].
 GgxAlbedo ggx_albedo_integral(double cosine, double roughness);
-// The albedos of `places` directions, in even steps of √cosine from 0 to 1, with means.
-std::vector<GgxAlbedo> ggx_albedo_row(int places, double roughness);
+// The albedos of `count` directions, in even steps of √cosine from 0 to 1, with means.
+std::vector<GgxAlbedo> ggx_albedo_row(int count, double roughness);
 
 }  // namespace eyeray::engine::optics

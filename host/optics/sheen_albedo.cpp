@@ -37,11 +37,11 @@ double sheen(double cosine_half_way, double cosine_o, double cosine_i, double ro
   return fibres / (4 * (cosine_i + cosine_o - cosine_i * cosine_o));
 }
 
-std::vector<SheenAlbedo> sheen_albedo_row(int places, double roughness) {
-  std::vector<SheenAlbedo> row(static_cast<size_t>(places));
-  const double step = 1.0 / (places - 1);
+std::vector<SheenAlbedo> sheen_albedo_row(int count, double roughness) {
+  std::vector<SheenAlbedo> row(static_cast<size_t>(count));
+  const double step = 1.0 / (count - 1);
   const auto of_each = [&](double SheenAlbedo::* member, const auto& weakening) {
-    for (int i = 0; i < places; ++i) {
+    for (int i = 0; i < count; ++i) {
       SheenAlbedo& at = row[size_t(i)];
       at.*member = integral(std::max((i * step) * (i * step), 1e-6), roughness,
                             [&](double z) { return weakening(at, z); });
@@ -50,7 +50,7 @@ std::vector<SheenAlbedo> sheen_albedo_row(int places, double roughness) {
   of_each(&SheenAlbedo::unweakened, [](const SheenAlbedo&, double) { return 1.0; });
   of_each(&SheenAlbedo::albedo, [&](const SheenAlbedo& here, double z) {
     const double x = std::sqrt(z) / step;
-    const int left = std::min(int(x), places - 2);
+    const int left = std::min(int(x), count - 2);
     const SheenAlbedo* near = &row[size_t(left)];
     const double there = std::lerp(near[0].unweakened, near[1].unweakened, x - left);
     return 1 / std::max({1.0, here.unweakened, there});

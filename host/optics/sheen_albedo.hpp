@@ -18,7 +18,7 @@ inline constexpr double least_sheen_roughness = 0.07;
 
 // The BSDF for half-way vectors of that cosine, before the division (SheenAlbedo).
 double sheen(double cosine_half_way, double cosine_o, double cosine_i, double roughness);
-// The albedos of `places` directions, in even steps of √cosine from 0 to 1, for a roughness in [0, 1].
-std::vector<SheenAlbedo> sheen_albedo_row(int places, double roughness);
+// The albedos of `count` directions, in even steps of √cosine from 0 to 1, for a roughness in [0, 1].
+std::vector<SheenAlbedo> sheen_albedo_row(int count, double roughness);
 
 }  // namespace eyeray::engine::optics

@@ -229,9 +229,9 @@ CollapsedBvh collapse(std::span<const shader::uvec4> nodes, const shader::Bvh& b
 PacketBvh add_packet_bvh(records::PackedScene& scene, uint32_t lanes) {
   CHECK(scene.has_bvh && scene.quantised_nodes && scene.instances.empty());
   const CollapsedBvh bvh = collapse(scene.nodes, scene.bvhs[0], lanes);
-  const PacketBvh place{uint32_t(scene.nodes.size()), bvh.stack_size};
+  const PacketBvh added{uint32_t(scene.nodes.size()), bvh.stack_size};
   scene.nodes.insert(scene.nodes.end(), bvh.nodes.begin(), bvh.nodes.end());
-  return place;
+  return added;
 }
 
 }  // namespace eyeray::engine::pack

@@ -55,14 +55,14 @@ class Fields {
        : row == 1 ? record_.b
                   : record_.c) = records::to_vec4({m[0][row], m[1][row], m[2][row]}, center[row]);
   }
-  // `size`: how far the emitter reaches from `place`.
-  void set(uint32_t kind, const Vec3& place, double w, double size) {
+  // `size`: how far the emitter reaches from `point`.
+  void set(uint32_t kind, const Vec3& point, double w, double size) {
     record_.kind = kind;
-    record_.a = records::to_vec4(packer_.relative(place), w);
-    record_.offset = float(roundings * 0x1p-24 * (most_of(packer_.relative(place)) + size));
+    record_.a = records::to_vec4(packer_.relative(point), w);
+    record_.offset = float(roundings * 0x1p-24 * (most_of(packer_.relative(point)) + size));
   }
-  void set_with_edges(uint32_t kind, const Vec3& place, double w, const Vec3& b, const Vec3& c) {
-    set(kind, place, w, most_of(b) + most_of(c));
+  void set_with_edges(uint32_t kind, const Vec3& point, double w, const Vec3& b, const Vec3& c) {
+    set(kind, point, w, most_of(b) + most_of(c));
     record_.b = records::to_vec4(b);
     record_.c = records::to_vec4(c);
   }

@@ -156,10 +156,10 @@ std::string suggest_name(std::string_view word, std::span<const std::string_view
   if (word.size() > longest) return nearest_name(word, names);
 
   // Try in this order: a name that is only joined differently, another renderer's word, a typing error.
-  const std::string said = plain(word);
+  const std::string plain_word = plain(word);
   for (const std::string_view name : names)
-    if (plain(name) == said) return std::string(name);
-  const std::string whole = " " + said + " ";
+    if (plain(name) == plain_word) return std::string(name);
+  const std::string whole = " " + plain_word + " ";
   for (const Word& each : words)
     if (each.theirs.find(whole) != std::string_view::npos &&
         std::ranges::find(names, each.ours) != names.end())

@@ -9,7 +9,7 @@
 namespace eyeray::engine::render {
 namespace {
 
-size_t place_of(double luminance) {
+size_t bin_of(double luminance) {
   // A NaN, which may have a sign bit, counts as 0.
   return std::bit_cast<uint32_t>(luminance > 0 ? float(luminance) : 0.0f) >> 20;
 }
@@ -17,7 +17,7 @@ size_t place_of(double luminance) {
 }  // namespace
 
 void Brightness::add(std::span<const PixelSample> samples) {
-  for (const PixelSample& sample : samples) ++counts_[place_of(luminance(sample.color))];
+  for (const PixelSample& sample : samples) ++counts_[bin_of(luminance(sample.color))];
 }
 
 void Brightness::add(const Brightness& other) {
@@ -26,7 +26,7 @@ void Brightness::add(const Brightness& other) {
 
 uint64_t Brightness::above(double luminance) const {
   if (!(luminance > 0)) return 0;
-  const auto first = counts_.begin() + std::ptrdiff_t(place_of(luminance)) + 1;
+  const auto first = counts_.begin() + std::ptrdiff_t(bin_of(luminance)) + 1;
   return std::accumulate(first, counts_.end(), uint64_t{0});
 }
 

@@ -101,7 +101,7 @@ class Builder {
  private:
   // Appends the pair of nodes that divide the range, and returns the pair's index.
   uint32_t split(size_t begin, size_t end, int level, uint32_t trail) {
-    const size_t middle = place_of_split(begin, end, level);
+    const size_t middle = split_index(begin, end, level);
     const auto pair = uint32_t(bvh_.nodes.size());
     bvh_.nodes.resize(bvh_.nodes.size() + 2);
     bvh_.nodes[pair] = node(begin, middle, level, trail);
@@ -134,7 +134,7 @@ class Builder {
   }
 
   // Sorts the range, and returns where it is split: the lights before that belong to the first child.
-  size_t place_of_split(size_t begin, size_t end, int level) {
+  size_t split_index(size_t begin, size_t end, int level) {
     if (end - begin == 2) return begin + 1;
     // The remaining levels must suffice for the larger half.
     if (end - begin > size_t{1} << (LightBvh::deepest - level - 2)) return halves(begin, end);
@@ -173,8 +173,8 @@ class Builder {
     const auto first = order_.begin() + std::ptrdiff_t(begin), last = order_.begin() + std::ptrdiff_t(end);
     const auto middle = std::stable_partition(
         first, last, [&](uint32_t light) { return bin(lights_[light], centers, best_axis) <= best_bin; });
-    const auto place = size_t(middle - order_.begin());
-    return place > begin && place < end ? place : halves(begin, end);
+    const auto index = size_t(middle - order_.begin());
+    return index > begin && index < end ? index : halves(begin, end);
   }
 
   static int bin(const LightBounds& light, const Bounds& centers, int axis) {

@@ -8,9 +8,9 @@
 namespace eyeray::engine {
 
 int32_t Names::add(std::string_view text, uint32_t number, int32_t group) {
-  const auto [place, fresh] = places_.try_emplace(std::string(text), uint32_t(texts_.size()));
+  const auto [found, fresh] = indices_.try_emplace(std::string(text), uint32_t(texts_.size()));
   if (fresh) texts_.emplace_back(text);
-  entries_.push_back({place->second, number, group});
+  entries_.push_back({found->second, number, group});
   return int32_t(entries_.size()) - 1;
 }
 

@@ -34,7 +34,7 @@ class Names {
   };
   std::vector<Entry> entries_;
   std::vector<std::string> texts_;
-  std::unordered_map<std::string, uint32_t> places_;  // in texts_
+  std::unordered_map<std::string, uint32_t> indices_;  // in texts_
 };
 
 // An object's name, or the name of the group that it is in.

@@ -16,8 +16,8 @@ constexpr double pixels_across = 2;
 double pixel_at(const Scene& scene, double distance) {
   const CameraAxes axes = camera_axes(scene.camera);
   const Vec2 size = scene.image.size();
-  const auto at = [&](const Vec2& place) {
-    const Ray ray = scene.camera.projection->ray(axes, place, Vec2(0.0), size);
+  const auto at = [&](const Vec2& position) {
+    const Ray ray = scene.camera.projection->ray(axes, position, Vec2(0.0), size);
     return ray.o + distance * ray.d;
   };
   return glm::length(at({2 / size.x, 0}) - at({0, 0}));

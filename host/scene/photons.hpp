@@ -23,7 +23,7 @@ struct PhotonSettings {
 // The decisions of a photon, and the points where it is stored.
 struct PhotonWay {
   uint32_t trail = 0;  // fingerprint of its decisions, like PixelSample::trail
-  Vec3 places{0};      // the sum of the positions where it is stored
+  Vec3 positions{0};   // the sum of the positions where it is stored
 };
 
 // The photons that bring no light: for each sample their numbers, in order.

@@ -23,7 +23,7 @@ const std::array<std::array<double, degree + 1>, degree + 1>& cosines() {
 
 }  // namespace
 
-const std::array<double, ChebyshevSeries::points>& ChebyshevSeries::places() {
+const std::array<double, ChebyshevSeries::points>& ChebyshevSeries::sample_points() {
   return cosines()[1];
 }
 

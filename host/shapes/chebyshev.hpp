@@ -11,7 +11,7 @@ class ChebyshevSeries {
   static constexpr int points = degree + 1;
 
   // The points in [−1, 1], from 1 down to −1, at which the function is sampled.
-  static const std::array<double, points>& places();
+  static const std::array<double, points>& sample_points();
 
   explicit ChebyshevSeries(const std::array<double, points>& values);
 

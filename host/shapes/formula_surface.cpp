@@ -76,7 +76,7 @@ class SeriesSearch {
   std::optional<FormulaSurface::Change> between(double from, double to, bool inside) {
     std::array<double, ChebyshevSeries::points> values;
     for (size_t i = 0; i < values.size(); ++i)
-      values[i] = value(0.5 * (from + to) + 0.5 * (to - from) * ChebyshevSeries::places()[i]);
+      values[i] = value(0.5 * (from + to) + 0.5 * (to - from) * ChebyshevSeries::sample_points()[i]);
     double size = 0;
     for (const double v : values) size = std::max(size, std::fabs(v));
     largest_ = std::max(largest_, size);

@@ -167,12 +167,12 @@ class Prism final : public ObjectShape {
   Point point(const Vec3& near, const Intersection& hit) const override {
     if (hit.u < double(first_wall)) {
       const double up = hit.u == top_cap ? 1 : -1;
-      const Vec3 place(near.x, near.z, 1);
+      const Vec3 homogeneous(near.x, near.z, 1);
       const glm::dmat2 axes(up * form_.u_cap.x, form_.v_cap.x, up * form_.u_cap.y, form_.v_cap.y);
       const auto on_cap = [](const Vec2& d) { return Vec3(d.x, 0, d.y); };
       return {{near.x, up, near.z},
               {0, up, 0},
-              {up * glm::dot(form_.u_cap, place), glm::dot(form_.v_cap, place)},
+              {up * glm::dot(form_.u_cap, homogeneous), glm::dot(form_.v_cap, homogeneous)},
               on_cap(glm::inverse(axes)[0]),
               on_cap(glm::inverse(axes)[1])};
     }

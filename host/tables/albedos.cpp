@@ -59,12 +59,12 @@ optics::SheenAlbedo sheen_albedo(double cosine, double roughness) {
 double glass_albedo(double cosine, double roughness, double ior_from, double ior_to) {
   const double contrast = (ior_to - ior_from) / (ior_to + ior_from) / most_contrast;
   const int steps = contrast < 0 ? glass_slices_below : glass_slices - glass_slices_below;
-  const double place = glass_slices_below + std::copysign(std::sqrt(std::abs(contrast)), contrast) * steps;
-  const int slice = std::clamp(int(std::floor(place)), 0, glass_slices - 1);
+  const double position = glass_slices_below + std::copysign(std::sqrt(std::abs(contrast)), contrast) * steps;
+  const int slice = std::clamp(int(std::floor(position)), 0, glass_slices - 1);
   const auto at = [&](int end) {
     return between(glass_albedos(end), glass_side, cosine, roughness, [](double x) { return x; });
   };
-  return std::lerp(at(slice), at(slice + 1), place - slice);
+  return std::lerp(at(slice), at(slice + 1), position - slice);
 }
 
 }  // namespace eyeray::engine::tables

@@ -27,8 +27,8 @@ fs::path sidecar(const fs::path& picture) {
 std::string commit_at(const fs::path& picture) {
   const fs::path folder = fs::absolute(picture).parent_path();
   try {
-    const ProcessResult said = run_process({"git", "-C", folder.string(), "rev-parse", "HEAD"});
-    return said.code == 0 ? said.out.substr(0, said.out.find('\n')) : "";
+    const ProcessResult result = run_process({"git", "-C", folder.string(), "rev-parse", "HEAD"});
+    return result.code == 0 ? result.out.substr(0, result.out.find('\n')) : "";
   } catch (const Error&) {
     return "";
   }

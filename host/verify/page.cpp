@@ -131,8 +131,8 @@ std::string Page::html(const std::string& summary) const {
   for (size_t at = 0; (at = data.find('<', at)) != std::string::npos;) data.replace(at, 1, "\\u003c");
 
   std::string page(page_files()[0].text);
-  constexpr std::string_view place = "@DATA@";
-  return page.replace(page.find(place), place.size(), data);
+  constexpr std::string_view marker = "@DATA@";
+  return page.replace(page.find(marker), marker.size(), data);
 }
 
 }  // namespace eyeray::engine::verify

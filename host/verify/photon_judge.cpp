@@ -27,7 +27,7 @@ struct Apart {
 
   // True if it took another path; else it is displaced.
   bool diverged() const { return twin.trail != reference.trail; }
-  double displacement() const { return glm::length(twin.places - reference.places); }
+  double displacement() const { return glm::length(twin.positions - reference.positions); }
 };
 
 // True if the reference explains the photon by other rounding: it takes all of the twin's path, or its own
@@ -38,7 +38,7 @@ bool explained(const Apart& photon, const reference::PhotonTraces& traces, uint3
     const reference::PhotonTrace trace = traces.trace(index, photon.number, rounded);
     return reference::trail_of(trace.events) == photon.twin.trail &&
            (photon.diverged() ||
-            glm::length(trace.places - photon.reference.places) >= photon.displacement() / 2);
+            glm::length(trace.positions - photon.reference.positions) >= photon.displacement() / 2);
   };
   for (const double scale : rounding::photon_scales)
     for (uint32_t seed = first_seed; seed <= last_seed; ++seed)
