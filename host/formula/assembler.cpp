@@ -29,10 +29,10 @@ class Assembler {
     // Reserves the input's floats, then writes the call.
     machine_.input_ = real_top_;
     machine_.input_count_ = program_.functions[number].input_count();
-    Slots input{{}, true, ir::Type::real};
+    Positions input{{}, true, ir::Type::real};
     while (input.at.size() < machine_.input_count_) input.at.push_back(real_top_++);
     Frame frame = enter(program_.functions[number]);
-    const Slots results = slots(frame, frame.function.result);
+    const Positions results = positions_of(frame, frame.function.result);
     machine_.results_ = results.at;
     machine_.gives_reals_ = results.type == ir::Type::real;
     call(frame, {input});
@@ -45,7 +45,7 @@ class Assembler {
   using Code = Machine::Code;
 
   // The positions of a value's numbers in one of the machine's files.
-  struct Slots {
+  struct Positions {
     std::vector<uint32_t> at;
     bool in_a_row = false;
     ir::Type type = ir::Type::real;
@@ -82,23 +82,23 @@ class Assembler {
 
   // Writes the function's code for a call with `arguments`. A parameter shares the position of its argument
   // if nothing can observe the difference. Else the argument is copied, and copied back if it is written to.
-  void call(Frame& frame, const std::vector<Slots>& arguments) {
-    std::vector<std::pair<Slots, Slots>> back;  // (to, from), copied after the call
+  void call(Frame& frame, const std::vector<Positions>& arguments) {
+    std::vector<std::pair<Positions, Positions>> back;  // (to, from), copied after the call
     for (size_t i = 0; i < arguments.size(); ++i) {
       const ir::Parameter& parameter = frame.function.parameters[i];
-      const bool is_shared = parameter.written && std::ranges::any_of(arguments, [&](const Slots& other) {
+      const bool is_shared = parameter.written && std::ranges::any_of(arguments, [&](const Positions& other) {
                                return &other != &arguments[i] && overlap(other, arguments[i]);
                              });
-      const bool fits = !parameter.place.is_array || arguments[i].in_a_row;
+      const bool fits = !parameter.slot.is_array || arguments[i].in_a_row;
       const bool is_constant =
           parameter.written && !arguments[i].at.empty() && arguments[i].at[0] < input_end(arguments[i].type);
       if (!is_shared && fits && !is_constant) {
-        if (parameter.place.is_array) frame.arrays[size_t(parameter.place.array)] = arguments[i].at[0];
-        for (size_t k = 0; k < parameter.place.numbers.size(); ++k)
-          frame.registers[size_t(parameter.place.numbers[k])] = arguments[i].at[k];
+        if (parameter.slot.is_array) frame.arrays[size_t(parameter.slot.array)] = arguments[i].at[0];
+        for (size_t k = 0; k < parameter.slot.numbers.size(); ++k)
+          frame.registers[size_t(parameter.slot.numbers[k])] = arguments[i].at[k];
         continue;
       }
-      const Slots own = slots(frame, parameter.place);
+      const Positions own = positions_of(frame, parameter.slot);
       move(own, arguments[i]);
       if (parameter.written) back.push_back({arguments[i], own});
     }
@@ -112,17 +112,18 @@ class Assembler {
     for (const auto& [to, from] : back) move(to, from);
   }
 
-  // Slots below this one hold constants or, in the file of floats, the input.
+  // Positions below this one hold constants or, in the file of floats, the input.
   uint32_t input_end(ir::Type type) const {
     return type == ir::Type::real ? machine_.input_ + machine_.input_count_
                                   : uint32_t(machine_.wholes_.size());
   }
-  static bool overlap(const Slots& a, const Slots& b) {
+  static bool overlap(const Positions& a, const Positions& b) {
     const bool same_file = (a.type == ir::Type::real) == (b.type == ir::Type::real);
-    return same_file && std::ranges::any_of(
-                            a.at, [&](uint32_t slot) { return std::ranges::find(b.at, slot) != b.at.end(); });
+    return same_file && std::ranges::any_of(a.at, [&](uint32_t position) {
+             return std::ranges::find(b.at, position) != b.at.end();
+           });
   }
-  void move(const Slots& to, const Slots& from) {
+  void move(const Positions& to, const Positions& from) {
     for (size_t i = 0; i < to.at.size(); ++i)
       emit({.op = to.type == ir::Type::real ? uint16_t(Machine::move_real) : uint16_t(ir::Op::move),
             .to = to.at[i],
@@ -133,7 +134,7 @@ class Assembler {
     return operand < 0 ? program_.constants[size_t(~operand)].type
                        : frame.function.registers[size_t(operand)];
   }
-  uint32_t slot(const Frame& frame, ir::Operand operand) const {
+  uint32_t position_of(const Frame& frame, ir::Operand operand) const {
     return operand < 0 ? constants_[size_t(~operand)] : frame.registers[size_t(operand)];
   }
   ir::Array array(const Frame& frame, ir::ArrayId id) const {
@@ -144,16 +145,16 @@ class Assembler {
   uint32_t first(const Frame& frame, ir::ArrayId id) const {
     return id < 0 ? tables_[size_t(~id)] : frame.arrays[size_t(id)];
   }
-  Slots slots(const Frame& frame, const ir::Place& place) const {
-    Slots result;
-    if (place.is_array) {
-      const auto [type, length] = array(frame, place.array);
-      for (uint32_t i = 0; i < length; ++i) result.at.push_back(first(frame, place.array) + i);
+  Positions positions_of(const Frame& frame, const ir::Slot& slot) const {
+    Positions result;
+    if (slot.is_array) {
+      const auto [type, length] = array(frame, slot.array);
+      for (uint32_t i = 0; i < length; ++i) result.at.push_back(first(frame, slot.array) + i);
       result.in_a_row = true;
       result.type = type;
     } else {
-      for (const ir::Operand number : place.numbers) result.at.push_back(slot(frame, number));
-      if (!place.numbers.empty()) result.type = type_of(frame, place.numbers[0]);
+      for (const ir::Operand number : slot.numbers) result.at.push_back(position_of(frame, number));
+      if (!slot.numbers.empty()) result.type = type_of(frame, slot.numbers[0]);
     }
     return result;
   }
@@ -173,7 +174,7 @@ class Assembler {
   void write(Frame& frame, const ir::Instruction& instruction) {
     using ir::Op;
     Code code{.op = uint16_t(instruction.op)};
-    const auto from = [&](size_t i) { return slot(frame, instruction.from[i]); };
+    const auto from = [&](size_t i) { return position_of(frame, instruction.from[i]); };
     const auto real = [&](Machine::Control control) { code.op = control; };
     switch (instruction.op) {
       case Op::load:
@@ -183,7 +184,7 @@ class Assembler {
         const auto [type, length] = array(frame, instruction.array);
         code.array = first(frame, instruction.array);
         code.length = length;
-        if (instruction.op == Op::load) code.to = slot(frame, instruction.to);
+        if (instruction.op == Op::load) code.to = position_of(frame, instruction.to);
         if (instruction.op == Op::load || instruction.op == Op::store) code.from[0] = from(0);
         if (instruction.op == Op::store) code.from[1] = from(1);
         if (instruction.op == Op::copy) code.from[0] = first(frame, instruction.other);
@@ -199,7 +200,7 @@ class Assembler {
         code.length = program_.constants[size_t(~instruction.from[1])].bits;
         [[fallthrough]];
       default:
-        code.to = slot(frame, instruction.to);
+        code.to = position_of(frame, instruction.to);
         for (size_t i = 0; i < 3; ++i) code.from[i] = from(i);
         if (type_of(frame, instruction.to) == ir::Type::real && instruction.op == Op::move)
           real(Machine::move_real);
@@ -211,21 +212,21 @@ class Assembler {
 
   void write(Frame& frame, const ir::Call& call) {
     const auto [reals, wholes] = std::pair(real_top_, whole_top_);
-    std::vector<Slots> arguments;
-    for (const ir::Place& place : call.arguments) arguments.push_back(slots(frame, place));
+    std::vector<Positions> arguments;
+    for (const ir::Slot& slot : call.arguments) arguments.push_back(positions_of(frame, slot));
     Frame inner = enter(program_.functions[call.function]);
     // The function writes its result straight to the position in the caller, which nothing else uses.
-    const ir::Place& result = inner.function.result;
+    const ir::Slot& result = inner.function.result;
     if (result.is_array) inner.arrays[size_t(result.array)] = first(frame, call.result.array);
     for (size_t i = 0; i < result.numbers.size(); ++i)
-      inner.registers[size_t(result.numbers[i])] = slot(frame, call.result.numbers[i]);
+      inner.registers[size_t(result.numbers[i])] = position_of(frame, call.result.numbers[i]);
     this->call(inner, arguments);
     real_top_ = reals;
     whole_top_ = wholes;
   }
 
   void write(Frame& frame, const ir::Branch& branch) {
-    const uint32_t condition = slot(frame, branch.condition);
+    const uint32_t condition = position_of(frame, branch.condition);
     if (branch.yes.empty()) {
       const size_t over = emit({.op = Machine::jump_if, .from = {condition}});
       write(frame, branch.no);

@@ -57,7 +57,7 @@ bool Execution::run_composite(Call& call, const Instruction& instruction) {
   const std::vector<uint32_t>& words = instruction.words;
   // Follows the literal indices from words[first] on to a member. Returns the index of its first number, and
   // its count of numbers.
-  const auto place = [&](const Type& whole, size_t first) {
+  const auto range_of = [&](const Type& whole, size_t first) {
     const Type* type = &whole;
     uint32_t offset = 0;
     for (size_t i = first; i < words.size(); ++i) {
@@ -85,14 +85,14 @@ bool Execution::run_composite(Call& call, const Instruction& instruction) {
     }
     case spv::OpCompositeExtract: {
       const Value& whole = value(call, words[0]);
-      const auto [first, count] = place(module_.type_of(words[0]), 1);
+      const auto [first, count] = range_of(module_.type_of(words[0]), 1);
       result.assign(whole.begin() + first, whole.begin() + first + count);
       break;
     }
     case spv::OpCompositeInsert: {
       result = value(call, words[1]);
       const Value& part = value(call, words[0]);
-      std::copy(part.begin(), part.end(), result.begin() + place(module_.type(instruction.type), 2).first);
+      std::copy(part.begin(), part.end(), result.begin() + range_of(module_.type(instruction.type), 2).first);
       break;
     }
     case spv::OpVectorExtractDynamic: {

@@ -51,7 +51,7 @@ std::string call(const Entry& entry, int number) {
 }
 
 // A camera's functions of one vec4, as executors call them. They call the text's functions of two vec2.
-std::string as_asked(FormulaKind kind, bool has_other) {
+std::string as_called(FormulaKind kind, bool has_other) {
   if (kind != FormulaKind::camera) return "";
   const auto of_both = [](const Entry& entry) {
     return fmt::format("{0} {1}{2}({3} at) {{ return {1}{2}(at.xy, at.zw); }}\n", entry.type, user_prefix,
@@ -86,7 +86,7 @@ std::vector<uint32_t> spirv_of(FormulaKind kind, bool has_other, const std::stri
       "#version 450\nlayout(local_size_x = 1) in;\nlayout(std430, set = 0, binding = 0) buffer Values {{ "
       "vec4 values[]; }};\n{}"
       "#line 1 \"{}\"\n{}\n#line 1 \"{}\"\n{}void main() {{ {} {} }}\n",
-      before, text_file, text, main_file, as_asked(kind, has_other), call(entry_of(kind), 1),
+      before, text_file, text, main_file, as_called(kind, has_other), call(entry_of(kind), 1),
       has_other ? call(other_entry_of(kind), 2) : "");
   return gpu::compile_shader(source, "", gpu::Lines::kept).spirv;
 }
@@ -191,14 +191,14 @@ Formula::~Formula() = default;
 // Converts a compiler's errors in Text::glsl() to errors in the user's text.
 std::vector<Diagnostic> Formula::in_text(const InputError& error, const Text& text) const {
   std::vector<Diagnostic> diagnostics;
-  for (const Diagnostic& said : error.diagnostics()) {
+  for (const Diagnostic& diagnostic : error.diagnostics()) {
     // Finds the last token on the line that begins at or before the column of the error.
-    const auto [line, column] = std::pair(std::max(said.position.line, 1), said.position.column);
+    const auto [line, column] = std::pair(std::max(diagnostic.position.line, 1), diagnostic.position.column);
     int source_column = 0;
-    for (const Text::Place& place : text.places())
-      if (place.line == line && place.column <= column) source_column = place.source_column;
-    diagnostics.push_back(located(text_, line, source_column, without_prefix(said.message)));
-    diagnostics.back().severity = said.severity;
+    for (const Text::Position& position : text.positions())
+      if (position.line == line && position.column <= column) source_column = position.source_column;
+    diagnostics.push_back(located(text_, line, source_column, without_prefix(diagnostic.message)));
+    diagnostics.back().severity = diagnostic.severity;
   }
   return diagnostics;
 }

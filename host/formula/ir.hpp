@@ -116,7 +116,7 @@ struct Instruction {
 };
 
 // The position of a value: its numbers (of a matrix column by column), or an array that holds them.
-struct Place {
+struct Slot {
   std::vector<Operand> numbers{};
   bool is_array = false;
   ArrayId array = 0;
@@ -128,8 +128,8 @@ using Block = std::vector<Statement>;
 // A call copies its arguments in. It copies back the result, and each argument that the function writes to.
 struct Call {
   uint32_t function;
-  std::vector<Place> arguments;
-  Place result;
+  std::vector<Slot> arguments;
+  Slot result;
 };
 struct Branch {
   Operand condition;
@@ -154,7 +154,7 @@ struct Array {
 };
 
 struct Parameter {
-  Place place;
+  Slot slot;
   bool written = false;
 };
 
@@ -162,12 +162,12 @@ struct Function {
   std::vector<Type> registers;
   std::vector<Array> arrays;
   std::vector<Parameter> parameters;
-  Place result;
+  Slot result;
   Block body;
 
   // The count of numbers in the first parameter.
   uint32_t input_count() const {
-    const Place& input = parameters[0].place;
+    const Slot& input = parameters[0].slot;
     return input.is_array ? arrays[size_t(input.array)].length : uint32_t(input.numbers.size());
   }
 };

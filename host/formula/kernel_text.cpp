@@ -225,7 +225,7 @@ class Writer {
   }
   // An array's index. A constant index is not loaded: compilers keep an array in registers if they know its
   // indices.
-  std::string place(ir::Operand operand) const {
+  std::string array_index(ir::Operand operand) const {
     if (operand >= 0) return fmt::format("r{}", operand);
     return literal(ir::Type::whole, program_.constants[size_t(~operand)].bits);
   }
@@ -244,19 +244,19 @@ class Writer {
     std::vector<std::string> parameters;
     std::vector<bool> is_parameter(function_->registers.size(), false);
     std::vector<bool> is_array_parameter(function_->arrays.size(), false);
-    const auto declare = [&](const ir::Place& place, std::string_view direction) {
-      if (place.is_array) {
-        const ir::Array& a = function_->arrays[size_t(place.array)];
-        parameters.push_back(fmt::format("{}{} a{}[{}]", direction, name_of(a.type), place.array, a.length));
-        is_array_parameter[size_t(place.array)] = true;
+    const auto declare = [&](const ir::Slot& slot, std::string_view direction) {
+      if (slot.is_array) {
+        const ir::Array& a = function_->arrays[size_t(slot.array)];
+        parameters.push_back(fmt::format("{}{} a{}[{}]", direction, name_of(a.type), slot.array, a.length));
+        is_array_parameter[size_t(slot.array)] = true;
       }
-      for (const ir::Operand r : place.numbers) {
+      for (const ir::Operand r : slot.numbers) {
         parameters.push_back(fmt::format("{}{} r{}", direction, name_of(function_->registers[size_t(r)]), r));
         is_parameter[size_t(r)] = true;
       }
     };
     for (const ir::Parameter& parameter : function_->parameters)
-      declare(parameter.place, parameter.written ? "inout " : "");
+      declare(parameter.slot, parameter.written ? "inout " : "");
     declare(function_->result, "out ");
     open(fmt::format("void {}{}({})", name_, number, fmt::join(parameters, ", ")));
     for (size_t i = 0; i < function_->registers.size(); ++i)
@@ -275,10 +275,10 @@ class Writer {
     std::vector<std::string> arguments;
     for (uint32_t i = 0; i < function.input_count(); ++i) arguments.push_back(fmt::format("p.{}", "xyzw"[i]));
     const ir::Parameter& p = function.parameters[0];
-    if (p.place.is_array || p.written) {
+    if (p.slot.is_array || p.written) {
       line("float q[{0}] = float[{0}]({1});", arguments.size(), fmt::join(arguments, ", "));
       for (size_t i = 0; i < arguments.size(); ++i) arguments[i] = fmt::format("q[{}]", i);
-      if (p.place.is_array) arguments = {"q"};
+      if (p.slot.is_array) arguments = {"q"};
     }
     const bool in_array = function.result.is_array;
     const size_t count = in_array ? 1 : function.result.numbers.size();
@@ -302,10 +302,10 @@ class Writer {
     const auto from = [&](size_t i) { return operand(instruction.from[i]); };
     switch (instruction.op) {
       case Op::load:
-        line("r{} = {}[{}];", instruction.to, array(instruction.array), place(instruction.from[0]));
+        line("r{} = {}[{}];", instruction.to, array(instruction.array), array_index(instruction.from[0]));
         return;
       case Op::store:
-        line("{}[{}] = {};", array(instruction.array), place(instruction.from[0]), from(1));
+        line("{}[{}] = {};", array(instruction.array), array_index(instruction.from[0]), from(1));
         return;
       case Op::copy:
         line("{} = {};", array(instruction.array), array(instruction.other));
@@ -324,11 +324,11 @@ class Writer {
 
   void write(const ir::Call& call) {
     std::vector<std::string> arguments;
-    const auto add = [&](const ir::Place& place) {
-      if (place.is_array) arguments.push_back(array(place.array));
-      for (const ir::Operand number : place.numbers) arguments.push_back(operand(number));
+    const auto add = [&](const ir::Slot& slot) {
+      if (slot.is_array) arguments.push_back(array(slot.array));
+      for (const ir::Operand number : slot.numbers) arguments.push_back(operand(number));
     };
-    for (const ir::Place& place : call.arguments) add(place);
+    for (const ir::Slot& slot : call.arguments) add(slot);
     add(call.result);
     line("{}{}({});", name_, call.function, fmt::join(arguments, ", "));
   }

@@ -56,7 +56,7 @@ class Measure {
     Size size = sizes_[call.function];
     most_called_ = std::max(most_called_, size.memory);
     size.work += 1;
-    for (const ir::Place& argument : call.arguments)
+    for (const ir::Slot& argument : call.arguments)
       size.work += argument.is_array ? length(argument.array) : double(argument.numbers.size());
     size.memory = 0;
     return size;
@@ -100,8 +100,8 @@ class Measure {
 // The number of instructions and calls that write to the register `to`.
 size_t Measure::writes(const ir::Block& block, ir::Operand to) {
   size_t count = 0;
-  const auto in_place = [to](const ir::Place& place) {
-    return !place.is_array && std::ranges::find(place.numbers, to) != place.numbers.end();
+  const auto is_in = [to](const ir::Slot& slot) {
+    return !slot.is_array && std::ranges::find(slot.numbers, to) != slot.numbers.end();
   };
   for (const ir::Statement& statement : block) {
     if (const auto* instruction = std::get_if<ir::Instruction>(&statement.what)) {
@@ -110,7 +110,7 @@ size_t Measure::writes(const ir::Block& block, ir::Operand to) {
       count += !to_memory && instruction->to == to;
     } else if (const auto* call = std::get_if<ir::Call>(&statement.what)) {
       // A function may write to a register that is its argument.
-      count += in_place(call->result) || std::ranges::any_of(call->arguments, in_place);
+      count += is_in(call->result) || std::ranges::any_of(call->arguments, is_in);
     } else if (const auto* branch = std::get_if<ir::Branch>(&statement.what)) {
       count += writes(branch->yes, to) + writes(branch->no, to);
     } else if (const auto* loop = std::get_if<ir::Loop>(&statement.what)) {

@@ -65,17 +65,17 @@ ir::Function FunctionLowering::run() {
     const Type& type = module_.type_of(id);
     const bool by_pointer = type.op == spv::OpTypePointer;
     const Type& whole = by_pointer ? module_.type(type.members[0]) : type;
-    const ir::Place place =
-        new_place(whole, whole.op == spv::OpTypeArray || (by_pointer && accesses_[id].is_indexed));
+    const ir::Slot slot =
+        new_slot(whole, whole.op == spv::OpTypeArray || (by_pointer && accesses_[id].is_indexed));
     const Accesses& accesses = accesses_[id];
-    out_.parameters.push_back({place, by_pointer && (accesses.stores > 0 || accesses.part_writes > 0)});
+    out_.parameters.push_back({slot, by_pointer && (accesses.stores > 0 || accesses.part_writes > 0)});
     if (by_pointer)
-      pointers_[id] = {.variable = id, .place = place, .type = &whole};
+      pointers_[id] = {.variable = id, .slot = slot, .type = &whole};
     else
-      values_[id] = place;
+      values_[id] = slot;
   }
   const Type& result = module_.type_of(function_.id);
-  if (result.op != spv::OpTypeVoid) out_.result = new_place(result, result.op == spv::OpTypeArray);
+  if (result.op != spv::OpTypeVoid) out_.result = new_slot(result, result.op == spv::OpTypeArray);
 
   lower_from(function_.blocks[0].label, 0, out_.body);
   return std::move(out_);
@@ -213,7 +213,7 @@ void FunctionLowering::lower_instructions(const Block& block, ir::Block& out) {
   const auto phis = phis_.find(block.label);
   if (phis == phis_.end()) return;
   for (const auto& [result, id] : phis->second) {
-    if (!values_.contains(result)) values_[result] = new_place(module_.type_of(result), false);
+    if (!values_.contains(result)) values_[result] = new_slot(module_.type_of(result), false);
     assign(values_.at(result).numbers, value(id).numbers, out);
   }
 }
@@ -293,39 +293,39 @@ ir::Type FunctionLowering::type_of(ir::Operand operand) const {
   return operand < 0 ? program_.constants[size_t(~operand)].type : out_.registers[size_t(operand)];
 }
 
-ir::Place FunctionLowering::new_place(const Type& type, bool as_array) {
-  ir::Place place;
+ir::Slot FunctionLowering::new_slot(const Type& type, bool as_array) {
+  ir::Slot slot;
   if (as_array) {
     out_.arrays.push_back({scalar(type), type.size});
-    place.is_array = true;
-    place.array = ir::ArrayId(out_.arrays.size() - 1);
+    slot.is_array = true;
+    slot.array = ir::ArrayId(out_.arrays.size() - 1);
   } else {
-    for (uint32_t i = 0; i < type.size; ++i) place.numbers.push_back(new_register(scalar(type)));
+    for (uint32_t i = 0; i < type.size; ++i) slot.numbers.push_back(new_register(scalar(type)));
   }
-  return place;
+  return slot;
 }
 
-ir::Place FunctionLowering::constant_place(uint32_t id) {
+ir::Slot FunctionLowering::constant_slot(uint32_t id) {
   const Type& type = module_.type_of(id);
   const std::vector<uint32_t> bits = module_.constant_bits(id);
-  ir::Place place;
+  ir::Slot slot;
   if (type.op == spv::OpTypeArray) {
     const ir::Table table{scalar(type), bits};
     const auto known = std::ranges::find(program_.tables, table);
-    place.is_array = true;
-    place.array = ~ir::ArrayId(known - program_.tables.begin());
+    slot.is_array = true;
+    slot.array = ~ir::ArrayId(known - program_.tables.begin());
     if (known == program_.tables.end()) program_.tables.push_back(table);
   } else {
-    for (const uint32_t b : bits) place.numbers.push_back(constant(scalar(type), b));
+    for (const uint32_t b : bits) slot.numbers.push_back(constant(scalar(type), b));
   }
-  return place;
+  return slot;
 }
 
-const ir::Place& FunctionLowering::value(uint32_t id) {
+const ir::Slot& FunctionLowering::value(uint32_t id) {
   const auto found = values_.find(id);
   if (found != values_.end()) return found->second;
   CHECK(module_.is_constant(id));
-  return values_[id] = constant_place(id);
+  return values_[id] = constant_slot(id);
 }
 
 const FunctionLowering::Pointer& FunctionLowering::pointer(uint32_t id) const {

@@ -32,7 +32,7 @@ class FunctionLowering {
   // its index is not a constant, at the number that the operand `address` holds.
   struct Pointer {
     uint32_t variable = 0;
-    ir::Place place;
+    ir::Slot slot;
     const Type* type = nullptr;
     uint32_t offset = 0;
     bool is_dynamic = false;
@@ -83,20 +83,20 @@ class FunctionLowering {
 
   // Appends one instruction to `out`. Returns the new register that holds its result.
   ir::Operand apply(ir::Block& out, ir::Op op, ir::Operand x, ir::Operand y = 0, ir::Operand z = 0);
-  void each(ir::Block& out, const Instruction& instruction, ir::Op op, const std::vector<ir::Place>& from);
-  ir::Operand sum_of_products(ir::Block& out, const ir::Place& a, const ir::Place& b);
+  void each(ir::Block& out, const Instruction& instruction, ir::Op op, const std::vector<ir::Slot>& from);
+  ir::Operand sum_of_products(ir::Block& out, const ir::Slot& a, const ir::Slot& b);
   void assign(const std::vector<ir::Operand>& to, std::vector<ir::Operand> from, ir::Block& out);
   bool retarget(const std::vector<ir::Operand>& to, const std::vector<ir::Operand>& from,
                 ir::Block& out) const;
-  void copy(const ir::Place& to, const ir::Place& from, ir::Block& out);
+  void copy(const ir::Slot& to, const ir::Slot& from, ir::Block& out);
 
   ir::Operand new_register(ir::Type type);
   ir::Operand constant(ir::Type type, uint32_t bits);
   ir::Operand real(float value);
   ir::Operand whole(uint32_t value) { return constant(ir::Type::whole, value); }
-  ir::Place new_place(const Type& type, bool as_array);
-  ir::Place constant_place(uint32_t id);
-  const ir::Place& value(uint32_t id);
+  ir::Slot new_slot(const Type& type, bool as_array);
+  ir::Slot constant_slot(uint32_t id);
+  const ir::Slot& value(uint32_t id);
   const Pointer& pointer(uint32_t id) const;
   ir::Type scalar(const Type& type) const;
   ir::Type type_of(ir::Operand operand) const;
@@ -107,7 +107,7 @@ class FunctionLowering {
   const std::map<uint32_t, uint32_t>& numbers_;
   const Function& function_;
   ir::Function out_;
-  std::map<uint32_t, ir::Place> values_;
+  std::map<uint32_t, ir::Slot> values_;
   std::map<uint32_t, Pointer> pointers_;
   std::map<uint32_t, Accesses> accesses_;
   std::map<uint32_t, size_t> defined_in_;  // the block that defines a value, by the value's id

@@ -16,13 +16,13 @@ bool FunctionLowering::lower_memory(const Instruction& instruction, ir::Block& o
         return true;
       }
       const bool as_array = type.op == spv::OpTypeArray || accesses.is_indexed;
-      pointers_[id] = {.variable = id, .place = new_place(type, as_array), .type = &type};
-      const ir::Place& place = pointers_[id].place;
-      if (instruction.words.size() > 1) copy(place, value(instruction.words[1]), out);
+      pointers_[id] = {.variable = id, .slot = new_slot(type, as_array), .type = &type};
+      const ir::Slot& slot = pointers_[id].slot;
+      if (instruction.words.size() > 1) copy(slot, value(instruction.words[1]), out);
       // A variable read before it is written is 0.
       if (accesses.first_is_store && (accesses.first_block == 0 || accesses.blocks.size() == 1)) return true;
-      if (as_array) out.push_back({ir::Instruction{.op = ir::Op::clear, .array = place.array}});
-      for (const ir::Operand number : place.numbers) assign({number}, {constant(scalar(type), 0)}, out);
+      if (as_array) out.push_back({ir::Instruction{.op = ir::Op::clear, .array = slot.array}});
+      for (const ir::Operand number : slot.numbers) assign({number}, {constant(scalar(type), 0)}, out);
       return true;
     }
     case spv::OpAccessChain:
@@ -45,11 +45,11 @@ bool FunctionLowering::lower_memory(const Instruction& instruction, ir::Block& o
 
 void FunctionLowering::lower_constant_variable(const Instruction& variable, ir::Block& out) {
   const Type& type = module_.type(module_.type(variable.type).members[0]);
-  Pointer at{.variable = variable.result, .place = value(module_.held.at(variable.result)), .type = &type};
-  if (accesses_[variable.result].is_indexed && !at.place.is_array) {
-    const ir::Place array = new_place(type, true);
-    copy(array, at.place, out);
-    at.place = array;
+  Pointer at{.variable = variable.result, .slot = value(module_.held.at(variable.result)), .type = &type};
+  if (accesses_[variable.result].is_indexed && !at.slot.is_array) {
+    const ir::Slot array = new_slot(type, true);
+    copy(array, at.slot, out);
+    at.slot = array;
   }
   pointers_[variable.result] = at;
 }
@@ -64,7 +64,7 @@ FunctionLowering::Pointer FunctionLowering::index(const Instruction& instruction
       const auto clamped = uint32_t(std::clamp<int64_t>(int32_t(*known), 0, int64_t(count) - 1));
       at.offset += clamped * element.size;
     } else {
-      CHECK(at.place.is_array);
+      CHECK(at.slot.is_array);
       ir::Operand step =
           apply(out, ir::Op::clamp_index, value(instruction.words[i]).numbers[0], whole(count));
       if (element.size > 1) step = apply(out, ir::Op::whole_multiply, step, whole(element.size));
@@ -84,7 +84,7 @@ FunctionLowering::Pointer FunctionLowering::index(const Instruction& instruction
 void FunctionLowering::load(const Instruction& instruction, ir::Block& out) {
   const Pointer& at = pointer(instruction.words[0]);
   const Type& type = module_.type(instruction.type);
-  ir::Place& result = values_[instruction.result];
+  ir::Slot& result = values_[instruction.result];
 
   // If nothing writes to the variable until the last use of the result, the result is the variable's numbers
   // themselves.
@@ -98,20 +98,20 @@ void FunctionLowering::load(const Instruction& instruction, ir::Block& out) {
   }();
   const bool is_kept = (!outlives && !changes) || accesses.writes.empty();
 
-  if (!at.place.is_array) {
-    const auto first = at.place.numbers.begin() + at.offset;
+  if (!at.slot.is_array) {
+    const auto first = at.slot.numbers.begin() + at.offset;
     const std::vector<ir::Operand> numbers(first, first + type.size);
     if (is_kept) {
       result.numbers = numbers;
     } else {
-      result = new_place(type, false);
+      result = new_slot(type, false);
       assign(result.numbers, numbers, out);
     }
   } else if (type.op == spv::OpTypeArray) {
-    result = at.place;
+    result = at.slot;
     if (!is_kept) {
-      result = new_place(type, true);
-      copy(result, at.place, out);
+      result = new_slot(type, true);
+      copy(result, at.slot, out);
     }
   } else {
     const ir::Type scalar = this->scalar(type);
@@ -122,7 +122,7 @@ void FunctionLowering::load(const Instruction& instruction, ir::Block& out) {
                                                  : apply(out, ir::Op::whole_add, at.address, whole(i));
       result.numbers.push_back(new_register(scalar));
       out.push_back({ir::Instruction{
-          .op = ir::Op::load, .to = result.numbers.back(), .from = {address}, .array = at.place.array}});
+          .op = ir::Op::load, .to = result.numbers.back(), .from = {address}, .array = at.slot.array}});
     }
   }
 }
@@ -131,25 +131,25 @@ void FunctionLowering::store(const Instruction& instruction, ir::Block& out) {
   const Pointer& at = pointer(instruction.words[0]);
   const uint32_t id = instruction.words[1];
   if (module_.held.contains(at.variable)) return;
-  if (at.place.is_array && module_.is_zero(id) && module_.type_of(id).op == spv::OpTypeArray) {
-    out.push_back({ir::Instruction{.op = ir::Op::clear, .array = at.place.array}});
+  if (at.slot.is_array && module_.is_zero(id) && module_.type_of(id).op == spv::OpTypeArray) {
+    out.push_back({ir::Instruction{.op = ir::Op::clear, .array = at.slot.array}});
     return;
   }
-  const ir::Place& stored = value(id);
-  if (!at.place.is_array) {
-    const auto first = at.place.numbers.begin() + at.offset;
+  const ir::Slot& stored = value(id);
+  if (!at.slot.is_array) {
+    const auto first = at.slot.numbers.begin() + at.offset;
     const std::vector<ir::Operand> to(first, first + ptrdiff_t(stored.numbers.size()));
     const bool is_private = computed_.contains(id) && uses_[id].count == 1;
     if (!is_private || !retarget(to, stored.numbers, out)) assign(to, stored.numbers, out);
   } else if (stored.is_array) {
-    copy(at.place, stored, out);
+    copy(at.slot, stored, out);
   } else {
     for (uint32_t i = 0; i < stored.numbers.size(); ++i) {
       const ir::Operand address = !at.is_dynamic ? whole(at.offset + i)
                                   : i == 0       ? at.address
                                                  : apply(out, ir::Op::whole_add, at.address, whole(i));
       out.push_back({ir::Instruction{
-          .op = ir::Op::store, .from = {address, stored.numbers[i]}, .array = at.place.array}});
+          .op = ir::Op::store, .from = {address, stored.numbers[i]}, .array = at.slot.array}});
     }
   }
 }
@@ -158,16 +158,16 @@ void FunctionLowering::lower_call(const Instruction& instruction, ir::Block& out
   const uint32_t number = numbers_.at(instruction.words[0]);
   const std::vector<ir::Parameter>& parameters = program_.functions[number].parameters;
   ir::Call call{number, {}, {}};
-  std::vector<std::pair<ir::Place, ir::Place>> back;  // (to, from), copied after the call
+  std::vector<std::pair<ir::Slot, ir::Slot>> back;  // (to, from), copied after the call
   for (size_t i = 0; i < parameters.size(); ++i) {
     const uint32_t id = instruction.words[i + 1];
     const bool by_pointer = module_.type_of(id).op == spv::OpTypePointer;
-    ir::Place given = by_pointer ? pointer(id).place : value(id);
+    ir::Slot given = by_pointer ? pointer(id).slot : value(id);
     // If only one of argument and parameter is an array, a copy of the parameter's kind is passed. It is
     // copied back if the function writes to it.
-    if (given.is_array != parameters[i].place.is_array) {
+    if (given.is_array != parameters[i].slot.is_array) {
       const Type& type = by_pointer ? *pointer(id).type : module_.type_of(id);
-      const ir::Place between = new_place(type, parameters[i].place.is_array);
+      const ir::Slot between = new_slot(type, parameters[i].slot.is_array);
       copy(between, given, out);
       if (parameters[i].written) back.push_back({given, between});
       given = between;
@@ -175,13 +175,13 @@ void FunctionLowering::lower_call(const Instruction& instruction, ir::Block& out
     call.arguments.push_back(std::move(given));
   }
   const Type& type = module_.type(instruction.type);
-  if (type.op != spv::OpTypeVoid) call.result = new_place(type, type.op == spv::OpTypeArray);
+  if (type.op != spv::OpTypeVoid) call.result = new_slot(type, type.op == spv::OpTypeArray);
   values_[instruction.result] = call.result;
   out.push_back({std::move(call)});
   for (const auto& [to, from] : back) copy(to, from, out);
 }
 
-void FunctionLowering::copy(const ir::Place& to, const ir::Place& from, ir::Block& out) {
+void FunctionLowering::copy(const ir::Slot& to, const ir::Slot& from, ir::Block& out) {
   if (to.is_array && from.is_array) {
     out.push_back({ir::Instruction{.op = ir::Op::copy, .array = to.array, .other = from.array}});
   } else if (to.is_array) {

@@ -120,8 +120,8 @@ ir::Operand FunctionLowering::apply(ir::Block& out, Op op, ir::Operand x, ir::Op
 }
 
 void FunctionLowering::each(ir::Block& out, const Instruction& instruction, Op op,
-                            const std::vector<ir::Place>& from) {
-  ir::Place& result = values_[instruction.result];
+                            const std::vector<ir::Slot>& from) {
+  ir::Slot& result = values_[instruction.result];
   for (size_t i = 0; i < module_.type(instruction.type).size; ++i) {
     const auto part = [&](size_t k) -> ir::Operand {
       if (k >= from.size()) return 0;
@@ -133,7 +133,7 @@ void FunctionLowering::each(ir::Block& out, const Instruction& instruction, Op o
   computed_.insert(instruction.result);
 }
 
-ir::Operand FunctionLowering::sum_of_products(ir::Block& out, const ir::Place& a, const ir::Place& b) {
+ir::Operand FunctionLowering::sum_of_products(ir::Block& out, const ir::Slot& a, const ir::Slot& b) {
   ir::Operand sum = apply(out, Op::multiply, a.numbers[0], b.numbers[0]);
   for (size_t i = 1; i < a.numbers.size(); ++i)
     sum = apply(out, Op::add, sum, apply(out, Op::multiply, a.numbers[i], b.numbers[i]));
@@ -141,14 +141,14 @@ ir::Operand FunctionLowering::sum_of_products(ir::Block& out, const ir::Place& a
 }
 
 bool FunctionLowering::lower_arithmetic(const Instruction& instruction, ir::Block& out) {
-  std::vector<ir::Place> from;
+  std::vector<ir::Slot> from;
   for (const uint32_t id : instruction.words) from.push_back(value(id));
   const auto row = std::ranges::find(rows, instruction.op, &Row::from);
   if (row != std::end(rows)) {
     if (row->swaps) std::swap(from[0], from[1]);
     each(out, instruction, row->op, from);
     if (!row->negates) return true;
-    ir::Place& result = values_[instruction.result];
+    ir::Slot& result = values_[instruction.result];
     for (ir::Operand& number : result.numbers) number = apply(out, Op::opposite, number);
     if (result.numbers.size() > 1) computed_.erase(instruction.result);
     return true;
@@ -159,7 +159,7 @@ bool FunctionLowering::lower_arithmetic(const Instruction& instruction, ir::Bloc
       return true;
     case spv::OpSelect:
       if (const Type& type = module_.type(instruction.type); type.op == spv::OpTypeArray) {
-        const ir::Place chosen = new_place(type, true);
+        const ir::Slot chosen = new_slot(type, true);
         ir::Branch branch{from[0].numbers[0], {}, {}};
         copy(chosen, from[1], branch.yes);
         copy(chosen, from[2], branch.no);
@@ -189,7 +189,7 @@ bool FunctionLowering::lower_arithmetic(const Instruction& instruction, ir::Bloc
 // Lowers a function of GLSL.std.450.
 bool FunctionLowering::lower_function(const Instruction& instruction, ir::Block& out) {
   const uint32_t function = instruction.words[1];
-  std::vector<ir::Place> from;
+  std::vector<ir::Slot> from;
   for (size_t i = 2; i < instruction.words.size(); ++i) from.push_back(value(instruction.words[i]));
   const auto row = std::ranges::find(functions, int(function), &std::pair<int, Op>::first);
   if (row != std::end(functions)) {
@@ -197,12 +197,12 @@ bool FunctionLowering::lower_function(const Instruction& instruction, ir::Block&
     return true;
   }
 
-  ir::Place& result = values_[instruction.result];
-  const auto along = [&](Op op, const ir::Place& a, ir::Operand b) {
+  ir::Slot& result = values_[instruction.result];
+  const auto along = [&](Op op, const ir::Slot& a, ir::Operand b) {
     for (const ir::Operand number : a.numbers) result.numbers.push_back(apply(out, op, number, b));
     computed_.insert(instruction.result);
   };
-  const auto length = [&](const ir::Place& v) {
+  const auto length = [&](const ir::Slot& v) {
     return v.numbers.size() == 1 ? apply(out, Op::absolute, v.numbers[0])
                                  : apply(out, Op::sqrt, sum_of_products(out, v, v));
   };
@@ -215,7 +215,7 @@ bool FunctionLowering::lower_function(const Instruction& instruction, ir::Block&
       result.numbers = {length(from[0])};
       return true;
     case GLSLstd450Distance: {
-      ir::Place difference;
+      ir::Slot difference;
       for (size_t i = 0; i < from[0].numbers.size(); ++i)
         difference.numbers.push_back(apply(out, Op::subtract, from[0].numbers[i], from[1].numbers[i]));
       result.numbers = {length(difference)};
@@ -276,8 +276,8 @@ bool FunctionLowering::lower_function(const Instruction& instruction, ir::Block&
 bool FunctionLowering::lower_composite(const Instruction& instruction, ir::Block& out) {
   const std::vector<uint32_t>& words = instruction.words;
   const Type& type = module_.type(instruction.type);
-  ir::Place result;
-  const auto element = [&](const ir::Place& whole_value, uint32_t i) {
+  ir::Slot result;
+  const auto element = [&](const ir::Slot& whole_value, uint32_t i) {
     if (whole_value.array < 0) {
       const ir::Table& table = program_.tables[size_t(~whole_value.array)];
       return constant(table.type, table.bits[i]);
@@ -303,7 +303,7 @@ bool FunctionLowering::lower_composite(const Instruction& instruction, ir::Block
   };
   switch (instruction.op) {
     case spv::OpCompositeConstruct:
-      if (type.op == spv::OpTypeArray) result = new_place(type, true);
+      if (type.op == spv::OpTypeArray) result = new_slot(type, true);
       for (uint32_t at = 0; const uint32_t id : words) {
         for (const ir::Operand number : value(id).numbers) {
           if (result.is_array)
@@ -322,17 +322,17 @@ bool FunctionLowering::lower_composite(const Instruction& instruction, ir::Block
       break;
     }
     case spv::OpCompositeExtract: {
-      const ir::Place composite = value(words[0]);
+      const ir::Slot composite = value(words[0]);
       const uint32_t first = offset(module_.type_of(words[0]), 1);
       for (uint32_t i = first; i < first + type.size; ++i)
         result.numbers.push_back(composite.is_array ? element(composite, i) : composite.numbers[i]);
       break;
     }
     case spv::OpCompositeInsert: {
-      const ir::Place part = value(words[0]), composite = value(words[1]);
+      const ir::Slot part = value(words[0]), composite = value(words[1]);
       const uint32_t first = offset(type, 2);
       if (composite.is_array) {
-        result = new_place(type, true);
+        result = new_slot(type, true);
         copy(result, composite, out);
         for (uint32_t i = 0; i < part.numbers.size(); ++i) put(first + i, part.numbers[i]);
       } else {
@@ -356,13 +356,13 @@ bool FunctionLowering::lower_composite(const Instruction& instruction, ir::Block
       result = value(words[0]);
       break;
     case spv::OpUndef:
-      result = new_place(type, type.op == spv::OpTypeArray);
+      result = new_slot(type, type.op == spv::OpTypeArray);
       if (result.is_array) out.push_back({ir::Instruction{.op = Op::clear, .array = result.array}});
       for (const ir::Operand number : result.numbers) assign({number}, {constant(scalar(type), 0)}, out);
       break;
     case spv::OpPhi:
       if (type.op == spv::OpTypeArray) refuse(instruction, "a condition cannot choose between arrays");
-      if (!values_.contains(instruction.result)) values_[instruction.result] = new_place(type, false);
+      if (!values_.contains(instruction.result)) values_[instruction.result] = new_slot(type, false);
       return true;
     default:
       return false;

@@ -39,8 +39,8 @@ std::string Text::glsl() const {
   return line_by_line(tokens, [&](size_t i) { return name_prefix(i) + tokens[i].text; });
 }
 
-std::vector<Text::Place> Text::places() const {
-  std::vector<Place> places;
+std::vector<Text::Position> Text::positions() const {
+  std::vector<Position> positions;
   int line = 0, column = 1;
   for (size_t i = 0; i < tokens.size(); ++i) {
     if (tokens[i].line != line)
@@ -48,10 +48,10 @@ std::vector<Text::Place> Text::places() const {
     else
       column += 1;
     line = tokens[i].line;
-    places.push_back({line, column, tokens[i].column});
+    positions.push_back({line, column, tokens[i].column});
     column += int(tokens[i].text.size() + name_prefix(i).size());
   }
-  return places;
+  return positions;
 }
 
 std::string Text::unfolded(std::string& zeros) const {

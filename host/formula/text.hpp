@@ -30,7 +30,7 @@ struct Text {
   std::vector<Unset> unset{};  // in the order of their tokens
 
   // The line and column of a token in glsl(), and its column in the user's text; all from 1.
-  struct Place {
+  struct Position {
     int line, column;
     int source_column;
   };
@@ -38,7 +38,7 @@ struct Text {
   // user_prefix before each user-defined name. Comments, line continuations and everything else that two
   // readers might read differently are gone.
   std::string glsl() const;
-  std::vector<Place> places() const;
+  std::vector<Position> positions() const;
   // The same program on the same lines, in a form in which a compiler folds nothing. Its constants are global
   // variables, and every variable without an initial value gets 0. The text of glsl() must have passed a
   // compiler. The declarations that must precede the program are added to `zeros`.
