@@ -68,14 +68,14 @@ std::string png_colors(const std::map<std::string_view, std::string_view>& chunk
                : fmt::format("its colour profile (iCCP){}", taken_as_srgb);
   if (chunks.contains("sRGB")) return "";
   // In units of 1/100000. A gamma of 1/2.2 is how sRGB is written without an sRGB chunk.
-  constexpr int64_t gamma = 45455, gamma_apart = 500, place_apart = 300;
-  constexpr int64_t places[] = {31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000};
+  constexpr int64_t gamma = 45455, gamma_apart = 500, chromaticity_apart = 300;
+  constexpr int64_t chromaticities[] = {31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000};
   if (const std::string_view written = chunk("gAMA"); written.size() == 4)
     if (std::abs(int64_t(number(written, 0, 4)) - gamma) > gamma_apart)
       return fmt::format("its gamma (gAMA) of {:.4g}{}", number(written, 0, 4) / 1e5, taken_as_srgb);
   if (const std::string_view written = chunk("cHRM"); written.size() == 32)
     for (size_t i = 0; i < 8; ++i)
-      if (std::abs(int64_t(number(written, 4 * i, 4)) - places[i]) > place_apart)
+      if (std::abs(int64_t(number(written, 4 * i, 4)) - chromaticities[i]) > chromaticity_apart)
         return fmt::format("its primaries (cHRM){}", taken_as_srgb);
   return "";
 }

@@ -89,7 +89,7 @@ class TgaReader {
             (index < header_.map_first || index - header_.map_first >= header_.map_count))
           return fmt::format("a pixel has colour number {}, but the palette begins at {} and has {} colours",
                              index, header_.map_first, header_.map_count);
-        place(pixels, i) = pixel(index);
+        pixel_at(pixels, i) = pixel(index);
         if (!same || k + 1 == count) at_ += size;
       }
     }
@@ -99,7 +99,7 @@ class TgaReader {
  private:
   // The pixel of the picture for the i-th pixel of the file: the header states on which sides the file's rows
   // and columns begin.
-  Pixel& place(std::span<Pixel> pixels, size_t i) const {
+  Pixel& pixel_at(std::span<Pixel> pixels, size_t i) const {
     const auto width = size_t(header_.width), height = size_t(header_.height);
     const size_t row = i / width, column = i % width;
     return pixels[(header_.from_top() ? row : height - 1 - row) * width +

@@ -185,7 +185,7 @@ void GltfReader::check_parents() {
         still[above] = true;
       }
       breaches_.add("nodes that the scene shows without the nodes above them, which move nothing",
-                    document_.element("nodes", below).place());
+                    document_.element("nodes", below).location());
     }
   }
 }
@@ -214,7 +214,7 @@ Mat4 GltfReader::transform(size_t index) {
     if (matrix[0].w != 0 || matrix[1].w != 0 || matrix[2].w != 0 || matrix[3].w != 1)
       node.fail("has a matrix that is not affine");
     if (shears(Mat3(matrix)))
-      breaches_.add("matrices of nodes that shear, used unchanged", node.place() + ".matrix");
+      breaches_.add("matrices of nodes that shear, used unchanged", node.location() + ".matrix");
     return matrix;
   }
   const auto numbers = [&](const char* key, std::vector<double> fallback) {

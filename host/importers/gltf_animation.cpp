@@ -115,7 +115,7 @@ class AnimationReader {
     if (path != "weights" && document_.element("nodes", *node).has("matrix"))
       target->fail(fmt::format("moves the {} of nodes[{}], which has a matrix", path, *node));
     if (path == "weights" && !has_targets(*node))
-      return breaches_.add("animated weights of nodes without morph targets, left out", target->place());
+      return breaches_.add("animated weights of nodes without morph targets, left out", target->location());
     const auto sampler = channel.index("sampler", animation_.size("samplers"));
     if (!sampler) channel.fail("has no sampler");
     if (curves_.contains({*node, path}))
@@ -147,7 +147,7 @@ class AnimationReader {
     if (!std::ranges::all_of(curve.values, [](double x) { return std::isfinite(x); }))
       accessor.fail(fmt::format("contains a {} that is not finite", key.name));
     if (curve.interpolation == Interpolation::cubic && curve.times.size() < 2)
-      breaches_.add("animations along splines with one key, which do not move", sampler.place());
+      breaches_.add("animations along splines with one key, which do not move", sampler.location());
     const size_t parts = curve.times.size() * (curve.interpolation == Interpolation::cubic ? 3 : 1);
     curve.width = key.width > 0 ? key.width : curve.values.size() / parts;
     if (curve.width == 0 || curve.values.size() != parts * curve.width)
@@ -170,7 +170,7 @@ class AnimationReader {
       if (i > 0 && !(all[i] > all[i - 1]))
         accessor.fail(fmt::format("contains the time {} after {}: times must increase", all[i], all[i - 1]));
     }
-    if (all.front() < 0) breaches_.add("animations that begin before 0", accessor.place());
+    if (all.front() < 0) breaches_.add("animations that begin before 0", accessor.location());
     return all;
   }
 
@@ -179,7 +179,7 @@ class AnimationReader {
       const double length = glm::length(quaternion(curve.at(i)));
       if (!(length > 1e-6)) accessor.fail("contains a rotation of length 0");
       if (std::abs(length - 1) > 0.01)
-        breaches_.add("rotations that are not of unit length, normalised", accessor.place());
+        breaches_.add("rotations that are not of unit length, normalised", accessor.location());
     }
   }
 

@@ -13,7 +13,7 @@ namespace {
 
 // Limit on the positions that are remembered: a hostile file may have more, which would take far more memory
 // than the file.
-constexpr size_t most_places = 65536;
+constexpr size_t most_locations = 65536;
 
 // A set of component types: a bit for each type, and another bit for the normalized form of each.
 using Types = uint32_t;
@@ -61,10 +61,10 @@ GltfBreaches::GltfBreaches(const GltfObject& document)
       quantization_declared_(std::ranges::count(document.texts("extensionsUsed"), "KHR_mesh_quantization") >
                              0) {}
 
-void GltfBreaches::add(std::string_view kind, const std::string& place) {
+void GltfBreaches::add(std::string_view kind, const std::string& location) {
   auto known = std::ranges::find(kinds_, kind, &Kind::name);
-  if (known == kinds_.end()) known = kinds_.insert(known, {std::string(kind), place});
-  if (known->places.size() == most_places || known->places.insert(place).second) ++known->count;
+  if (known == kinds_.end()) known = kinds_.insert(known, {std::string(kind), location});
+  if (known->locations.size() == most_locations || known->locations.insert(location).second) ++known->count;
 }
 
 void GltfBreaches::report(std::vector<std::string>& warnings) const {
@@ -87,13 +87,13 @@ void GltfBreaches::check_attribute(std::string_view name, size_t index) {
                               is_normalized ? "normalized " : "", component));
   }
   add("attributes of component types that glTF does not allow for them, read by their componentType",
-      accessor.place());
+      accessor.location());
 }
 
 void GltfBreaches::check_attribute_names(const GltfObject& attributes) {
   constexpr std::string_view sets[] = {"TEXCOORD_", "COLOR_", "JOINTS_", "WEIGHTS_"};
   for (const std::string& name : attributes.keys()) {
-    const auto place = [&] { return attributes.place() + "." + printable(name); };
+    const auto location = [&] { return attributes.location() + "." + printable(name); };
     // Skip the names that applications and extensions define.
     if (name.starts_with('_') || name.find(':') != std::string::npos) continue;
     if (name == "POSITION" || name == "NORMAL" || name == "TANGENT") continue;
@@ -102,10 +102,10 @@ void GltfBreaches::check_attribute_names(const GltfObject& attributes) {
     const bool counted = !number.empty() && number.size() < 6 && (number == "0" || number[0] != '0') &&
                          std::ranges::all_of(number, [](char c) { return c >= '0' && c <= '9'; });
     if (!counted) {
-      add("attributes whose names glTF does not define, left out", place());
+      add("attributes whose names glTF does not define, left out", location());
     } else if (number != "0") {
       const std::string before = fmt::format("{}{}", *set, std::stoi(number) - 1);
-      if (!attributes.has(before.c_str())) add("sets of attributes that are not counted from 0", place());
+      if (!attributes.has(before.c_str())) add("sets of attributes that are not counted from 0", location());
     }
   }
 }

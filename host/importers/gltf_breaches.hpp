@@ -18,7 +18,7 @@ class GltfBreaches {
 
   // `kind` is a plural and its treatment, such as "rotations that are not of unit length, normalised".
   // A position that is added twice counts once, as long as the kind has at most 65536 positions.
-  void add(std::string_view kind, const std::string& place);
+  void add(std::string_view kind, const std::string& location);
   // Adds the warnings: "rotations that are not of unit length, normalised: 3, the first nodes[1].rotation".
   void report(std::vector<std::string>& warnings) const;
 
@@ -36,7 +36,7 @@ class GltfBreaches {
     std::string name;
     std::string first;
     size_t count = 0;
-    std::set<std::string> places = {};
+    std::set<std::string> locations = {};
   };
   const GltfObject& document_;
   bool quantization_declared_;

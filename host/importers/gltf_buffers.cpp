@@ -94,10 +94,10 @@ std::string_view GltfBuffers::buffer(size_t index) {
   const std::string uri = source.text("uri");
   const bool inside = uri.starts_with("data:");
   if ((inside || padding > 0) && bytes.size() - length > padding)
-    breaches_.add("buffers with more data than their byteLength, left out", source.place());
+    breaches_.add("buffers with more data than their byteLength, left out", source.location());
   if (inside && !uri.starts_with("data:application/octet-stream;") &&
       !uri.starts_with("data:application/gltf-buffer;"))
-    breaches_.add("data URIs of buffers of another type than application/octet-stream", source.place());
+    breaches_.add("data URIs of buffers of another type than application/octet-stream", source.location());
   return bytes.substr(0, length);
 }
 
@@ -162,10 +162,10 @@ void GltfBuffers::check_layout(const GltfObject& owner, size_t index, size_t com
   const GltfObject view = document_.element("bufferViews", index);
   const uint64_t offset = owner.count("byteOffset", 0);
   if (offset % component_size != 0 || (offset + view.count("byteOffset", 0)) % component_size != 0)
-    breaches_.add("accessors that do not begin at a multiple of their components' size", owner.place());
+    breaches_.add("accessors that do not begin at a multiple of their components' size", owner.location());
   const uint64_t stride = view.count("byteStride", 4);
   if (stride < 4 || stride > 252 || stride % 4 != 0)
-    breaches_.add("strides that are not multiples of 4 from 4 to 252", view.place() + ".byteStride");
+    breaches_.add("strides that are not multiples of 4 from 4 to 252", view.location() + ".byteStride");
 }
 
 // Compares the data with the accessor's min and max. A contradiction is a sign of wrong data.
@@ -188,12 +188,12 @@ void GltfBuffers::check_range(const GltfObject& accessor, const std::vector<T>& 
     const double slack =
         1e-3 * (high - low) + 1e-5 * std::max(std::abs(low), std::abs(high)) + (unit < 1 ? unit : 0);
     for (const auto& [key, found] : {std::pair{"min", low}, {"max", high}}) {
-      const std::vector<double> said = accessor.numbers(key);
-      if (!said.empty() && said.size() != components)
-        accessor.fail(fmt::format("has a {} of {} numbers", key, said.size()));
-      if (!said.empty() && !(std::abs(said[k] * unit - found) <= slack))
+      const std::vector<double> declared = accessor.numbers(key);
+      if (!declared.empty() && declared.size() != components)
+        accessor.fail(fmt::format("has a {} of {} numbers", key, declared.size()));
+      if (!declared.empty() && !(std::abs(declared[k] * unit - found) <= slack))
         breaches_.add("accessors whose min or max is not that of their data, which are used",
-                      accessor.place());
+                      accessor.location());
     }
   }
 }
@@ -208,7 +208,7 @@ std::vector<T> GltfBuffers::read(size_t index, std::string_view type, size_t com
   const bool normalized = accessor.flag("normalized");
   if (count == 0) accessor.fail("has no elements");
   if (normalized && (component == floating || component == unsigned_int))
-    breaches_.add("accessors of floats or of 32 bits that are normalized", accessor.place());
+    breaches_.add("accessors of floats or of 32 bits that are normalized", accessor.location());
 
   const auto copy = [&](const Elements& from, uint64_t i, T& to) {
     const char* bytes = from.bytes + i * from.stride;
@@ -233,25 +233,27 @@ std::vector<T> GltfBuffers::read(size_t index, std::string_view type, size_t com
     if (changes == 0 || changes > count)
       sparse->fail(
           fmt::format("has a count of {}: it must be from 1 to that of its accessor, {}", changes, count));
-    const auto places = sparse->object("indices");
+    const auto sparse_indices = sparse->object("indices");
     const auto values = sparse->object("values");
-    if (!places || !values) sparse->fail("needs indices and values");
-    const uint64_t place_type = places->count("componentType", 0);
-    if (place_type != unsigned_byte && place_type != unsigned_short && place_type != unsigned_int)
-      places->fail("must be unsigned integers");
-    const Elements at = elements(*places, places->index("bufferView", views), 1, place_type, changes);
+    if (!sparse_indices || !values) sparse->fail("needs indices and values");
+    const uint64_t index_type = sparse_indices->count("componentType", 0);
+    if (index_type != unsigned_byte && index_type != unsigned_short && index_type != unsigned_int)
+      sparse_indices->fail("must be unsigned integers");
+    const Elements at =
+        elements(*sparse_indices, sparse_indices->index("bufferView", views), 1, index_type, changes);
     const Elements from =
         elements(*values, values->index("bufferView", views), components, component, changes);
-    refuse_stride(*places, views);
+    refuse_stride(*sparse_indices, views);
     refuse_stride(*values, views);
     double last = -1;
     for (uint64_t i = 0; i < changes; ++i) {
-      const double place = load(at.bytes + i * at.stride, place_type, false);
-      if (!(place > last)) places->fail(fmt::format("have {} after {}: they must increase", place, last));
-      last = place;
-      if (!(place < static_cast<double>(count)))
-        places->fail(fmt::format("have {}, beyond the accessor", place));
-      copy(from, i, all[static_cast<size_t>(place)]);
+      const double element_index = load(at.bytes + i * at.stride, index_type, false);
+      if (!(element_index > last))
+        sparse_indices->fail(fmt::format("have {} after {}: they must increase", element_index, last));
+      last = element_index;
+      if (!(element_index < static_cast<double>(count)))
+        sparse_indices->fail(fmt::format("have {}, beyond the accessor", element_index));
+      copy(from, i, all[static_cast<size_t>(element_index)]);
     }
   }
   if (!supplied_.contains(index)) check_range(accessor, all, components);
@@ -314,7 +316,7 @@ std::vector<uint32_t> GltfBuffers::indices(size_t accessor) {
   const uint64_t restart = (uint64_t{1} << 8 * bytes_of(type)) - 1;
   if (std::ranges::find(all, restart) != all.end())
     breaches_.add("indices that begin a new strip in other readers, read as those of vertices",
-                  source.place());
+                  source.location());
   return all;
 }
 

@@ -13,7 +13,7 @@ namespace {
 void check_planes(const GltfObject& form, bool sound, GltfBreaches& breaches) {
   if (!sound || (form.has("zfar") && !(form.number("zfar", 0) > form.number("znear", 0))))
     breaches.add("cameras whose aspectRatio, ymag, znear or zfar is out of range, which is ignored",
-                 form.place());
+                 form.location());
 }
 
 }  // namespace
@@ -26,7 +26,7 @@ ImportedCamera gltf_camera(const GltfObject& source, const Mat4& world, GltfBrea
   if (source.has("perspective") && source.has("orthographic"))
     source.fail("is both perspective and orthographic");
   if (!source.has(source.text("type").c_str()))
-    breaches.add("cameras whose type is not that of their values, which are used", source.place());
+    breaches.add("cameras whose type is not that of their values, which are used", source.location());
   if (const auto perspective = source.object("perspective")) {
     const double degrees = glm::degrees(perspective->number("yfov", 0));
     if (!(degrees > 0 && degrees < 180)) perspective->fail("has a yfov that is out of range");

@@ -90,7 +90,7 @@ void GltfDraco::check(const GltfObject& primitive, const draco::Mesh& mesh) {
   const uint64_t count = accessor.count("count", 0);
   if (count != uint64_t{3} * mesh.num_faces()) {
     accessor.fail(fmt::format("has a count of {}, but the Draco data of {} contain {} triangles", count,
-                              primitive.place(), mesh.num_faces()));
+                              primitive.location(), mesh.num_faces()));
   }
 }
 
@@ -122,13 +122,13 @@ std::optional<std::vector<uint32_t>> GltfDraco::open(const GltfObject& primitive
     if (bytes_of(component) == 0) accessor.fail("has a componentType that glTF does not define");
     if (count != mesh.num_points() || components_of(type) != attribute->num_components()) {
       accessor.fail(fmt::format("has {} elements of type {}, but the Draco data of {} have {} of {} numbers",
-                                count, type, primitive.place(), mesh.num_points(),
+                                count, type, primitive.location(), mesh.num_points(),
                                 attribute->num_components()));
     }
     buffers_.claim(accessor, count);
     auto bytes = pack(*attribute, mesh.num_points(), component);
     if (!bytes)
-      accessor.fail(fmt::format("cannot store the values of the Draco data of {}", primitive.place()));
+      accessor.fail(fmt::format("cannot store the values of the Draco data of {}", primitive.location()));
     elements[*index] = std::move(*bytes);
   }
   buffers_.supply(std::move(elements));

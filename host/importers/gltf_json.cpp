@@ -27,17 +27,19 @@ bool is_readable(std::string_view version) {
 
 }  // namespace
 
-GltfObject::GltfObject(const Json& json, std::string place, const std::string& file)
-    : json_(&json), place_(std::move(place)), file_(&file) {
+GltfObject::GltfObject(const Json& json, std::string location, const std::string& file)
+    : json_(&json), location_(std::move(location)), file_(&file) {
   if (!json.is_object()) fail("must be an object");
 }
 
 void GltfObject::fail(const std::string& message) const {
-  throw malformed(*file_, printable(fmt::format("{} {}", place_.empty() ? "the document" : place_, message)));
+  throw malformed(*file_,
+                  printable(fmt::format("{} {}", location_.empty() ? "the document" : location_, message)));
 }
 
 void GltfObject::mismatch(const char* key, std::string_view what) const {
-  throw malformed(*file_, fmt::format("{}{}{} must be {}", place_, place_.empty() ? "" : ".", key, what));
+  throw malformed(*file_,
+                  fmt::format("{}{}{} must be {}", location_, location_.empty() ? "" : ".", key, what));
 }
 
 const Json* GltfObject::find(const char* key) const {
@@ -114,7 +116,7 @@ std::vector<double> GltfObject::numbers(const char* key) const {
 std::optional<GltfObject> GltfObject::object(const char* key) const {
   const Json* value = find(key);
   if (!value) return std::nullopt;
-  return GltfObject(*value, place_.empty() ? key : fmt::format("{}.{}", place_, key), *file_);
+  return GltfObject(*value, location_.empty() ? key : fmt::format("{}.{}", location_, key), *file_);
 }
 
 size_t GltfObject::size(const char* key) const {
@@ -122,7 +124,8 @@ size_t GltfObject::size(const char* key) const {
 }
 
 GltfObject GltfObject::element(const char* key, size_t i) const {
-  return {list(key).at(i), fmt::format("{}{}{}[{}]", place_, place_.empty() ? "" : ".", key, i), *file_};
+  return {list(key).at(i), fmt::format("{}{}{}[{}]", location_, location_.empty() ? "" : ".", key, i),
+          *file_};
 }
 
 std::vector<size_t> GltfObject::indices(const char* key, size_t size) const {

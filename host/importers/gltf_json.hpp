@@ -16,7 +16,7 @@ namespace eyeray::engine::importers {
 // position. The document and the file's name must outlive this object.
 class GltfObject {
  public:
-  GltfObject(const nlohmann::json& json, std::string place, const std::string& file);
+  GltfObject(const nlohmann::json& json, std::string location, const std::string& file);
 
   bool has(const char* key) const { return find(key) != nullptr; }
   std::vector<std::string> keys() const;
@@ -41,7 +41,7 @@ class GltfObject {
   // The object of an extension.
   std::optional<GltfObject> extension(const char* name) const;
 
-  const std::string& place() const { return place_; }
+  const std::string& location() const { return location_; }
   [[noreturn]] void fail(const std::string& message) const;
 
  private:
@@ -50,7 +50,7 @@ class GltfObject {
   const nlohmann::json& list(const char* key) const;
 
   const nlohmann::json* json_;
-  std::string place_;  // "accessors[3]"; "" for the document
+  std::string location_;  // "accessors[3]"; "" for the document
   const std::string* file_;
 };
 

@@ -23,7 +23,7 @@ SpotLight spot_light(const GltfObject& light, const Mat4& world, const Vec3& int
   const double outer = cone ? cone->number("outerConeAngle", quarter_turn / 2) : quarter_turn / 2;
   // Allow for a quarter turn in float32, which is a little larger.
   if (!cone || !(inner >= 0 && inner < outer && outer <= quarter_turn + 1e-6))
-    breaches.add("spot lights whose angles do not grow from 0 to a quarter turn, clamped", light.place());
+    breaches.add("spot lights whose angles do not grow from 0 to a quarter turn, clamped", light.location());
   const double border = std::clamp(outer, least_border, quarter_turn);
   return {.position = Vec3(world[3]),
           .direction = -unit(Vec3(world[2])),
@@ -43,12 +43,12 @@ void add_gltf_light(const GltfObject& source, const Mat4& world, GltfLeftOut& le
   const bool right = intensity >= 0 && *std::ranges::min_element(color) >= 0 && magnitude(arriving) < 1e12;
   if (!right) source.fail("has an intensity that is out of range");
   if (*std::ranges::max_element(color) > 1)
-    breaches.add("colours of lights above 1, used unchanged", source.place());
+    breaches.add("colours of lights above 1, used unchanged", source.location());
   if (source.has("spot") && type != "spot")
-    breaches.add("cones of lights that are not spot lights, left out", source.place());
+    breaches.add("cones of lights that are not spot lights, left out", source.location());
   if (source.has("range")) left_out.add("ranges of lights");
   if (source.has("range") && !(source.number("range", 0) > 0))
-    breaches.add("ranges of lights that are not above 0", source.place());
+    breaches.add("ranges of lights that are not above 0", source.location());
   if (type == "directional") {
     scene.lights.push_back(DirectionalLight{unit(Vec3(world[2])), arriving});
   } else if (type == "point") {

@@ -46,7 +46,7 @@ double GltfMaterials::ior(const GltfObject& material) {
   const double written = extension ? extension->number("ior", 1.5) : 1.5;
   const double ior = written == 0 ? 0 : std::clamp(written, 1.0, 4.0);
   if (ior != written)
-    breaches_.add("indices of refraction below 1 or above 4, clamped", extension->place() + ".ior");
+    breaches_.add("indices of refraction below 1 or above 4, clamped", extension->location() + ".ior");
   return ior;
 }
 
@@ -65,7 +65,7 @@ Vec3 GltfMaterials::absorption(const GltfObject& material) {
   if (!volume) return Vec3(0);
   const double distance = volume->number("attenuationDistance", 0);
   if (volume->has("attenuationDistance") && !(distance > 0))
-    breaches_.add("attenuation distances that are not above 0, left out", volume->place());
+    breaches_.add("attenuation distances that are not above 0, left out", volume->location());
   const std::vector<double> color = factors(*volume, "attenuationColor", {1, 1, 1});
   if (!(distance > 1e-12)) return Vec3(0);
   return -glm::log(glm::max(Vec3(color[0], color[1], color[2]), Vec3(1e-6))) / distance;
@@ -84,7 +84,7 @@ std::unique_ptr<Material> GltfMaterials::principled(const GltfObject& source, co
     const std::vector<double> color = specular->numbers("specularColorFactor", {1, 1, 1});
     const Vec3 tint = glm::max(Vec3(color[0], color[1], color[2]), Vec3(0));
     if (tint != Vec3(color[0], color[1], color[2]))
-      breaches_.add("values of materials below 0, set to 0", specular->place() + ".specularColorFactor");
+      breaches_.add("values of materials below 0, set to 0", specular->location() + ".specularColorFactor");
     values.specular = scaled(source, *specular, "specularTexture",
                              Vec3(factor(*specular, "specularFactor", 1)), Content::alpha);
     values.specular_color = scaled(source, *specular, "specularColorTexture", tint, Content::color);

@@ -100,9 +100,9 @@ ImageTexture GltfMaterials::decode_image(size_t index, image::PixelBudget& budge
     if (image.has("uri")) image.fail("has both a uri and a bufferView: it is one picture");
     bytes = buffers_.view(*view);
     if (document_.element("bufferViews", *view).has("byteStride"))
-      breaches_.add("pictures in views with a byteStride, which is ignored", image.place());
+      breaches_.add("pictures in views with a byteStride, which is ignored", image.location());
     if (!image.has("mimeType"))
-      breaches_.add("pictures in views without a mimeType, decoded by their content", image.place());
+      breaches_.add("pictures in views without a mimeType, decoded by their content", image.location());
   } else {
     data = buffers_.read_uri(image, "the picture");
     bytes = data;
@@ -112,10 +112,10 @@ ImageTexture GltfMaterials::decode_image(size_t index, image::PixelBudget& budge
     type = uri.substr(5, uri.find(';') - 5);
   const bool is_png = bytes.starts_with("\x89PNG"), is_jpeg = bytes.starts_with("\xff\xd8");
   if (!type.empty() && ((is_png && type != "image/png") || (is_jpeg && type != "image/jpeg")))
-    breaches_.add("pictures of another type than their mimeType, decoded by their content", image.place());
+    breaches_.add("pictures of another type than their mimeType, decoded by their content", image.location());
   if (!is_png && !is_jpeg)
-    breaches_.add("pictures that are neither PNG nor JPEG, decoded by their content", image.place());
-  return decode_image_texture(std::as_bytes(std::span(bytes)), image.place(), budget, warnings);
+    breaches_.add("pictures that are neither PNG nor JPEG, decoded by their content", image.location());
+  return decode_image_texture(std::as_bytes(std::span(bytes)), image.location(), budget, warnings);
 }
 
 // The picture that `reference` names; null if it cannot be read.
@@ -183,7 +183,7 @@ TexturePtr GltfMaterials::emission(const GltfObject& material) {
   if (color == Vec3(0)) {
     if (strength)
       breaches_.add("emissive strengths of materials without an emissiveFactor, which emit no light",
-                    strength->place());
+                    strength->location());
     return none;
   }
   if (strength) color *= std::clamp(not_negative(*strength, "emissiveStrength", 1), 0.0, most_emission);
@@ -338,14 +338,14 @@ GltfUvUse GltfMaterials::uv_use(size_t index) const {
 double GltfMaterials::factor(const GltfObject& owner, const char* key, double fallback) {
   const double value = owner.number(key, fallback);
   if (share(value) != value)
-    breaches_.add("factors below 0 or above 1, clamped", fmt::format("{}.{}", owner.place(), key));
+    breaches_.add("factors below 0 or above 1, clamped", fmt::format("{}.{}", owner.location(), key));
   return share(value);
 }
 
 double GltfMaterials::not_negative(const GltfObject& owner, const char* key, double fallback) {
   const double value = owner.number(key, fallback);
   if (value < 0)
-    breaches_.add("values of materials below 0, set to 0", fmt::format("{}.{}", owner.place(), key));
+    breaches_.add("values of materials below 0, set to 0", fmt::format("{}.{}", owner.location(), key));
   return std::max(value, 0.0);
 }
 
@@ -354,7 +354,7 @@ std::vector<double> GltfMaterials::factors(const GltfObject& owner, const char* 
   std::vector<double> values = owner.numbers(key, std::move(fallback));
   for (double& value : values) {
     if (share(value) != value)
-      breaches_.add("factors below 0 or above 1, clamped", fmt::format("{}.{}", owner.place(), key));
+      breaches_.add("factors below 0 or above 1, clamped", fmt::format("{}.{}", owner.location(), key));
     value = share(value);
   }
   return values;
@@ -367,13 +367,13 @@ void GltfMaterials::note_rest(const GltfObject& material) {
   const bool excludes = material.extension("KHR_materials_unlit") || material.extension(specular_glossiness);
   if (excludes && std::ranges::any_of(lit_extensions,
                                       [&](const char* name) { return material.extension(name).has_value(); }))
-    breaches_.add("materials with extensions that exclude each other", material.place());
+    breaches_.add("materials with extensions that exclude each other", material.location());
   if (material.has("occlusionTexture")) left_out_.add("occlusion maps");
   if (material.has("alphaCutoff") && alpha != "MASK")
-    breaches_.add("alpha cutoffs of materials whose alphaMode is not MASK, left out", material.place());
+    breaches_.add("alpha cutoffs of materials whose alphaMode is not MASK, left out", material.location());
   const auto volume = material.extension("KHR_materials_volume");
   if (volume && !material.extension("KHR_materials_transmission"))
-    breaches_.add("volumes of materials that transmit no light, left out", volume->place());
+    breaches_.add("volumes of materials that transmit no light, left out", volume->location());
 }
 
 }  // namespace eyeray::engine::importers

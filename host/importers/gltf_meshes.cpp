@@ -79,7 +79,7 @@ std::vector<GltfMeshes::Part> GltfMeshes::posed_parts(size_t index, const GltfPo
     std::optional<Mesh> made = read_primitive(primitive, material, whole);
     if (!made || made->triangles.empty()) continue;
     const std::string name = mesh.text("name");
-    made->name = fmt::format("{}: {}", file_, name.empty() ? primitive.place() : printable(name));
+    made->name = fmt::format("{}: {}", file_, name.empty() ? primitive.location() : printable(name));
     parts.push_back({static_cast<int>(meshes_.size()), material ? static_cast<int>(*material) : -1});
     meshes_.push_back(std::move(*made));
   }
@@ -127,10 +127,10 @@ std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std:
       !pose.joints.empty() || std::ranges::any_of(pose.weights, [](double w) { return w != 0; });
   if (tangents && !normals)
     breaches_.add("meshes with tangents but without normals; their tangents are computed from uv instead",
-                  attributes->place());
+                  attributes->location());
   if (bent || !normals || !(uv_use.second_tangents ? second_uv : uv)) tangents.reset();
   if ((!uv && !uv_use.uv.empty()) || (!second_uv && two_uv))
-    breaches_.add("meshes without the uv that their material's picture needs", primitive.place());
+    breaches_.add("meshes without the uv that their material's picture needs", primitive.location());
   for (const auto& [name, accessor] :
        {std::pair<std::string_view, const std::optional<size_t>&>{"POSITION", positions},
         {"NORMAL", normals},
@@ -144,21 +144,21 @@ std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std:
   pool.positions = buffers_.vec3(*positions);
   if (normals) pool.normals = buffers_.vec3(*normals);
   if (std::ranges::any_of(pool.normals, is_no_unit))
-    breaches_.add("normals that are not of unit length, normalised", attributes->place() + ".NORMAL");
+    breaches_.add("normals that are not of unit length, normalised", attributes->location() + ".NORMAL");
   if (tangents) pool.tangents = buffers_.vec4(*tangents);
   if (std::ranges::any_of(pool.tangents, [](const Vec4& tangent) { return is_no_unit(Vec3(tangent)); }))
-    breaches_.add("tangents that are not of unit length, normalised", attributes->place() + ".TANGENT");
+    breaches_.add("tangents that are not of unit length, normalised", attributes->location() + ".TANGENT");
   if (!std::ranges::all_of(pool.tangents, is_direction)) {
     breaches_.add("meshes with tangents that are not directions; their tangents are computed from uv instead",
-                  attributes->place());
+                  attributes->location());
     pool.tangents.clear();
     tangents.reset();
   }
   const auto read_uv = [&](size_t accessor, const GltfUv& use) {
     std::vector<Vec2> values = buffers_.vec2(accessor);
-    for (Vec2& place : values) {
-      place = use.linear * place + use.offset;
-      place.y = 1 - place.y;  // glTF's v starts at the top of the picture
+    for (Vec2& point : values) {
+      point = use.linear * point + use.offset;
+      point.y = 1 - point.y;  // glTF's v starts at the top of the picture
     }
     return values;
   };
@@ -169,7 +169,7 @@ std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std:
       pool.colors.push_back(sound_color(Vec3(color)));
       pool.alphas.push_back(sound_color(Vec3(color.w)).x);
       if (Vec4(pool.colors.back(), pool.alphas.back()) != color)
-        breaches_.add("colours of vertices below 0 or above 1, clamped", attributes->place() + ".COLOR_0");
+        breaches_.add("colours of vertices below 0 or above 1, clamped", attributes->location() + ".COLOR_0");
     }
     if (std::ranges::all_of(pool.alphas, [](double alpha) { return alpha == 1; })) pool.alphas.clear();
   }
@@ -184,7 +184,7 @@ std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std:
   add_targets(primitive, pose.weights, document_, buffers_, breaches_, pool);
   if (!pose.joints.empty()) move_to_joints(*attributes, pose.joints, document_, buffers_, breaches_, pool);
   if (pose.joints.empty() && attributes->has("JOINTS_0"))
-    breaches_.add("meshes with joints that are shown without a skin, undeformed", attributes->place());
+    breaches_.add("meshes with joints that are shown without a skin, undeformed", attributes->location());
 
   // Read the corners.
   std::vector<uint32_t> corners;
@@ -202,7 +202,7 @@ std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std:
   }
   const uint64_t made_as = draco_corners ? triangle_list : mode;
   if (made_as == triangle_list ? corners.size() % 3 != 0 : corners.size() < 3)
-    breaches_.add("primitives whose last corners make no triangle", primitive.place());
+    breaches_.add("primitives whose last corners make no triangle", primitive.location());
   RawTriangles raw;
   raw.has_normals = normals.has_value();
   raw.has_uv = uv.has_value();

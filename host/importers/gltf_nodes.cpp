@@ -14,7 +14,7 @@ Mat4 gltf_transform(const GltfObject& owner, const char* key, const Vec3& transl
   const glm::dquat turn(rotation.w, rotation.x, rotation.y, rotation.z);
   if (!(glm::length(turn) > 1e-6)) owner.fail("has a rotation of length 0");
   if (std::abs(glm::length(turn) - 1) > 0.01)
-    breaches.add("rotations that are not of unit length, normalised", owner.place() + "." + key);
+    breaches.add("rotations that are not of unit length, normalised", owner.location() + "." + key);
   return glm::translate(Mat4(1.0), translation) * glm::mat4_cast(glm::normalize(turn)) *
          glm::scale(Mat4(1.0), scale);
 }

@@ -108,10 +108,10 @@ constexpr Property view[] = {index("buffer", "buffers").must(),
                              one_of("target", "34962 34963"),
                              extension("EXT_meshopt_compression", meshopt),
                              extension("KHR_meshopt_compression", meshopt)};
-constexpr Property places[] = {index("bufferView", "bufferViews").must(), count("byteOffset"),
-                               one_of("componentType", "5121 5123 5125").must()};
+constexpr Property sparse_indices[] = {index("bufferView", "bufferViews").must(), count("byteOffset"),
+                                       one_of("componentType", "5121 5123 5125").must()};
 constexpr Property values[] = {index("bufferView", "bufferViews").must(), count("byteOffset")};
-constexpr Property sparse[] = {count("count", 1).must(), object("indices", places).must(),
+constexpr Property sparse[] = {count("count", 1).must(), object("indices", sparse_indices).must(),
                                object("values", values).must()};
 constexpr Property accessor[] = {index("bufferView", "bufferViews"),
                                  count("byteOffset"),
@@ -287,9 +287,9 @@ class PropertyCheck {
   PropertyCheck(const Json& document, GltfBreaches& breaches) : document_(document), breaches_(breaches) {}
 
   // The recursion goes only as deep as the table.
-  void check_object(const Json& object, const std::string& place, Members table) {
-    const std::string before = place.empty() ? "" : place + ".";
-    if (object.empty() && table[0].name == "*") empty(place);
+  void check_object(const Json& object, const std::string& location, Members table) {
+    const std::string before = location.empty() ? "" : location + ".";
+    if (object.empty() && table[0].name == "*") empty(location);
     for (const auto& [key, value] : object.items()) {
       if (key == "extras") continue;
       const std::string here = before + printable(key);
@@ -309,10 +309,10 @@ class PropertyCheck {
   }
 
  private:
-  void check_extensions(const Json& extensions, const std::string& place, Members table) {
-    if (!extensions.is_object()) return mismatch(place);
+  void check_extensions(const Json& extensions, const std::string& location, Members table) {
+    if (!extensions.is_object()) return mismatch(location);
     for (const auto& [name, value] : extensions.items()) {
-      const std::string here = place + "." + printable(name);
+      const std::string here = location + "." + printable(name);
       if (const Property* row = find(table, name, true)) {
         check_value(value, here, *row);
       } else if (is_known_extension(name)) {

@@ -85,12 +85,12 @@ void check_targets(const GltfObject& primitive, const GltfObject& document, Gltf
         if (!change) continue;
         const auto base = attributes ? attributes->index(name, accessors) : std::nullopt;
         if (!base) {
-          breaches.add("morph targets of attributes that the mesh lacks, left out", target.place());
+          breaches.add("morph targets of attributes that the mesh lacks, left out", target.location());
         } else if (buffers.vec3(*change).size() != document.element("accessors", *base).count("count", 0)) {
           target.fail("do not all have as many elements");
         }
       } catch (const Error&) {
-        breaches.add("morph targets that could not be shown with a weight", target.place());
+        breaches.add("morph targets that could not be shown with a weight", target.location());
       }
     }
   }
@@ -134,16 +134,17 @@ void move_to_joints(const GltfObject& attributes, std::span<const Mat4> joints, 
     }
   }
 
-  if (no_weight) breaches.add("weights below 0 or not finite, set to 0", attributes.place() + ".WEIGHTS_0");
+  if (no_weight)
+    breaches.add("weights below 0 or not finite, set to 0", attributes.location() + ".WEIGHTS_0");
   if (no_joint)
     breaches.add("vertices that name joints beyond the skin's without weight, left out",
-                 attributes.place() + ".JOINTS_0");
+                 attributes.location() + ".JOINTS_0");
   if (twice)
     breaches.add("vertices that name a joint twice, whose weights are added",
-                 attributes.place() + ".JOINTS_0");
+                 attributes.location() + ".JOINTS_0");
   if (std::ranges::any_of(total, [](double sum) { return !(std::abs(sum - 1) < 0.02); }))
     breaches.add("weights of joints that do not sum to 1, divided by their sum",
-                 attributes.place() + ".WEIGHTS_0");
+                 attributes.location() + ".WEIGHTS_0");
 
   // A vertex to which no joint gives weight moves with the first joint.
   for (size_t i = 0; i < sums.size(); ++i) {

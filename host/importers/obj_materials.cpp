@@ -208,8 +208,8 @@ void ObjMaterials::parse(std::string text) {
 std::shared_ptr<const ImageTexture> ObjMaterials::picture(const std::string& name, bool clamp, MapUse use) {
   return textures_.load(
       fmt::format("{} {} {}", name, clamp, static_cast<int>(use)),
-      [&](image::PixelBudget& budget, std::vector<std::string>& said) {
-        ImageTexture image = load_image_texture(assets_.locate(name), budget, said);
+      [&](image::PixelBudget& budget, std::vector<std::string>& messages) {
+        ImageTexture image = load_image_texture(assets_.locate(name), budget, messages);
         if (clamp) image.wrap_u = image.wrap_v = Wrap::clamp;
         image.srgb = use == MapUse::color;
         // The opacity is the picture's alpha, or its brightness if all of the picture is opaque.
