@@ -13,11 +13,11 @@ namespace eyeray::engine::executors {
 double GpuQueries::ask(const QueryBatch& batch, std::span<QueryHit> hits) {
   CHECK_EQ(batch.rays.size(), hits.size());
   const Rays how = batch.coherent ? plan_.coherent : plan_.incoherent;
-  gpu::Kernel& asked = kernel(how, batch.kind == QueryKind::any);
+  gpu::Kernel& chosen = kernel(how, batch.kind == QueryKind::any);
   double seconds = 0;
   for (size_t first = 0; first < batch.rays.size(); first += most_pixels) {
     const size_t count = std::min(batch.rays.size() - first, size_t{most_pixels});
-    seconds += query_some(asked, how, batch.rays.subspan(first, count), hits.subspan(first, count));
+    seconds += query_some(chosen, how, batch.rays.subspan(first, count), hits.subspan(first, count));
   }
   return seconds;
 }
@@ -30,16 +30,16 @@ gpu::Kernel& GpuQueries::kernel(Rays how, bool any) {
 
 double GpuQueries::query_some(gpu::Kernel& kernel, Rays how, std::span<const Query> rays,
                               std::span<QueryHit> hits) {
-  std::vector<shader::QueryRay> asked(rays.size());
-  std::transform(rays.begin(), rays.end(), asked.begin(),
+  std::vector<shader::QueryRay> queries(rays.size());
+  std::transform(rays.begin(), rays.end(), queries.begin(),
                  [&](const Query& ray) { return to_query_ray(ray, eye_); });
-  gpu::Buffer input(device_, asked.size() * sizeof(shader::QueryRay), "rays");
-  input.upload_records(asked);
-  const size_t bytes = asked.size() * sizeof(shader::QueryHit);
+  gpu::Buffer input(device_, queries.size() * sizeof(shader::QueryRay), "rays");
+  input.upload_records(queries);
+  const size_t bytes = queries.size() * sizeof(shader::QueryHit);
   if (!output_ || output_->size() < bytes) output_.emplace(device_, bytes, "hits of rays");
   kernel.set_buffer(BINDING_RAYS, input);
   kernel.set_buffer(BINDING_OUTPUT, *output_);
-  const auto count = uint32_t(asked.size());
+  const auto count = uint32_t(queries.size());
   shader::Dispatch push{};
   push.count = count;
   const uint32_t groups = how == Rays::packets ? workgroups_.of_packets(count) : workgroups_.of_items(count);

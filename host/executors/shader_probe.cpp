@@ -41,7 +41,7 @@ ShaderProbe::ShaderProbe(const std::map<std::string, std::string, std::less<>>& 
       ++number;
       if (line.find("PROBE") == std::string::npos) continue;
       for (std::sregex_iterator it(line.begin(), line.end(), probe), end; it != end; ++it)
-        places_[(*it)[1]].push_back({file, number});
+        positions_[(*it)[1]].push_back({file, number});
     }
   }
 }
@@ -49,15 +49,15 @@ ShaderProbe::ShaderProbe(const std::map<std::string, std::string, std::less<>>& 
 std::string ShaderProbe::defines() const {
   std::string text = fmt::format("#define PROBING\n#define PROBE_CAPACITY {}u\n", RayRecorder::most);
   uint32_t number = 0;
-  for (const auto& [name, places] : places_)
+  for (const auto& [name, positions] : positions_)
     text += fmt::format("#define {} {}u\n", fmt::format("PROBED_{}", name), number++);
   return text;
 }
 
 RayTree ShaderProbe::tree(std::span<const shader::ProbeRecord> records) const {
-  const uint32_t asked = records[0].name, kept = std::min(asked, uint32_t(records.size() - 1));
+  const uint32_t requested = records[0].name, kept = std::min(requested, uint32_t(records.size() - 1));
   std::vector<std::string_view> names;
-  for (const auto& [name, places] : places_) names.push_back(name);
+  for (const auto& [name, positions] : positions_) names.push_back(name);
 
   RayRecorder recorder;
   for (const shader::ProbeRecord& record : records.subspan(1, kept)) {
@@ -74,7 +74,7 @@ RayTree ShaderProbe::tree(std::span<const shader::ProbeRecord> records) const {
       recorder.value(std::move(value));
     }
   }
-  recorder.lose(asked - kept);
+  recorder.lose(requested - kept);
   name_files(recorder.tree());
   return std::move(recorder.tree());
 }
@@ -82,10 +82,10 @@ RayTree ShaderProbe::tree(std::span<const shader::ProbeRecord> records) const {
 void ShaderProbe::name_files(RayTree& tree) const {
   for (ProbedRay& ray : tree.rays) {
     for (ProbedValue& value : ray.values) {
-      const auto found = places_.find(value.name);
-      if (found == places_.end()) continue;
-      const auto place = std::ranges::find(found->second, value.line, &Place::line);
-      if (place != found->second.end()) value.file = place->file;
+      const auto found = positions_.find(value.name);
+      if (found == positions_.end()) continue;
+      const auto position = std::ranges::find(found->second, value.line, &Position::line);
+      if (position != found->second.end()) value.file = position->file;
     }
   }
 }

@@ -28,11 +28,11 @@ class ShaderProbe {
   void name_files(RayTree& tree) const;
 
  private:
-  struct Place {
+  struct Position {
     std::string file;
     uint32_t line;
   };
-  std::map<std::string, std::vector<Place>, std::less<>> places_;  // by name
+  std::map<std::string, std::vector<Position>, std::less<>> positions_;  // by name
 };
 
 }  // namespace eyeray::engine::executors

@@ -43,9 +43,9 @@ Rays incoherent_rays(const Profile& profile, const records::PackedScene& scene, 
 
 }  // namespace
 
-TracePlan plan_tracing(const Profile& profile, const ProfileOptions& asked, const ImageSettings& image,
+TracePlan plan_tracing(const Profile& profile, const ProfileOptions& requested, const ImageSettings& image,
                        const records::PackedScene& scene, uint32_t subgroup_size) {
-  const bool wants_packets = asked.rays == "packets";
+  const bool wants_packets = requested.rays == "packets";
   const bool packets = profile.packets && collapsible(scene) &&
                        (wants_packets || scene.primitives.size() <= most_in_packets) &&
                        (subgroup_size == 4 || subgroup_size == 8 || subgroup_size == 16);
@@ -63,16 +63,16 @@ TracePlan plan_tracing(const Profile& profile, const ProfileOptions& asked, cons
   return plan;
 }
 
-bool wants_wide_vectors(const ProfileOptions& asked, const ImageSettings& image,
+bool wants_wide_vectors(const ProfileOptions& requested, const ImageSettings& image,
                         const records::PackedScene& scene) {
   // Pixels gather between few and thousands of photons: the wider the vectors, the more of their lanes wait.
   if (sends_photons(IntegratorType(scene.frame.integrator))) return false;
   gpu::DeviceInfo llvmpipe;
   llvmpipe.type = gpu::DeviceType::cpu;
   llvmpipe.limits.subgroup_size = most_lanes_in_wavefront;
-  const TracePlan narrow =
-      plan_tracing(choose_profile(asked, llvmpipe), asked, image, scene, llvmpipe.limits.subgroup_size);
-  const bool suits_packets = asked.rays == "packets" || scene.primitives.size() > most_in_wide_vectors;
+  const TracePlan narrow = plan_tracing(choose_profile(requested, llvmpipe), requested, image, scene,
+                                        llvmpipe.limits.subgroup_size);
+  const bool suits_packets = requested.rays == "packets" || scene.primitives.size() > most_in_wide_vectors;
   return image.all_samples() >= least_samples_in_wide_vectors && !(narrow.wavefront && suits_packets);
 }
 

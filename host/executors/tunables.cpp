@@ -54,8 +54,8 @@ std::string in_glsl(Tunable::Type type, const Tunable::Value& value) {
   return "";
 }
 
-std::string read_from_buffer(Tunable::Type type, size_t place) {
-  const std::string record = fmt::format("tunables[{}]", place);
+std::string read_from_buffer(Tunable::Type type, size_t index) {
+  const std::string record = fmt::format("tunables[{}]", index);
   switch (type) {
     case Tunable::Type::floating:
       return record + ".x";
@@ -88,10 +88,10 @@ void Tunables::begin() {
   found_.clear();
 }
 
-size_t Tunables::place_of(const std::string& id) {
-  const size_t place = size_t(std::ranges::find(places_, id) - places_.begin());
-  if (place == places_.size()) places_.push_back(id);
-  return place;
+size_t Tunables::index_of(const std::string& id) {
+  const size_t index = size_t(std::ranges::find(ids_, id) - ids_.begin());
+  if (index == ids_.size()) ids_.push_back(id);
+  return index;
 }
 
 std::string Tunables::apply(const std::string& file, std::string_view text) {
@@ -112,12 +112,12 @@ std::string Tunables::apply(const std::string& file, std::string_view text) {
       const std::optional<Tunable::Value> written = value_of(tunable.type, match[4]);
       if (written && fits(match[6], tunable.type) && tunable.low < tunable.high) {
         tunable.written = *written;
-        const size_t place = place_of(tunable.id);
-        if (as_constants || place >= most)
+        const size_t index = index_of(tunable.id);
+        if (as_constants || index >= most)
           line = fmt::format("{}const {} {} = {};{}", match[1].str(), match[2].str(), tunable.name,
                              in_glsl(tunable.type, value(tunable)), match[5].str());
         else
-          line = fmt::format("#define {} {}", tunable.name, read_from_buffer(tunable.type, place));
+          line = fmt::format("#define {} {}", tunable.name, read_from_buffer(tunable.type, index));
         if (std::ranges::find(found_, tunable.id, &Tunable::id) == found_.end()) found_.push_back(tunable);
       }
     }
@@ -141,10 +141,10 @@ Tunable::Value Tunables::value(const Tunable& tunable) const {
 std::array<std::array<float, 4>, Tunables::most> Tunables::records() const {
   std::array<std::array<float, 4>, most> records{};
   for (const Tunable& tunable : found_) {
-    const size_t place = size_t(std::ranges::find(places_, tunable.id) - places_.begin());
-    if (place >= most) continue;
+    const size_t index = size_t(std::ranges::find(ids_, tunable.id) - ids_.begin());
+    if (index >= most) continue;
     const Tunable::Value now = value(tunable);
-    records[place] = {float(now[0]), float(now[1]), float(now[2]), 0};
+    records[index] = {float(now[0]), float(now[1]), float(now[2]), 0};
   }
   return records;
 }

@@ -56,12 +56,12 @@ class Tunables {
   std::array<std::array<float, 4>, most> records() const;
 
  private:
-  size_t place_of(const std::string& id);
+  size_t index_of(const std::string& id);
 
   std::vector<Tunable> found_;
   std::map<std::string, Tunable::Value> chosen_;
   uint64_t choice_ = 0;
-  std::vector<std::string> places_;  // ids by position in the buffer; a position never changes
+  std::vector<std::string> ids_;  // ids by position in the buffer; a position never changes
 };
 
 }  // namespace eyeray::engine::executors

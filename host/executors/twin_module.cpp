@@ -54,23 +54,23 @@ bool has_sources(const fs::path& folder) {
 fs::path write_sources(const fs::path& folder) {
   ContentHash hash;
   for_each_source([&](const fs::path& name, std::string_view text) { hash.add(name.string()).add(text); });
-  fs::path place = folder / ("sources-" + hash.hex());
-  if (has_sources(place)) return place;
+  fs::path sources = folder / ("sources-" + hash.hex());
+  if (has_sources(sources)) return sources;
 
-  const fs::path part = fmt::format("{}.part.{}", place.string(), ::getpid());
+  const fs::path part = fmt::format("{}.part.{}", sources.string(), ::getpid());
   for_each_source([&](const fs::path& name, std::string_view text) {
     make_folder((part / name).parent_path());
     std::ofstream(part / name, std::ios::binary) << text;
   });
-  if (!has_sources(part)) throw Error(ExitCode::file_io, "cannot write {}", place.string());
+  if (!has_sources(part)) throw Error(ExitCode::file_io, "cannot write {}", sources.string());
   std::error_code failed;
-  fs::rename(part, place, failed);
-  if (failed && !has_sources(place)) {  // no other process was faster: the folder is damaged
-    fs::remove_all(place);
-    fs::rename(part, place);
+  fs::rename(part, sources, failed);
+  if (failed && !has_sources(sources)) {  // no other process was faster: the folder is damaged
+    fs::remove_all(sources);
+    fs::rename(part, sources);
   }
   fs::remove_all(part, failed);
-  return place;
+  return sources;
 }
 
 std::vector<fs::path> shaders_in(const fs::path& folder) {
@@ -147,11 +147,11 @@ TwinModule::TwinModule(const fs::path& folder, const std::string& sanitizers) {
   for (const std::string& flag : module_flags(command, sanitizers)) command.push_back(flag);
   if (!folder.empty()) files_ = shaders_in(folder);
 
-  fs::path place = DiskCache::of_user().folder();
-  if (place.empty() || !make_private_folder(place) || !make_private_folder(place /= "twin") ||
-      ::access(place.c_str(), W_OK) != 0)
-    place = scratch_.emplace().path();
-  const fs::path sources = write_sources(place);
+  fs::path cache_folder = DiskCache::of_user().folder();
+  if (cache_folder.empty() || !make_private_folder(cache_folder) ||
+      !make_private_folder(cache_folder /= "twin") || ::access(cache_folder.c_str(), W_OK) != 0)
+    cache_folder = scratch_.emplace().path();
+  const fs::path sources = write_sources(cache_folder);
 
   std::vector<std::string> inputs;
   if (!folder.empty()) inputs.push_back("-I" + absolute_or_empty(folder).string());
@@ -174,7 +174,7 @@ TwinModule::TwinModule(const fs::path& folder, const std::string& sanitizers) {
     hash.add(file.string()).add(guarded);
     if (guarded != text) counted.emplace(name, std::move(guarded));
   }
-  const fs::path module = place / (hash.hex() + ".so");
+  const fs::path module = cache_folder / (hash.hex() + ".so");
 
   if (!is_private_file(module)) {
     const fs::path part = fmt::format("{}.part.{}", module.string(), ::getpid());
@@ -202,7 +202,7 @@ TwinModule::TwinModule(const fs::path& folder, const std::string& sanitizers) {
                   command[0], result.code, printable(result.err.substr(0, 2000)));
     }
     fs::rename(part, module);
-    drop_old(place);
+    drop_old(cache_folder);
   }
   handle_ = ::dlopen(module.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!handle_) throw Error(ExitCode::file_io, "cannot load the twin of the shaders: {}", ::dlerror());
