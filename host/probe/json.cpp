@@ -69,13 +69,13 @@ std::string to_json(const Findings& findings) {
   const auto first = findings.first_difference();
 
   // The order of the overlay decides which line comes before which ray.
-  std::vector<size_t> places(rays.size());
+  std::vector<size_t> json_indices(rays.size());
   findings.overlay.in_order(
       [&](size_t i) {
         const Ray& ray = rays[i];
         Json each{{"ray", name(ray.kind)}};
         if (ray.kind == RayKind::shadow) each["light"] = ray.number;
-        if (ray.kind != RayKind::pixel) each["parent"] = places[ray.parent];
+        if (ray.kind != RayKind::pixel) each["parent"] = json_indices[ray.parent];
         each["way"] = findings.way_to(i);
         if (!findings.hits[i].empty()) each["hits"] = findings.hits[i];
         Json traced = Json::array();
@@ -84,20 +84,20 @@ std::string to_json(const Findings& findings) {
         each["traced_by"] = traced;
         add_verdict(each, ray.verdict, ray.difference);
         each["values"] = Json::array();
-        places[i] = json["rays"].size();
+        json_indices[i] = json["rays"].size();
         json["rays"].push_back(std::move(each));
       },
       [&](size_t i, size_t k) {
-        json["rays"][places[i]]["values"].push_back(line_json(findings, rays[i].lines[k]));
+        json["rays"][json_indices[i]]["values"].push_back(line_json(findings, rays[i].lines[k]));
       });
   if (first) {
-    Json place{{"ray", places[first->ray]}, {"way", findings.way_to(first->ray)}};
+    Json difference{{"ray", json_indices[first->ray]}, {"way", findings.way_to(first->ray)}};
     if (first->line) {
-      place.update(line_json(findings, rays[first->ray].lines[*first->line]));
+      difference.update(line_json(findings, rays[first->ray].lines[*first->line]));
     } else {
-      add_verdict(place, rays[first->ray].verdict, rays[first->ray].difference);
+      add_verdict(difference, rays[first->ray].verdict, rays[first->ray].difference);
     }
-    json["first_difference"] = place;
+    json["first_difference"] = difference;
   }
   return json_text(json) + "\n";
 }

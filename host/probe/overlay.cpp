@@ -62,50 +62,50 @@ Overlay::Overlay(size_t executors) : executors_(executors) {
 }
 
 void Overlay::add(size_t executor, const RayTree& tree) {
-  std::vector<size_t> places;                    // the index in rays_ of each ray of the tree
-  std::vector<std::vector<size_t>> line_places;  // the index in Ray::lines of each of their values
+  std::vector<size_t> indices;                    // the index in rays_ of each ray of the tree
+  std::vector<std::vector<size_t>> line_indices;  // the index in Ray::lines of each of their values
   Occurrences<SiblingKey> occurrences;
   for (const ProbedRay& ray : tree.rays) {
-    size_t place = 0;
-    if (!places.empty()) {
-      const size_t parent = places[ray.parent];
+    size_t index = 0;
+    if (!indices.empty()) {
+      const size_t parent = indices[ray.parent];
       const auto found = child_for(rays_, parent, ray, occurrences);
-      place = found.value_or(rays_.size());
+      index = found.value_or(rays_.size());
       if (!found) {
-        const size_t after = ray.place == 0 ? 0 : line_places[ray.parent][ray.place - 1] + 1;
+        const size_t after = ray.index == 0 ? 0 : line_indices[ray.parent][ray.index - 1] + 1;
         rays_.push_back({ray.kind, ray.number, parent, after, std::vector<bool>(executors_, false)});
-        rays_[parent].children.push_back(place);
+        rays_[parent].children.push_back(index);
       }
     }
-    rays_[place].traced[executor] = true;
-    places.push_back(place);
+    rays_[index].traced[executor] = true;
+    indices.push_back(index);
 
-    std::vector<Line>& lines = rays_[place].lines;
+    std::vector<Line>& lines = rays_[index].lines;
     Occurrences<std::string_view> names;
-    line_places.emplace_back();
+    line_indices.emplace_back();
     for (const ProbedValue& value : ray.values) {
       const size_t k =
           names.next(value.name, lines, [&](const Line& line) { return line.name == value.name; });
       if (k == lines.size())
         lines.push_back({value.name, std::vector<std::optional<ProbedValue>>(executors_)});
       lines[k].values[executor] = value;
-      line_places.back().push_back(k);
+      line_indices.back().push_back(k);
     }
   }
 }
 
 void Overlay::add_around(const RayTree& tree) {
-  std::vector<std::optional<size_t>> places;
+  std::vector<std::optional<size_t>> indices;
   std::vector<bool> seen(rays_.size(), false);
   Occurrences<SiblingKey> occurrences;
   for (const ProbedRay& ray : tree.rays) {
-    const auto place = places.empty()        ? std::optional<size_t>(0)
-                       : !places[ray.parent] ? std::nullopt
-                                             : child_for(rays_, *places[ray.parent], ray, occurrences);
-    places.push_back(place);
-    if (!place) continue;
-    seen[*place] = true;
-    std::vector<Line>& lines = rays_[*place].lines;
+    const auto index = indices.empty()        ? std::optional<size_t>(0)
+                       : !indices[ray.parent] ? std::nullopt
+                                              : child_for(rays_, *indices[ray.parent], ray, occurrences);
+    indices.push_back(index);
+    if (!index) continue;
+    seen[*index] = true;
+    std::vector<Line>& lines = rays_[*index].lines;
     Occurrences<std::string_view> names;
     for (const ProbedValue& value : ray.values) {
       const size_t k =
@@ -121,9 +121,9 @@ void Overlay::add_around(const RayTree& tree) {
     (seen[i] ? rays_[i].traced_around : rays_[i].missed_around) = true;
 }
 
-std::vector<size_t> Overlay::children_by_place(size_t ray) const {
+std::vector<size_t> Overlay::children_in_order(size_t ray) const {
   std::vector<size_t> all = rays_[ray].children;
-  std::ranges::stable_sort(all, {}, [&](size_t k) { return rays_[k].place; });
+  std::ranges::stable_sort(all, {}, [&](size_t k) { return rays_[k].index; });
   return all;
 }
 

@@ -38,7 +38,7 @@ struct Ray {
   RayKind kind;
   uint32_t number;           // see ProbedRay
   size_t parent;             // its index in Overlay::rays
-  size_t place;              // how many of the parent's lines come before it
+  size_t index;              // how many of the parent's lines come before it
   std::vector<bool> traced;  // by each executor
   std::vector<size_t> children = {};
   std::vector<Line> lines = {};
@@ -66,10 +66,10 @@ class Overlay {
   template <typename OnRay, typename OnLine>
   void in_order(const OnRay& ray, const OnLine& line, size_t from = 0) const {
     ray(from);
-    const std::vector<size_t> below = children_by_place(from);
+    const std::vector<size_t> below = children_in_order(from);
     size_t next = 0;
     for (size_t k = 0; k <= rays_[from].lines.size(); ++k) {
-      for (; next < below.size() && rays_[below[next]].place <= k; ++next) in_order(ray, line, below[next]);
+      for (; next < below.size() && rays_[below[next]].index <= k; ++next) in_order(ray, line, below[next]);
       if (k < rays_[from].lines.size()) line(from, k);
     }
     for (; next < below.size(); ++next) in_order(ray, line, below[next]);
@@ -78,7 +78,7 @@ class Overlay {
   int depth(size_t ray) const;
 
  private:
-  std::vector<size_t> children_by_place(size_t ray) const;
+  std::vector<size_t> children_in_order(size_t ray) const;
 
   size_t executors_;
   std::vector<Ray> rays_;

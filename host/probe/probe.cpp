@@ -149,18 +149,18 @@ class Pixel {
       const FirstHit hit = renderer_->first_hit(options_.x, options_.y, shift, way);
       overlay.add_around(finished(std::move(recorder.tree()), sample, hit, Backend::reference));
     };
-    const auto add_place = [&](const Vec2& shift, uint32_t seed) {
+    const auto add_position = [&](const Vec2& shift, uint32_t seed) {
       const bool moved = shift != Vec2(0.0);
       for (const rounding::Displacement& way : rounding::ways_of_probe(moved, seed)) add(shift, way);
     };
-    add_place({0, 0}, 0);
+    add_position({0, 0}, 0);
     const double t = renderer_->first_hit(options_.x, options_.y).t;
     const double rounding = renderer_->rounding(options_.x, options_.y, t);
     uint32_t seed = 0;
-    const rounding::Places places = rounding::places_around(rounding, hits, angles, true);
-    for (const Vec2& place : places.all) add_place(place, ++seed);
-    for (size_t i = 0; i < places.innermost; ++i)
-      add(places.all[i], {.pivot = renderer_->pivot(options_.x, options_.y, uint32_t(i))});
+    const rounding::Positions positions = rounding::positions_around(rounding, hits, angles, true);
+    for (const Vec2& position : positions.all) add_position(position, ++seed);
+    for (size_t i = 0; i < positions.innermost; ++i)
+      add(positions.all[i], {.pivot = renderer_->pivot(options_.x, options_.y, uint32_t(i))});
   }
 
   void note_changed_shaders(Findings& findings) const {
@@ -210,10 +210,10 @@ std::string describe(const Ray& ray) {
   return "ray";
 }
 
-std::optional<Findings::Place> Findings::first_difference() const {
-  std::optional<Place> first;
+std::optional<Findings::Location> Findings::first_difference() const {
+  std::optional<Location> first;
   const auto look = [&](Verdict verdict, size_t ray, std::optional<size_t> line) {
-    if (!first && verdict == Verdict::differs) first = Place{ray, line};
+    if (!first && verdict == Verdict::differs) first = Location{ray, line};
   };
   overlay.in_order([&](size_t i) { look(overlay.rays()[i].verdict, i, std::nullopt); },
                    [&](size_t i, size_t k) { look(overlay.rays()[i].lines[k].verdict, i, k); });

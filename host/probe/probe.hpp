@@ -41,11 +41,11 @@ struct Findings {
 
   // The first difference in the order of a ray's life: a ray that some executors lack, or a line of a ray.
   // Nothing if there is no difference.
-  struct Place {
+  struct Location {
     size_t ray;
     std::optional<size_t> line;
   };
-  std::optional<Place> first_difference() const;
+  std::optional<Location> first_difference() const;
   // The rays that lead to a ray, and itself: `camera ray / refracted ray / shadow ray to light 0`.
   std::string way_to(size_t ray) const;
 };

@@ -123,7 +123,7 @@ class Table {
     std::vector<std::string> cells;
     const Vec3 origin = meaning == Meaning::point ? findings_.eye : Vec3(0.0);
     std::string before;  // the cell of the executor before it
-    std::string place;
+    std::string location;
     for (size_t e = 0; e < line.values.size(); ++e) {
       const std::optional<ProbedValue>& value = line.values[e];
       const std::string cell = value ? numbers(*value, origin) : "-";
@@ -131,16 +131,16 @@ class Table {
       cells.push_back(exact && value && e > 0 && line.values[0] && value->numbers == line.values[0]->numbers
                           ? "="
                           : cell);
-      if (place.empty() && value && !value->file.empty())
-        place = fmt::format(" ({}:{})", value->file, value->line);
+      if (location.empty() && value && !value->file.empty())
+        location = fmt::format(" ({}:{})", value->file, value->line);
     }
     std::string remark = remark_of(line.verdict, line.difference, is_first(i, k));
-    if (!remark.empty()) remark += place;
+    if (!remark.empty()) remark += location;
     add_row({indent(i, 1) + line.name, cells, line.verdict, remark, is_first(i, k)});
   }
 
   const Findings& findings_;
-  std::optional<Findings::Place> first_;
+  std::optional<Findings::Location> first_;
   std::vector<Row> rows_;
 };
 
