@@ -30,23 +30,23 @@ std::optional<int> as_number(std::string_view text) {
 }
 
 // A placeholder for a number in a name: %d or %0Nd.
-struct Place {
+struct Placeholder {
   size_t begin;
   size_t end;
   int digits;
 };
 
-std::optional<Place> place_of_number(std::string_view pattern) {
+std::optional<Placeholder> number_placeholder(std::string_view pattern) {
   const size_t begin = pattern.find('%');
   if (begin == std::string_view::npos || pattern.find('%', begin + 1) != std::string_view::npos)
     return std::nullopt;
   const size_t end = pattern.find('d', begin);
   if (end == std::string_view::npos) return std::nullopt;
   const std::string_view inner = pattern.substr(begin + 1, end - begin - 1);
-  if (inner.empty()) return Place{begin, end + 1, 1};
+  if (inner.empty()) return Placeholder{begin, end + 1, 1};
   const auto digits = as_number(inner);
   if (inner[0] != '0' || !digits || *digits < 1 || *digits > 9) return std::nullopt;
-  return Place{begin, end + 1, *digits};
+  return Placeholder{begin, end + 1, *digits};
 }
 
 }  // namespace
@@ -71,14 +71,15 @@ std::vector<int> parse_frames(const std::string& text) {
 }
 
 std::string frame_name(const std::string& pattern, int frame) {
-  const auto place = place_of_number(pattern);
-  if (!place)
+  const auto placeholder = number_placeholder(pattern);
+  if (!placeholder)
     throw Error(ExitCode::bad_input,
                 "{}: with --frames, the name must contain the frame's number exactly once, as %d, or as %04d "
                 "for four digits",
                 pattern);
-  const std::string number = fmt::format("{}{:0{}}", frame < 0 ? "-" : "", std::abs(frame), place->digits);
-  return pattern.substr(0, place->begin) + number + pattern.substr(place->end);
+  const std::string number =
+      fmt::format("{}{:0{}}", frame < 0 ? "-" : "", std::abs(frame), placeholder->digits);
+  return pattern.substr(0, placeholder->begin) + number + pattern.substr(placeholder->end);
 }
 
 void check_video_name(const std::string& output) {

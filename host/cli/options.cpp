@@ -55,14 +55,14 @@ std::string description_of(const ValueOption& option) {
 void warn_of_misplaced_shaders(const std::filesystem::path& folder) {
   std::error_code error;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, error)) {
-    const std::filesystem::path place = entry.path().lexically_relative(folder);
+    const std::filesystem::path path = entry.path().lexically_relative(folder);
     const EmbeddedFile* namesake = nullptr;
     for (const EmbeddedFile& shader : embedded_shaders()) {
-      if (shader.name == place.generic_string()) {
+      if (shader.name == path.generic_string()) {
         namesake = nullptr;
         break;
       }
-      if (std::filesystem::path(shader.name).filename() == place.filename()) namesake = &shader;
+      if (std::filesystem::path(shader.name).filename() == path.filename()) namesake = &shader;
     }
     if (namesake)
       print_lines(stderr, "eyeray: warning: {} replaces no shader; did you mean {}?\n", entry.path().string(),

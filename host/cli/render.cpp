@@ -33,7 +33,7 @@ struct RenderCommand {
 
  private:
   session::Result render(PictureOptions& wanted);
-  ExitCode run_picture(PictureOptions wanted, Json& said);
+  ExitCode run_picture(PictureOptions wanted, Json& report);
   ExitCode run_frames();
 
   session::Session session_;
@@ -139,8 +139,8 @@ session::Result RenderCommand::render(PictureOptions& wanted) {
   return result;
 }
 
-// Renders one picture. Sets `said` to the report on it, as JSON.
-ExitCode RenderCommand::run_picture(PictureOptions wanted, Json& said) {
+// Renders one picture. Sets `report` to its JSON report.
+ExitCode RenderCommand::run_picture(PictureOptions wanted, Json& report) {
   wanted.check_outputs();
   session::Request& request = wanted.request;
   request.ray_kinds = stats;
@@ -156,7 +156,7 @@ ExitCode RenderCommand::run_picture(PictureOptions wanted, Json& said) {
   if (!quiet) print_lines(stderr, "{}\n", summary(picture));
   if (stats) print_stages(picture);
   if (picture.ray_kinds) print_rays(*picture.ray_kinds, picture.totals.seconds);
-  said = json_of(picture);
+  report = json_of(picture);
   if (!picture.interrupted()) return ExitCode::ok;
   print_lines(stderr, "eyeray: {}\n", what_was_kept(picture, !request.channels.empty()));
   return ExitCode::interrupted;
@@ -195,7 +195,7 @@ ExitCode RenderCommand::run_frames() {
 
   session_.options() = executors::for_frames(options.executor, scene.image.all_samples());
 
-  Json said{{"frames", Json::array()}};
+  Json report{{"frames", Json::array()}};
   std::vector<std::filesystem::path> pictures;
   int kept = 0;
   for (const int frame : wanted) {
@@ -213,17 +213,17 @@ ExitCode RenderCommand::run_frames() {
     Json of_frame;
     const ExitCode code = run_picture(std::move(one), of_frame);
     of_frame["frame"] = frame;
-    said["frames"].push_back(std::move(of_frame));
+    report["frames"].push_back(std::move(of_frame));
     if (code == ExitCode::ok) continue;
-    if (json) print_json(said);
+    if (json) print_json(report);
     return code;
   }
   if (kept > 0 && !quiet)
     print_lines(stderr, "{} of {} frames existed and are kept; --overwrite renders them again\n", kept,
                 wanted.size());
   if (!video.empty()) make_video(pictures, animation.frames_per_second, video);
-  said["kept"] = kept;
-  if (json) print_json(said);
+  report["kept"] = kept;
+  if (json) print_json(report);
   return ExitCode::ok;
 }
 
@@ -232,9 +232,9 @@ ExitCode RenderCommand::run() {
   if (!frames.empty()) return run_frames();
   if (!video.empty() || overwrite)
     throw Error(ExitCode::bad_input, "--{} needs --frames", video.empty() ? "overwrite" : "video");
-  Json said;
-  const ExitCode code = run_picture(options, said);
-  if (json) print_json(said);
+  Json report;
+  const ExitCode code = run_picture(options, report);
+  if (json) print_json(report);
   return code;
 }
 

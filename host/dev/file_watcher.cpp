@@ -39,9 +39,9 @@ void FileWatcher::watch(const WatchList& list) {
   // Watch each file by its given name, and by the name that its links lead to.
   for (const fs::path& file : list.files) {
     std::error_code ignored;
-    const fs::path place = fs::absolute(file).lexically_normal();
-    add_folder(place.parent_path(), place.filename(), false);
-    const fs::path real = fs::weakly_canonical(place, ignored);
+    const fs::path path = fs::absolute(file).lexically_normal();
+    add_folder(path.parent_path(), path.filename(), false);
+    const fs::path real = fs::weakly_canonical(path, ignored);
     if (!ignored) add_folder(real.parent_path(), real.filename(), false);
   }
   for (const fs::path& folder : list.folders) add_tree(fs::absolute(folder).lexically_normal());

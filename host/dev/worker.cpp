@@ -53,9 +53,9 @@ std::string Worker::kill() {
   // An idle worker ends once its socket is closed, any other at SIGTERM. SIGKILL should not be needed.
   ::shutdown(socket_.descriptor(), SHUT_RDWR);
   const Stopwatch watch;
-  bool asked = false;
+  bool requested = false;
   while (!has_ended() && watch.seconds() < longest_farewell) {
-    if (!asked && watch.seconds() > 0.05) asked = ::kill(pid_, SIGTERM) == 0;
+    if (!requested && watch.seconds() > 0.05) requested = ::kill(pid_, SIGTERM) == 0;
     ::usleep(1000);
   }
   ::kill(pid_, SIGKILL);

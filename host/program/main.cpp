@@ -33,8 +33,8 @@ struct Reporter {
 
   // Reports once why the program ends, since the cause and its consequence may both call this.
   void operator()(const Error& error) const {
-    static std::atomic_flag said;
-    if (said.test_and_set()) return;
+    static std::atomic_flag reported;
+    if (reported.test_and_set()) return;
     if (json) print_json({{"error", to_json(error)}});
     if (const auto* input = dynamic_cast<const InputError*>(&error)) {
       const size_t count = input->diagnostics().size();

@@ -130,9 +130,9 @@ std::optional<int> parse(CLI::App& app, int argc, char** argv) {
   const std::span<char* const> words(argv + 1, size_t(std::max(argc, 1) - 1));
   try {
     app.parse(argc, argv);
-  } catch (const CLI::Success& asked) {  // --help, --version
+  } catch (const CLI::Success& success) {  // --help, --version
     std::ostringstream text;
-    const int code = app.exit(asked, text, text);
+    const int code = app.exit(success, text, text);
     fmt::print("{}", text.str());
     return code;
   } catch (const CLI::ParseError& error) {

@@ -15,15 +15,15 @@ function item_of(diagnostic) {
   return item;
 }
 
-export function show_failure(place, failure) {
-  place.hidden = !failure;
+export function show_failure(element, failure) {
+  element.hidden = !failure;
   if (!failure) return;
   const diagnostics = failure.diagnostics ?? [];
-  place.replaceChildren(...(diagnostics.length > 0 ? diagnostics.map(item_of) : [make('p', failure.message)]));
+  element.replaceChildren(...(diagnostics.length > 0 ? diagnostics.map(item_of) : [make('p', failure.message)]));
 }
 
 // `doubts`: sentences that warn of a picture that may be wrong.
-export function show_warnings(panel, place, warnings, doubts) {
+export function show_warnings(panel, element, warnings, doubts) {
   panel.hidden = warnings.length === 0 && doubts.length === 0;
-  place.replaceChildren(...warnings.map(item_of), ...doubts.map(doubt => make('p', doubt)));
+  element.replaceChildren(...warnings.map(item_of), ...doubts.map(doubt => make('p', doubt)));
 }

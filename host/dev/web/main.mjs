@@ -54,12 +54,12 @@ async function refresh() {
   if (shown_picture === wanted) refresh();
 }
 
-let asked = 0;
+let requested = 0;
 async function show_values(at) {
-  const turn = ++asked;
+  const turn = ++requested;
   if (!at || !version_of(status.view)) { $('pixel').textContent = ''; return; }
   const answer = await fetch(`values?view=${encodeURIComponent(status.view)}&x=${at[0]}&y=${at[1]}`).catch(() => null);
-  if (turn !== asked || !answer?.ok) return;
+  if (turn !== requested || !answer?.ok) return;
   const [values] = await answer.json();
   $('pixel').textContent = `${at[0]},${at[1]}  ${values.map(v => typeof v === 'number' ? v.toPrecision(7) : v).join('  ')}`;
 }

@@ -27,16 +27,16 @@ function line(value, executors) {
   return row;
 }
 
-export function show_probe(place, answer) {
+export function show_probe(element, answer) {
   if (answer.message) {
-    place.textContent = answer.message;
+    element.textContent = answer.message;
     return;
   }
   const { rays, executors, notes, first_difference, sample, samples } = answer.findings, names = Object.keys(executors);
   const depths = [];
   const title = `pixel ${answer.x},${answer.y}` + (samples > 1 ? `, sample ${sample} of ${samples}` : '') +
     (first_difference ? '' : `: ${names.join(', ')} agree`);
-  place.replaceChildren(make('p', title), ...notes.map(note => make('p', note)));
+  element.replaceChildren(make('p', title), ...notes.map(note => make('p', note)));
   rays.forEach((ray, i) => {
     depths[i] = ray.parent === undefined ? 0 : depths[ray.parent] + 1;
     const item = make('details', undefined, ray.verdict ?? '');
@@ -45,7 +45,7 @@ export function show_probe(place, answer) {
     const shown = ray.ray === 'pixel' ? 'the pixel' : ray.light === undefined ? `${ray.ray} ray` : `shadow ray to light ${ray.light}`;
     item.append(make('summary', shown + (ray.hits ? ` → ${ray.hits}` : '')), ...ray.values.map(value => line(value, names)));
     if (ray.values.some(value => value.verdict === 'differs')) item.open = true;
-    place.append(item);
+    element.append(item);
   });
-  place.scrollTop = 0;
+  element.scrollTop = 0;
 }

@@ -11,7 +11,7 @@ const controls = {
   vec3: each => make('input', { type: 'color', value: hex(each.value) }),
 };
 const value_of = (type, input) => type === 'bool' ? [Number(input.checked)] : type === 'vec3' ? rgb(input.value) : [Number(input.value)];
-const said = (type, value) => type === 'bool' ? String(value[0] !== 0) : type === 'vec3' ? hex(value) : String(Number(value[0].toPrecision(4)));
+const text_of = (type, value) => type === 'bool' ? String(value[0] !== 0) : type === 'vec3' ? hex(value) : String(Number(value[0].toPrecision(4)));
 
 const in_toml = (type, value) => type === 'bool' ? String(value[0] !== 0) : type === 'vec3' ? `[${value.join(', ')}]` : String(value[0]);
 const from_toml = text => [JSON.parse(text)].flat().map(Number);
@@ -25,7 +25,7 @@ let rows = [];  // the rows on the page: { each, node, input, output, touched }
 function show_value(row) {
   if (performance.now() - row.touched < still_mine) return;
   set_input(row.each.type, row.input, row.each.now);
-  row.output.textContent = said(row.each.type, row.each.now);
+  row.output.textContent = text_of(row.each.type, row.each.now);
 }
 
 function row_of(each) {
@@ -35,7 +35,7 @@ function row_of(each) {
   input.id = `tunable ${each.id}`;
   input.oninput = () => {
     const value = value_of(each.type, input);
-    output.textContent = said(each.type, value);
+    output.textContent = text_of(each.type, value);
     row.touched = performance.now();
     setTimeout(show_value, 1.1 * still_mine, row);
     row.each.set(value);
@@ -48,7 +48,7 @@ function row_of(each) {
 
 // `tunables`, `scene_tunables`: the tunables of shaders and scene that the server knows; `chosen`, `defines`: the values of these that pages have
 // chosen. Calls `choose(command)` while a control is moved.
-export function show_tunables(panel, place, { tunables = [], chosen = {}, scene_tunables = [], defines = {} }, choose) {
+export function show_tunables(panel, element, { tunables = [], chosen = {}, scene_tunables = [], defines = {} }, choose) {
   const all = [
     ...(tunables ?? []).map(each => ({ ...each, now: chosen[each.id] ?? each.written, set: value => choose({ tunables: { [each.id]: value } }) })),
     ...(scene_tunables ?? []).map(each => ({ ...each, now: each.id in defines ? from_toml(defines[each.id]) : each.written,
@@ -62,7 +62,7 @@ export function show_tunables(panel, place, { tunables = [], chosen = {}, scene_
     rows = all.map(row_of);
     const owners = new Map();
     for (const row of rows) owners.set(row.each.owner, [...(owners.get(row.each.owner) ?? []), row.node]);
-    place.replaceChildren(...[...owners].map(([owner, nodes]) => {
+    element.replaceChildren(...[...owners].map(([owner, nodes]) => {
       const group = make('fieldset', {});
       group.append(...(owner ? [make('legend', { textContent: owner })] : []), ...nodes);
       return group;
