@@ -56,16 +56,17 @@ eyeray::Table table_within(const py::dict& dict, const std::string& where, int d
 py::array array_named(const py::dict& table, const char* name, const std::string& where, int columns,
                       const char* kinds, const char* wanted) {
   const py::object value = table[name];
-  const std::string place = where + "." + name;
+  const std::string full_name = where + "." + name;
   if (!py::isinstance<py::array>(value) && !py::isinstance<py::list>(value) &&
       !py::isinstance<py::tuple>(value))
-    throw py::type_error(place + " must be an array, not " + type_name(value));
+    throw py::type_error(full_name + " must be an array, not " + type_name(value));
   const py::array array = py::array::ensure(value);
   if (!array) throw py::error_already_set();
   if (std::string(kinds).find(array.dtype().kind()) == std::string::npos)
-    throw py::type_error(place + " must be of " + wanted + ", not of " + std::string(py::str(array.dtype())));
+    throw py::type_error(full_name + " must be of " + wanted + ", not of " +
+                         std::string(py::str(array.dtype())));
   if (array.ndim() != 2 || array.shape(1) != columns)
-    throw py::value_error(place + " has the shape " + shape_of(array) + ", not (n, " +
+    throw py::value_error(full_name + " has the shape " + shape_of(array) + ", not (n, " +
                           std::to_string(columns) + ")");
   return array;
 }

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr const char* shader = "shapes/sphere.glsl";
-constexpr const char* place = "float low = t0 < t1 ? t0 : t1;";
+constexpr const char* insertion_point = "float low = t0 < t1 ? t0 : t1;";
 constexpr double patience = 60;  // seconds, for one edit
 
 std::string scene_text(double radius) {
@@ -84,9 +84,10 @@ std::string text_of(std::string_view name) {
 // The shader with arithmetic that differs for each `edit`, so that no cache contains it.
 std::string edited_shader(int edit) {
   std::string text = text_of(shader);
-  const size_t at = text.find(place);
+  const size_t at = text.find(insertion_point);
   CHECK(at != std::string::npos);
-  return text.insert(at + std::string_view(place).size(), fmt::format("\n  low *= 1.0f + {}e-7f;", edit));
+  return text.insert(at + std::string_view(insertion_point).size(),
+                     fmt::format("\n  low *= 1.0f + {}e-7f;", edit));
 }
 
 // A column on a floor. Its formula has different operations for each `edit`, so no kernel exists for it.

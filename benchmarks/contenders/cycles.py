@@ -163,10 +163,10 @@ def surroundings(color, turn=None):
     picture = tree.nodes.new("ShaderNodeTexEnvironment")
     picture.image = bpy.data.images.load(os.path.join(os.path.dirname(os.path.abspath(__file__)), "environment.exr"))
     picture.image.colorspace_settings.name = "Linear"
-    place = tree.nodes.new("ShaderNodeTexCoord")
+    coordinates = tree.nodes.new("ShaderNodeTexCoord")
     turned = tree.nodes.new("ShaderNodeMapping")
     turned.inputs["Rotation"].default_value = (0, 0, -2 * math.pi * turn)
-    tree.links.new(place.outputs["Generated"], turned.inputs["Vector"])
+    tree.links.new(coordinates.outputs["Generated"], turned.inputs["Vector"])
     tree.links.new(turned.outputs["Vector"], picture.inputs["Vector"])
     tree.links.new(picture.outputs["Color"], background.inputs["Color"])
 

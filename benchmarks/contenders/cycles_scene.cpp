@@ -175,15 +175,15 @@ print("eyeray: cpu", time.process_time() - processor, "wall", time.time() - wall
 
   void camera() {
     const CameraAxes axes = camera_axes(scene_.camera);
-    const std::string place = tuple(columns(axes.u, axes.v, -axes.w, axes.eye));
+    const std::string matrix = tuple(columns(axes.u, axes.v, -axes.w, axes.eye));
     const CameraFrame frame = camera_frame(scene_.camera, size_);
     const CameraForm form = scene_.camera.projection->form();
     const auto* perspective = std::get_if<PerspectiveCamera>(&form);
     if (perspective && perspective->aperture.radius == 0) {
       const double angle = 2 * std::atan(glm::length(frame.right) / glm::length(frame.forward));
-      append(text_, "camera(\"PERSP\", {}, {})\n", angle, place);
+      append(text_, "camera(\"PERSP\", {}, {})\n", angle, matrix);
     } else if (std::holds_alternative<OrthographicCamera>(form)) {
-      append(text_, "camera(\"ORTHO\", {}, {})\n", 2 * glm::length(frame.right), place);
+      append(text_, "camera(\"ORTHO\", {}, {})\n", 2 * glm::length(frame.right), matrix);
     } else {
       throw Error(ExitCode::bad_input, "the scene has a camera that is not written for Blender");
     }
