@@ -22,7 +22,7 @@ double share_of(const render::Progress& progress) {
 }
 
 // " band 3 of 32, sample 2 of 4"; a number whose total is one is left out.
-std::string position(const render::Progress& progress) {
+std::string position_text(const render::Progress& progress) {
   std::vector<std::string> parts;
   if (progress.bands > 1) parts.push_back(fmt::format("band {} of {}", progress.band + 1, progress.bands));
   if (progress.samples > 1)
@@ -34,13 +34,13 @@ std::string position(const render::Progress& progress) {
 // report: the driver may compile kernels until then.
 std::vector<std::string> describe(const render::Progress& progress, const render::Progress& first) {
   const std::string share = fmt::format("{:3.0f} %", share_of(progress) * 100);
-  if (progress.samples_done == first.samples_done) return {share + position(progress), share};
+  if (progress.samples_done == first.samples_done) return {share + position_text(progress), share};
   const double seconds = progress.seconds - first.seconds;
   const double left = seconds * double(progress.samples_total - progress.samples_done) /
                       double(progress.samples_done - first.samples_done);
   const std::string rate = "  " + format_rate(double(progress.rays - first.rays) / seconds);
   const std::string time = fmt::format("  {} left", format_seconds(left));
-  return {share + position(progress) + rate + time, share + rate + time, share + time, share};
+  return {share + position_text(progress) + rate + time, share + rate + time, share + time, share};
 }
 
 }  // namespace

@@ -108,10 +108,10 @@ constexpr Property view[] = {index("buffer", "buffers").must(),
                              one_of("target", "34962 34963"),
                              extension("EXT_meshopt_compression", meshopt),
                              extension("KHR_meshopt_compression", meshopt)};
-constexpr Property sparse_indices[] = {index("bufferView", "bufferViews").must(), count("byteOffset"),
-                                       one_of("componentType", "5121 5123 5125").must()};
+constexpr Property sparse_index[] = {index("bufferView", "bufferViews").must(), count("byteOffset"),
+                                     one_of("componentType", "5121 5123 5125").must()};
 constexpr Property values[] = {index("bufferView", "bufferViews").must(), count("byteOffset")};
-constexpr Property sparse[] = {count("count", 1).must(), object("indices", sparse_indices).must(),
+constexpr Property sparse[] = {count("count", 1).must(), object("indices", sparse_index).must(),
                                object("values", values).must()};
 constexpr Property accessor[] = {index("bufferView", "bufferViews"),
                                  count("byteOffset"),
