@@ -85,9 +85,9 @@ def after(b, a):
     return [w * i + x * l + y * k - z * j, w * j - x * k + y * l + z * i, w * k + x * j - y * i + z * l, w * l - x * i - y * j - z * k]
 
 
-def grid(rows, columns, place, closed=False):
-    """Points place(i, k), and the triangles between them."""
-    points = [place(i, k) for i in range(rows) for k in range(columns)]
+def grid(rows, columns, point, closed=False):
+    """Points point(i, k), and the triangles between them."""
+    points = [point(i, k) for i in range(rows) for k in range(columns)]
     triangles = []
     for i in range(rows - 1):
         for k in range(columns if closed else columns - 1):
@@ -98,17 +98,17 @@ def grid(rows, columns, place, closed=False):
 
 def tube(radius, rows, columns, height):
     """About y; radius(h) for h from 0 to 1."""
-    def place(i, k):
+    def point(i, k):
         phi, h = 2 * math.pi * k / columns, i / (rows - 1)
         return (radius(h) * math.cos(phi), height * h, -radius(h) * math.sin(phi))
-    return grid(rows, columns, place, closed=True)
+    return grid(rows, columns, point, closed=True)
 
 
 def ball(radius, squeeze=1.0):
-    def place(i, k):
+    def point(i, k):
         theta, phi = math.pi * (0.02 + 0.96 * i / 8), 2 * math.pi * k / 12
         return (radius * math.sin(theta) * math.cos(phi), squeeze * radius * -math.cos(theta), -radius * math.sin(theta) * math.sin(phi))
-    return grid(9, 12, place, closed=True)
+    return grid(9, 12, point, closed=True)
 
 
 def petals(bend):
@@ -122,32 +122,32 @@ def petals(bend):
             rise.append(rise[-1] + 0.14 * math.cos(lean))
             out.append(out[-1] + 0.14 * math.sin(lean))
 
-        def place(i, k):
+        def point(i, k):
             width = 0.25 * math.sin(math.pi * (0.12 + 0.84 * i / 6)) * (k / 4 - 0.5) * 2
             across = out[i] - 0.25 * width * width / 0.25
             return (across * math.cos(phi) + width * math.sin(phi), rise[i], -across * math.sin(phi) + width * math.cos(phi))
-        part, corners = grid(7, 5, place)
+        part, corners = grid(7, 5, point)
         triangles += [tuple(c + len(points) for c in corner) for corner in corners]
         points += part
     return points, triangles
 
 
 def leaf():
-    def place(i, k):
+    def point(i, k):
         t = i / 6
         side = 0.17 * math.sin(math.pi * (0.06 + 0.9 * t)) * (k / 2 - 1)
         return (0.75 * t, 0.34 * t - 0.5 * t * t + 0.6 * abs(side), side)
-    return grid(7, 5, place)
+    return grid(7, 5, point)
 
 
 def wing():
     """Along x, of two lobes."""
-    def place(i, k):
+    def point(i, k):
         t, s = i / 8, k / 3
         front = 0.34 * math.sin(math.pi * min(1, 0.1 + 0.9 * t)) + 0.16 * t
         back = -0.30 * math.sin(math.pi * min(1, 0.12 + 0.95 * t))
         return (0.5 * t, 0.03 * math.sin(math.pi * t), back + (front - back) * s)
-    return grid(9, 4, place)
+    return grid(9, 4, point)
 
 
 def stem(file, green):
@@ -156,9 +156,9 @@ def stem(file, green):
     positions, triangles = tube(lambda h: 0.075 - 0.03 * h, 17, 9, height)
     joints, weights = [], []
     for _, y, _ in positions:
-        place = min(y / SPAN, JOINTS - 1.001)
-        below = int(place)
-        share = place - below
+        position = min(y / SPAN, JOINTS - 1.001)
+        below = int(position)
+        share = position - below
         joints.append((below, below + 1, 0, 0))
         weights.append((1 - share, share, 0, 0))
     chain = [file.add("nodes", {"name": f"stem {i}"} | ({"translation": [0, SPAN, 0]} if i else {})) for i in range(JOINTS)]

@@ -65,10 +65,10 @@ TEST_CASE("primary rays go block by block through the pixels' centres") {
     const Vec3 d = batch.rays[i].d / -batch.rays[i].d.z / std::tan(glm::radians(20.0));
     return Vec2((d.x + 1) * 10 - 0.5, (12.0 / 20 - d.y) * 10 - 0.5);
   };
-  const std::pair<size_t, Vec2> places[] = {{0, {0, 0}},   {7, {7, 0}},    {8, {0, 1}},    {63, {7, 7}},
-                                            {64, {8, 0}},  {128, {16, 0}}, {131, {19, 0}}, {132, {16, 1}},
-                                            {160, {0, 8}}, {239, {19, 11}}};
-  for (const auto& [i, expected] : places) {
+  const std::pair<size_t, Vec2> expected_pixels[] = {
+      {0, {0, 0}},    {7, {7, 0}},    {8, {0, 1}},    {63, {7, 7}},  {64, {8, 0}},
+      {128, {16, 0}}, {131, {19, 0}}, {132, {16, 1}}, {160, {0, 8}}, {239, {19, 11}}};
+  for (const auto& [i, expected] : expected_pixels) {
     CHECK(glm::distance(pixel(i), expected) < 1e-9);
   }
 }

@@ -56,16 +56,16 @@ TEST_CASE("medians, least and greatest") {
 TEST_CASE("a run builds, races all batches, and lists every contender") {
   const Scene scene = find_standard_scene("terrain-51k")->make();
   CHECK(scene.primitive_count() == 51'200);
-  int asked = 0;
+  int calls = 0;
   const Contender ours{"ours", ContenderKind::ours, [&](const Batch& batch, std::span<QueryHit> hits) {
-                         ++asked;
+                         ++calls;
                          CHECK(batch.rays.size() == hits.size());
                          for (QueryHit& hit : hits) hit = {HUGE_VAL, -1};
                          return 1.0;
                        }};
   const SceneReport report =
       run_field("t", "terrain", scene, {.width = 40, .height = 30, .runs = 2}, std::span(&ours, 1));
-  CHECK(asked == 9);
+  CHECK(calls == 9);
   CHECK(report.primitives == 51'200);
   REQUIRE(report.builds.size() == 1);
   CHECK(report.builds[0].bytes > 51'200 * 20);

@@ -219,10 +219,10 @@ TEST_CASE("frames and shards are measured as processes") {
                                             "image.width=64", "-D", "image.height=48", "--json"});
     CAPTURE(result.err);
     REQUIRE(result.code == 0);
-    const auto said = nlohmann::json::parse(result.out);
-    CHECK(said.at(what + 2) == 3);
-    for (const char* way : ways) CHECK(said.at(way).at("processor") > 0);
-    CHECK(said.at("ratio").at("wall") > 0);
+    const auto output = nlohmann::json::parse(result.out);
+    CHECK(output.at(what + 2) == 3);
+    for (const char* way : ways) CHECK(output.at(way).at("processor") > 0);
+    CHECK(output.at("ratio").at("wall") > 0);
   };
   measure("--frames", {"together", "apart"});
   measure("--shards", {"whole", "parts", "merge"});

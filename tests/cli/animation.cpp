@@ -36,10 +36,10 @@ TEST_CASE("--frames renders each frame as -D animation.frame does, to files of t
   CAPTURE(result.err);
   REQUIRE(result.code == 0);
   CHECK(folder.names() == std::set<std::string>{"scene.toml", "f000.pfm", "f004.pfm", "f008.pfm"});
-  const auto said = nlohmann::json::parse(result.out);
-  REQUIRE(said.at("frames").size() == 3);
-  CHECK(said.at("frames")[1].at("frame") == 4);
-  CHECK(said.at("kept") == 0);
+  const auto output = nlohmann::json::parse(result.out);
+  REQUIRE(output.at("frames").size() == 3);
+  CHECK(output.at("frames")[1].at("frame") == 4);
+  CHECK(output.at("kept") == 0);
 
   CHECK(run_eyeray({"render", folder.scene(), "-D", "animation.frame=4", "-o", folder / "one.pfm", "--quiet"})
             .code == 0);

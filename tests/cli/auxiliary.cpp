@@ -122,11 +122,11 @@ TEST_CASE("samples that stand out are counted; --clamp cuts them, and says that 
 
   const auto clamped = render({"--clamp", "0.5"});
   const nlohmann::json& cut = clamped.first;
-  const std::string& said = clamped.second;
-  CAPTURE(said);
+  const std::string& output = clamped.second;
+  CAPTURE(output);
   CHECK(cut.at("clamp").at("at") == 0.5);
   CHECK(cut.at("clamp").at("samples") > 0);
-  CHECK(said.find("the picture is biased: clamp cut ") != std::string::npos);
+  CHECK(output.find("the picture is biased: clamp cut ") != std::string::npos);
   CHECK(std::ranges::max(read_image(folder / "a.pfm").samples()) <= 0.5f);
 
   CHECK(run_eyeray({"verify", folder.scene(), "--clamp", "1"}).code == 2);

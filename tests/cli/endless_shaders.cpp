@@ -23,7 +23,7 @@ class Shaders : public SceneFolder {
     line_ = 1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(text.find(statements + before)), '\n');
   }
   // The shader and the line of the first statement: "…/sphere.glsl:41:".
-  std::string place() const { return fmt::format("{}:{}:", sphere(), line_); }
+  std::string location() const { return fmt::format("{}:{}:", sphere(), line_); }
   ProcessResult run(std::vector<std::string> words, const std::vector<std::string>& more = {}) const {
     words.insert(words.begin() + 1, scene());
     words.insert(words.end(), {"--shaders", *this / "shaders"});
@@ -54,7 +54,7 @@ TEST_CASE(
       CAPTURE(result.err);
       CHECK(result.code == 5);
       CHECK(result.err.starts_with("eyeray: error: a loop of your shaders did not end within "));
-      CHECK(result.err.ends_with(fmt::format("\n{} {}\n", shaders.place(), loop)));
+      CHECK(result.err.ends_with(fmt::format("\n{} {}\n", shaders.location(), loop)));
       CHECK_FALSE(shaders.names().contains("a.png"));
     }
   }
@@ -75,7 +75,7 @@ TEST_CASE("every command that renders says so") {
     CAPTURE(result.err);
     CHECK(result.code == 5);
     CHECK(result.err.find("a loop of your shaders did not end within ") != std::string::npos);
-    CHECK(result.err.find(shaders.place() + " while (true) {}\n") != std::string::npos);
+    CHECK(result.err.find(shaders.location() + " while (true) {}\n") != std::string::npos);
   }
   CHECK_FALSE(shaders.names().contains("a.png"));
 }
@@ -99,7 +99,7 @@ TEST_CASE("the twin of a user's shaders stops there, too") {
       CHECK(result.code == 5);
       CHECK(result.err.find("a loop of your shaders did not end within 1048576 iterations in one sample of a "
                             "pixel; it is this one, or one inside of it:\n" +
-                            shaders.place() + " " + loop + "\n") != std::string::npos);
+                            shaders.location() + " " + loop + "\n") != std::string::npos);
     }
   }
   CHECK_FALSE(shaders.names().contains("a.png"));
@@ -119,7 +119,7 @@ TEST_CASE("counted loops that end change no bit, and mistakes are shown as they 
     const ProcessResult mistake = shaders.run({"render"}, {"--backend", backend, "-o", shaders / "c.pfm"});
     CAPTURE(mistake.err);
     CHECK(mistake.code == 2);
-    CHECK(mistake.err.find(shaders.place()) != std::string::npos);
+    CHECK(mistake.err.find(shaders.location()) != std::string::npos);
     CHECK(mistake.err.find("  while (nonsense) {}\n") != std::string::npos);
   }
 }

@@ -77,7 +77,7 @@ std::string gltf(const std::string& text) {
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-struct Place {
+struct Case {
   std::string name;
   // Returns the words of a command that shows the text, and makes the files that the command reads.
   std::function<Words(const SceneFolder&, const std::string& text)> words;
@@ -90,136 +90,135 @@ Words operator+(Words words, const Words& more) {
   return words;
 }
 
-#define PLACE(name, ...)                                                                                    \
-  Place {                                                                                                   \
+#define CASE(name, ...)                                                                                     \
+  Case {                                                                                                    \
     name,                                                                                                   \
         [](const SceneFolder& folder, const std::string& text) { return (void)folder, Words(__VA_ARGS__); } \
   }
 
-const Place places[] = {
+const Case cases[] = {
     // Names of files.
-    PLACE("check: its scene", {"check", file_named(folder, text, ".toml", small_scene)}),
-    PLACE("check --json: its scene", {"check", file_named(folder, text, ".toml", small_scene), "--json"}),
-    PLACE("check: a scene that is wrong", {"check", broken_scene_named(folder, text)}),
-    PLACE("check --json: a scene that is wrong", {"check", broken_scene_named(folder, text), "--json"}),
-    PLACE("render: its picture",
-          {"render", folder.scene(), "-s", "8x6", "--backend", "twin", "-o", name_of(folder, text, ".png")}),
-    PLACE("render --json: its picture",
-          Words{"render", folder.scene(), "--json", "-o", name_of(folder, text, ".png")} + small),
-    PLACE("render: a name without an ending", {"render", folder.scene(), "-o", name_of(folder, text, "")}),
-    PLACE("render: a checkpoint that is there",
-          {"render", folder.scene(), "--checkpoint", file_named(folder, text, ".work", "")}),
-    PLACE("render: a checkpoint that is none",
-          {"render", folder.scene(), "--resume", file_named(folder, text, ".work", "")}),
-    PLACE("render: frames",
-          {"render", folder.scene(), "--frames", "0:1", "-o", name_of(folder, text, ".png")}),
-    PLACE("merge: a part that is none",
-          {"merge", file_named(folder, text, ".eyeray", "EYERAY"), "-o", folder / "a.png"}),
-    PLACE("merge --check: parts of a scene",
-          [&] {
-            run_eyeray(Words{"render", file_named(folder, text, ".toml", small_scene), "--shard", "1/1", "-o",
-                             folder / "part.eyeray"} +
-                       small);
-            return Words{"merge", "--check", folder / "part.eyeray"};
-          }()),
-    PLACE("compare: pictures", {"compare", picture_named(folder, text), picture_named(folder, text)}),
-    PLACE("compare: one that is not there",
-          {"compare", picture_named(folder, text), name_of(folder, text, ".png")}),
-    PLACE("probe: its scene", {"probe", file_named(folder, text, ".toml", small_scene), "4,3", "-s", "8x6",
-                               "--backends", "twin,reference"}),
-    PLACE("probe --json: its scene", {"probe", file_named(folder, text, ".toml", small_scene), "4,3", "-s",
-                                      "8x6", "--backends", "twin,reference", "--json"}),
-    PLACE("verify: scenes that are wrong",
-          {"verify", broken_scene_named(folder, text), broken_scene_named(folder, text + "2"), "--junit",
-           folder / "junit.xml", "--json"}),
-    PLACE("verify: a golden picture",
-          {"verify", file_named(folder, text, ".toml", small_scene), "-s", "8x6", "--backends", "twin",
-           "--against", name_of(folder, text, ".pfm"), "--update"}),
-    PLACE(
+    CASE("check: its scene", {"check", file_named(folder, text, ".toml", small_scene)}),
+    CASE("check --json: its scene", {"check", file_named(folder, text, ".toml", small_scene), "--json"}),
+    CASE("check: a scene that is wrong", {"check", broken_scene_named(folder, text)}),
+    CASE("check --json: a scene that is wrong", {"check", broken_scene_named(folder, text), "--json"}),
+    CASE("render: its picture",
+         {"render", folder.scene(), "-s", "8x6", "--backend", "twin", "-o", name_of(folder, text, ".png")}),
+    CASE("render --json: its picture",
+         Words{"render", folder.scene(), "--json", "-o", name_of(folder, text, ".png")} + small),
+    CASE("render: a name without an ending", {"render", folder.scene(), "-o", name_of(folder, text, "")}),
+    CASE("render: a checkpoint that is there",
+         {"render", folder.scene(), "--checkpoint", file_named(folder, text, ".work", "")}),
+    CASE("render: a checkpoint that is none",
+         {"render", folder.scene(), "--resume", file_named(folder, text, ".work", "")}),
+    CASE("render: frames",
+         {"render", folder.scene(), "--frames", "0:1", "-o", name_of(folder, text, ".png")}),
+    CASE("merge: a part that is none",
+         {"merge", file_named(folder, text, ".eyeray", "EYERAY"), "-o", folder / "a.png"}),
+    CASE("merge --check: parts of a scene",
+         [&] {
+           run_eyeray(Words{"render", file_named(folder, text, ".toml", small_scene), "--shard", "1/1", "-o",
+                            folder / "part.eyeray"} +
+                      small);
+           return Words{"merge", "--check", folder / "part.eyeray"};
+         }()),
+    CASE("compare: pictures", {"compare", picture_named(folder, text), picture_named(folder, text)}),
+    CASE("compare: one that is not there",
+         {"compare", picture_named(folder, text), name_of(folder, text, ".png")}),
+    CASE("probe: its scene", {"probe", file_named(folder, text, ".toml", small_scene), "4,3", "-s", "8x6",
+                              "--backends", "twin,reference"}),
+    CASE("probe --json: its scene", {"probe", file_named(folder, text, ".toml", small_scene), "4,3", "-s",
+                                     "8x6", "--backends", "twin,reference", "--json"}),
+    CASE("verify: scenes that are wrong",
+         {"verify", broken_scene_named(folder, text), broken_scene_named(folder, text + "2"), "--junit",
+          folder / "junit.xml", "--json"}),
+    CASE("verify: a golden picture",
+         {"verify", file_named(folder, text, ".toml", small_scene), "-s", "8x6", "--backends", "twin",
+          "--against", name_of(folder, text, ".pfm"), "--update"}),
+    CASE(
         "verify: a difference",
         {"verify", file_named(folder, text, ".toml", small_scene), "-s", "8x6", "--backends", "twin",
          "--against", file_named(folder, text, ".pfm", std::string("PF\n8 6\n-1\n") + std::string(576, '\0')),
          "--junit", folder / "junit.xml", "--keep", folder / "kept"}),
-    PLACE("new: its folder", {"new", name_of(folder, text, "")}),
-    PLACE("new: a folder with other files",
-          [&] {
-            const std::string name = name_of(folder, text, "");
-            run_eyeray({"new", name});
-            return Words{"new", name};
-          }()),
-    PLACE("new --json: its folder", {"new", name_of(folder, text, ""), "--json"}),
-    PLACE("generate: its scene",
-          {"generate", "sphereflake", "--size-factor", "1", "-o", name_of(folder, text, ".toml")}),
-    PLACE("generate: a file of somebody else",
-          {"generate", "sphereflake", "--size-factor", "1", "-o", file_named(folder, text, ".toml", "mine")}),
-    PLACE("shaders: the folder of an export", {"shaders", "--export", name_of(folder, text, "")}),
-    PLACE("slurm: its folder", {"slurm", folder.scene(), "--folder", file_named(folder, text, "/x", "")}),
-    PLACE("manual: its folder", {"manual", file_named(folder, text, "", "")}),
-    PLACE("dev: its scene and picture",
-          Words{"dev", file_named(folder, text, ".toml", small_scene), "--once", "--no-page", "-s", "8x6",
-                "--backend", "twin", "-o", name_of(folder, text, ".png")}),
-    PLACE("dev --json: its scene", Words{"dev", file_named(folder, text, ".toml", small_scene), "--once",
-                                         "--no-page", "-s", "8x6", "--backend", "twin", "--json"}),
-    PLACE("dev: a scene that is wrong",
-          {"dev", broken_scene_named(folder, text), "--once", "--no-page", "--json"}),
-    PLACE("dev --diagnostics json",
-          {"dev", broken_scene_named(folder, text), "--once", "--no-page", "--diagnostics", "json"}),
+    CASE("new: its folder", {"new", name_of(folder, text, "")}),
+    CASE("new: a folder with other files",
+         [&] {
+           const std::string name = name_of(folder, text, "");
+           run_eyeray({"new", name});
+           return Words{"new", name};
+         }()),
+    CASE("new --json: its folder", {"new", name_of(folder, text, ""), "--json"}),
+    CASE("generate: its scene",
+         {"generate", "sphereflake", "--size-factor", "1", "-o", name_of(folder, text, ".toml")}),
+    CASE("generate: a file of somebody else",
+         {"generate", "sphereflake", "--size-factor", "1", "-o", file_named(folder, text, ".toml", "mine")}),
+    CASE("shaders: the folder of an export", {"shaders", "--export", name_of(folder, text, "")}),
+    CASE("slurm: its folder", {"slurm", folder.scene(), "--folder", file_named(folder, text, "/x", "")}),
+    CASE("manual: its folder", {"manual", file_named(folder, text, "", "")}),
+    CASE("dev: its scene and picture",
+         Words{"dev", file_named(folder, text, ".toml", small_scene), "--once", "--no-page", "-s", "8x6",
+               "--backend", "twin", "-o", name_of(folder, text, ".png")}),
+    CASE("dev --json: its scene", Words{"dev", file_named(folder, text, ".toml", small_scene), "--once",
+                                        "--no-page", "-s", "8x6", "--backend", "twin", "--json"}),
+    CASE("dev: a scene that is wrong",
+         {"dev", broken_scene_named(folder, text), "--once", "--no-page", "--json"}),
+    CASE("dev --diagnostics json",
+         {"dev", broken_scene_named(folder, text), "--once", "--no-page", "--diagnostics", "json"}),
     // Text in files.
-    PLACE("names of a scene",
-          {"check", scene_with(folder, "[[sphere]]\n", "[[sphere]]\nname = " + toml_string(text) + "\n")}),
-    PLACE("names of a scene, in JSON",
-          {"check", scene_with(folder, "[[sphere]]\n", "[[sphere]]\nname = " + toml_string(text) + "\n"),
-           "--json"}),
-    PLACE(
-        "names of a scene, in a legend",
-        Words{"render", scene_with(folder, "[[sphere]]\n", "[[sphere]]\nname = " + toml_string(text) + "\n"),
-              "--aov", "primitive", "-o", folder / "a.png"} +
-            small),
-    PLACE("names of a scene, in a probe",
-          {"probe", scene_with(folder, "[[sphere]]\n", "[[sphere]]\nname = " + toml_string(text) + "\n"),
-           "4,3", "-s", "8x6", "--backends", "twin,reference"}),
-    PLACE("an unknown key",
-          {"check", scene_with(folder, "width = 64", "width = 64\n" + toml_string(text) + " = 1")}),
-    PLACE("an unknown table", {"check", scene_and(folder, "[[" + toml_string(text) + "]]\n")}),
-    PLACE("an unknown value", {"check", scene_with(folder, "\"point\"", toml_string(text))}),
-    PLACE("an unknown material",
-          {"check", scene_with(folder, "material = \"matte\"", "material = " + toml_string(text))}),
-    PLACE("a file that is not there",
-          {"check", scene_and(folder, "[[mesh]]\nfile = " + toml_string(text + ".obj") + "\n")}),
-    PLACE("no TOML", {"check", scene_and(folder, text)}),
-    PLACE("a formula",
-          {"check", scene_and(folder, "[[implicit]]\ncode = " +
-                                          toml_string("float f(vec3 p) { return " + text + "; }") +
-                                          "\nmin = [-1, -1, -1]\nmax = [1, 1, 1]\nmaterial = \"matte\"\n")}),
-    PLACE("OBJ", {"check", mesh_scene(folder, "a.obj",
-                                      "mtllib " + text + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl " + text +
-                                          "\n" + text + "\nf 1 2 3\n")}),
-    PLACE("PLY", {"check", mesh_scene(folder, "a.ply",
-                                      "ply\nformat ascii 1.0\ncomment TextureFile " + text + "\nelement " +
-                                          text + " 1\n" + text + "\nend_header\n")}),
-    PLACE("glTF", {"check", mesh_scene(folder, "a.gltf", gltf(text))}),
-    PLACE("layers of OpenEXR",
-          {"compare", exr_with_layer(folder, text), exr_with_layer(folder, text), "--layer", "none"}),
+    CASE("names of a scene",
+         {"check", scene_with(folder, "[[sphere]]\n", "[[sphere]]\nname = " + toml_string(text) + "\n")}),
+    CASE("names of a scene, in JSON",
+         {"check", scene_with(folder, "[[sphere]]\n", "[[sphere]]\nname = " + toml_string(text) + "\n"),
+          "--json"}),
+    CASE("names of a scene, in a legend",
+         Words{"render", scene_with(folder, "[[sphere]]\n", "[[sphere]]\nname = " + toml_string(text) + "\n"),
+               "--aov", "primitive", "-o", folder / "a.png"} +
+             small),
+    CASE("names of a scene, in a probe",
+         {"probe", scene_with(folder, "[[sphere]]\n", "[[sphere]]\nname = " + toml_string(text) + "\n"),
+          "4,3", "-s", "8x6", "--backends", "twin,reference"}),
+    CASE("an unknown key",
+         {"check", scene_with(folder, "width = 64", "width = 64\n" + toml_string(text) + " = 1")}),
+    CASE("an unknown table", {"check", scene_and(folder, "[[" + toml_string(text) + "]]\n")}),
+    CASE("an unknown value", {"check", scene_with(folder, "\"point\"", toml_string(text))}),
+    CASE("an unknown material",
+         {"check", scene_with(folder, "material = \"matte\"", "material = " + toml_string(text))}),
+    CASE("a file that is not there",
+         {"check", scene_and(folder, "[[mesh]]\nfile = " + toml_string(text + ".obj") + "\n")}),
+    CASE("no TOML", {"check", scene_and(folder, text)}),
+    CASE("a formula",
+         {"check", scene_and(folder, "[[implicit]]\ncode = " +
+                                         toml_string("float f(vec3 p) { return " + text + "; }") +
+                                         "\nmin = [-1, -1, -1]\nmax = [1, 1, 1]\nmaterial = \"matte\"\n")}),
+    CASE("OBJ", {"check", mesh_scene(folder, "a.obj",
+                                     "mtllib " + text + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl " + text + "\n" +
+                                         text + "\nf 1 2 3\n")}),
+    CASE("PLY", {"check", mesh_scene(folder, "a.ply",
+                                     "ply\nformat ascii 1.0\ncomment TextureFile " + text + "\nelement " +
+                                         text + " 1\n" + text + "\nend_header\n")}),
+    CASE("glTF", {"check", mesh_scene(folder, "a.gltf", gltf(text))}),
+    CASE("layers of OpenEXR",
+         {"compare", exr_with_layer(folder, text), exr_with_layer(folder, text), "--layer", "none"}),
     // The command line.
-    PLACE("an unknown command", {text}),
-    PLACE("an unknown option", {"render", "--" + text}),
-    PLACE("one argument too many", {"check", folder.scene(), "x" + text}),
-    PLACE("-D", {"check", folder.scene(), "-D", text}),
-    PLACE("-D with a value", {"check", folder.scene(), "-D", "image.width=" + text}),
-    PLACE("--size", {"check", folder.scene(), "-s", "x" + text}),
-    PLACE("--integrator", {"check", folder.scene(), "--integrator", "x" + text}),
-    PLACE("--backend", {"render", folder.scene(), "--backend", "x" + text}),
-    PLACE("--aov", {"render", folder.scene(), "--aov", "x" + text, "-o", folder / "a.png"}),
-    PLACE("--crop", {"render", folder.scene(), "--crop", "x" + text, "-o", folder / "a.png"}),
-    PLACE("--frames", {"render", folder.scene(), "--frames", "x" + text, "-o", folder / "a%d.png"}),
-    PLACE("--shaders", {"render", folder.scene(), "--shaders", "x" + text}),
-    PLACE("--sanitize", {"render", folder.scene(), "--sanitize", "x" + text}),
-    PLACE("--layer",
-          {"compare", picture_named(folder, "a"), exr_with_layer(folder, "a"), "--layer", "x" + text}),
-    PLACE("a pixel", {"probe", folder.scene(), "x" + text}),
-    PLACE("a shader", {"shaders", "x" + text}),
-    PLACE("a shell", {"completion", "x" + text}),
-    PLACE("--allow-unverified", {"verify", folder.scene(), "--allow-unverified", "x" + text}),
+    CASE("an unknown command", {text}),
+    CASE("an unknown option", {"render", "--" + text}),
+    CASE("one argument too many", {"check", folder.scene(), "x" + text}),
+    CASE("-D", {"check", folder.scene(), "-D", text}),
+    CASE("-D with a value", {"check", folder.scene(), "-D", "image.width=" + text}),
+    CASE("--size", {"check", folder.scene(), "-s", "x" + text}),
+    CASE("--integrator", {"check", folder.scene(), "--integrator", "x" + text}),
+    CASE("--backend", {"render", folder.scene(), "--backend", "x" + text}),
+    CASE("--aov", {"render", folder.scene(), "--aov", "x" + text, "-o", folder / "a.png"}),
+    CASE("--crop", {"render", folder.scene(), "--crop", "x" + text, "-o", folder / "a.png"}),
+    CASE("--frames", {"render", folder.scene(), "--frames", "x" + text, "-o", folder / "a%d.png"}),
+    CASE("--shaders", {"render", folder.scene(), "--shaders", "x" + text}),
+    CASE("--sanitize", {"render", folder.scene(), "--sanitize", "x" + text}),
+    CASE("--layer",
+         {"compare", picture_named(folder, "a"), exr_with_layer(folder, "a"), "--layer", "x" + text}),
+    CASE("a pixel", {"probe", folder.scene(), "x" + text}),
+    CASE("a shader", {"shaders", "x" + text}),
+    CASE("a shell", {"completion", "x" + text}),
+    CASE("--allow-unverified", {"verify", folder.scene(), "--allow-unverified", "x" + text}),
 };
 
 void check_lines(const std::string& text) {
@@ -227,14 +226,14 @@ void check_lines(const std::string& text) {
   for (std::string line; std::getline(lines, line);) CHECK(line == log_line(line));
 }
 
-void check_places(const std::vector<std::string>& texts) {
-  for (const Place& place : places) {
-    CAPTURE(place.name);
+void check_cases(const std::vector<std::string>& texts) {
+  for (const Case& each : cases) {
+    CAPTURE(each.name);
     for (const std::string& text : texts) {
       if (text.find('\0') != std::string::npos) continue;  // neither a name nor a word holds it
       CAPTURE(text);
       const SceneFolder folder;
-      const Words words = place.words(folder, text);
+      const Words words = each.words(folder, text);
       const ProcessResult result = run_eyeray(words);
       CAPTURE(result.out);
       CAPTURE(result.err);
@@ -255,11 +254,11 @@ void check_places(const std::vector<std::string>& texts) {
 }  // namespace
 
 TEST_CASE("no text that a command shows is a command itself") {
-  check_places({"##[a]\n::error::b", "\x1b[2J\"'", "\xff</x>"});
+  check_cases({"##[a]\n::error::b", "\x1b[2J\"'", "\xff</x>"});
 }
 
 TEST_CASE("none of forty texts that a command shows is a command itself" * doctest::test_suite("long")) {
-  check_places(nasty_strings);
+  check_cases(nasty_strings);
 }
 
 TEST_CASE("an error of dev is one command of GitHub's workflows, whatever the scene is called" *

@@ -72,9 +72,9 @@ TEST_CASE("--noise stops photons where a pixel is as good as it says, beside a l
         extended(command, {"--noise", "0.5", "--seed", seed, "--aov", "noise", "-o", folder / "a.pfm"}));
     CAPTURE(result.err);
     REQUIRE(result.code == 0);
-    const auto said = nlohmann::json::parse(result.out).at("noise");
-    CHECK(said.at("share") == 1);
-    CHECK(said.at("most_samples") < 500);
+    const auto output = nlohmann::json::parse(result.out).at("noise");
+    CHECK(output.at("share") == 1);
+    CHECK(output.at("most_samples") < 500);
 
     const Image picture = read_image(folder / "a.pfm"), noise = read_image(folder / "a.noise.pfm");
     for (size_t i = 0; i < noise.sample_count(); ++i, ++all) {

@@ -47,8 +47,8 @@ inline void replace_in_file(const std::string& path, const std::string& before, 
 
 // kernels/pixel.glsl with `statements` put in where a sample's `color` is known and not yet stored.
 inline std::string with_pixel_code(const std::string& shader, const std::string& statements) {
-  const std::string place = "  return sample_result(";
-  return replaced(shader, place, statements + place);
+  const std::string before = "  return sample_result(";
+  return replaced(shader, before, statements + before);
 }
 
 // Writes below `folder` the shader that renders a sample, made to loop without end.

@@ -33,8 +33,8 @@ struct Users : SceneFolder {
   }
   // Puts `code` where a sphere's hit is returned; returns the number of its first line.
   int change_sphere(const std::string& code) const {
-    const std::string place = "  return discriminant >= 0.0f ? t : T_NONE;\n";
-    replace_in_file(sphere, place, code + place);
+    const std::string before = "  return discriminant >= 0.0f ? t : T_NONE;\n";
+    replace_in_file(sphere, before, code + before);
     const std::string text = read_text(sphere);
     return 1 + int(std::count(text.begin(), text.begin() + std::ptrdiff_t(text.find(code)), '\n'));
   }
@@ -142,20 +142,20 @@ TEST_CASE("sanitizers find a user's shader's fault, at its line") {
       "  float bands[4];\n"
       "  for (int i = 0; i < 4; ++i) bands[i] = 0.0f;\n"
       "  t = t + bands[int(floor(abs(t) * 2.0f))];\n");
-  const std::string place = fmt::format("{}:{}", users.sphere, line + 2);
+  const std::string location = fmt::format("{}:{}", users.sphere, line + 2);
   const ProcessResult undefined = users.render("twin", "a.pfm", {"--sanitize", "undefined"});
   CHECK(undefined.code == 2);
-  CHECK(contains(undefined.err, place + ":"));
+  CHECK(contains(undefined.err, location + ":"));
   CHECK(contains(undefined.err, "runtime error: index 6 out of bounds for type 'float"));
   const ProcessResult address = users.render("twin", "a.pfm", {"--sanitize", "address"});
   CHECK(address.code == 2);
   CHECK(contains(address.err, "AddressSanitizer: stack-buffer-overflow"));
-  CHECK(contains(address.err, place));
+  CHECK(contains(address.err, location));
   // The same holds in dev's worker.
   const ProcessResult dev =
       users.run({"dev", users.scene(), "--backend", "twin", "--once", "--sanitize", "address,undefined"});
   CHECK(dev.code == 2);
-  CHECK(contains(dev.err, place + ":"));
+  CHECK(contains(dev.err, location + ":"));
   CHECK_FALSE(std::filesystem::exists(users / "a.pfm"));
 
   CHECK(

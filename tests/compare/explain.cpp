@@ -16,7 +16,7 @@ namespace {
 // The cause found at a pixel where `change` is made to everything right of the pixel's centre.
 template <typename Change>
 Cause cause_of(const Change& change) {
-  const Reference reference = [&](int x, int y, const Vec2& shift, rounding::Chance) {
+  const Reference reference = [&](int x, int y, const Vec2& shift, rounding::Coincidence) {
     Neighbour neighbour = picture_reference(x, y, shift);
     if (shift.x > 0) change(neighbour);
     return neighbour;
@@ -43,7 +43,7 @@ TEST_CASE("a cause is the first thing along the ray that changes") {
 TEST_CASE("changes by float32's rounding of rays' origins are explained as that, and not otherwise") {
   const auto neighbourhood = [](double near, double far) {
     return Neighbourhood(
-        [=](int, int, const Vec2&, rounding::Chance) {
+        [=](int, int, const Vec2&, rounding::Coincidence) {
           Neighbour neighbour;
           neighbour.samples = {{Vec3(near), {}}};
           if (far > 0) neighbour.rounded = {{Vec3(far), {}}};
@@ -60,9 +60,9 @@ TEST_CASE("changes by float32's rounding of rays' origins are explained as that,
 
 TEST_CASE("either of two surfaces that float32 cannot distinguish may be shown") {
   const Neighbourhood neighbourhood(
-      [](int, int, const Vec2&, rounding::Chance chance) {
+      [](int, int, const Vec2&, rounding::Coincidence coincidence) {
         Neighbour neighbour;
-        const bool coincident = chance == rounding::Chance::coincident;
+        const bool coincident = coincidence == rounding::Coincidence::coincident;
         neighbour.samples[0].color = Vec3(coincident ? 0.7 : 0.2);
         neighbour.first_hit = {.t = 4, .normal = {0, 0, 1}, .primitive = coincident ? 3 : 2, .material = 0};
         return neighbour;
@@ -81,7 +81,7 @@ TEST_CASE("either of two surfaces that float32 cannot distinguish may be shown")
 
 TEST_CASE("a first hit differs at a silhouette, a crease, a seam of uv, or a grazing angle") {
   const auto cause = [](const auto& change) {
-    const Reference reference = [&](int x, int y, const Vec2& shift, rounding::Chance) {
+    const Reference reference = [&](int x, int y, const Vec2& shift, rounding::Coincidence) {
       Neighbour neighbour = picture_reference(x, y, shift);
       neighbour.first_colors = shift.x > 0;
       if (shift.x > 0) change(neighbour.first_hit);
@@ -98,10 +98,10 @@ TEST_CASE("a first hit differs at a silhouette, a crease, a seam of uv, or a gra
 TEST_CASE("the neighbourhood is 64 offsets of 0.001 to 0.004 pixels, all around, and the pixel itself") {
   std::vector<Vec2> shifts;
   int coincident = 0;
-  const Reference reference = [&](int x, int y, const Vec2& shift, rounding::Chance chance) {
+  const Reference reference = [&](int x, int y, const Vec2& shift, rounding::Coincidence coincidence) {
     CHECK(x == 5);
     CHECK(y == 7);
-    if (chance == rounding::Chance::coincident) {
+    if (coincidence == rounding::Coincidence::coincident) {
       ++coincident;
       CHECK(shift == Vec2(0.0));
     } else {
@@ -124,7 +124,7 @@ TEST_CASE("the neighbourhood is 64 offsets of 0.001 to 0.004 pixels, all around,
 
 TEST_CASE("a jump within a rounding error of the camera ray is undecidable") {
   const auto cause = [](double edge, double rounding) {
-    const Reference reference = [=](int, int, const Vec2& shift, rounding::Chance) {
+    const Reference reference = [=](int, int, const Vec2& shift, rounding::Coincidence) {
       const bool beyond_edge = shift.y > edge;
       Neighbour neighbour;
       neighbour.samples[0].color = Vec3(beyond_edge ? 0.7 : 0.2);
@@ -150,10 +150,11 @@ TEST_CASE("a jump within a rounding error of the camera ray is undecidable") {
 TEST_CASE("the hit of a ray that a rounding error turns is undecidable") {
   const auto neighbourhood = [](double rounding) {
     return Neighbourhood(
-        [=](int, int, const Vec2& shift, rounding::Chance chance) {
-          CHECK((chance != rounding::Chance::turned || glm::length(shift) < 1.001 * rounding));
+        [=](int, int, const Vec2& shift, rounding::Coincidence coincidence) {
+          CHECK((coincidence != rounding::Coincidence::turned || glm::length(shift) < 1.001 * rounding));
           Neighbour neighbour;
-          neighbour.samples[0].color = Vec3(chance == rounding::Chance::turned && shift.x > 0 ? 0.7 : 0.2);
+          neighbour.samples[0].color =
+              Vec3(coincidence == rounding::Coincidence::turned && shift.x > 0 ? 0.7 : 0.2);
           neighbour.rounding = rounding;
           return neighbour;
         },
@@ -167,7 +168,7 @@ TEST_CASE("the hit of a ray that a rounding error turns is undecidable") {
 
 TEST_CASE("an edge along the centres of a row of pixels takes up nothing of what may be explained") {
   const auto colors = [](double rounding) {
-    const Reference picture = [=](int, int y, const Vec2& shift, rounding::Chance) {
+    const Reference picture = [=](int, int y, const Vec2& shift, rounding::Coincidence) {
       Neighbour neighbour;
       neighbour.samples[0].color = Vec3(y + shift.y > 30 + 5e-7 ? 0.7 : 0.2);
       neighbour.rounding = rounding;
@@ -186,7 +187,7 @@ TEST_CASE("an edge along the centres of a row of pixels takes up nothing of what
 }
 
 TEST_CASE("the second look finds features narrower than the ring of the first") {
-  const Reference reference = [](int, int, const Vec2& shift, rounding::Chance) {
+  const Reference reference = [](int, int, const Vec2& shift, rounding::Coincidence) {
     Neighbour neighbour;
     const double r = glm::length(shift);
     neighbour.samples[0].color = Vec3(r > 2e-5 && r < 4e-4 ? 0.7 : 0.2);
@@ -199,7 +200,7 @@ TEST_CASE("the second look finds features narrower than the ring of the first") 
 }
 
 TEST_CASE("explained values lie between the neighbours, a tolerance more at each end") {
-  const Reference reference = [](int, int, const Vec2& shift, rounding::Chance) {
+  const Reference reference = [](int, int, const Vec2& shift, rounding::Coincidence) {
     Neighbour neighbour;
     neighbour.samples[0].color = Vec3(shift.x > 0.002 ? 0.7 : 0.2, 10, 0);
     neighbour.first_hit = {
@@ -253,7 +254,7 @@ TEST_CASE("t may be off by the rounding of the coordinates that it comes from, a
 
 TEST_CASE("a neighbourhood is as wide as the rounding of its coordinates") {
   const auto explained = [](double t_scale) {
-    const Reference reference = [&](int x, int y, const Vec2& shift, rounding::Chance) {
+    const Reference reference = [&](int x, int y, const Vec2& shift, rounding::Coincidence) {
       Neighbour neighbour = picture_reference(x, y, shift);
       neighbour.first_hit.t_scale = t_scale;
       return neighbour;

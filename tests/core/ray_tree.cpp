@@ -9,7 +9,7 @@ using namespace eyeray::engine;
 
 TEST_CASE("rays and values come to where they belong, however the loop goes about it") {
   RayRecorder recorder;
-  recorder.value("place", 3, Vec2(1.5, 2.5));
+  recorder.value("point", 3, Vec2(1.5, 2.5));
   recorder.ray(RayKind::eye, 0, 0);
   recorder.value("t", 7, 2.0f);
   recorder.ray(RayKind::shadow, 1, 0);
@@ -29,16 +29,16 @@ TEST_CASE("rays and values come to where they belong, however the loop goes abou
   const std::vector<ProbedRay>& rays = recorder.tree().rays;
   REQUIRE(rays.size() == 6);
   CHECK(recorder.tree().lost == 0);
-  const auto check = [&](size_t i, RayKind kind, size_t parent, size_t place,
+  const auto check = [&](size_t i, RayKind kind, size_t parent, size_t index,
                          std::vector<std::string> names) {
     CAPTURE(i);
     CHECK(rays[i].kind == kind);
     CHECK(rays[i].parent == parent);
-    CHECK(rays[i].place == place);
+    CHECK(rays[i].index == index);
     REQUIRE(rays[i].values.size() == names.size());
     for (size_t k = 0; k < names.size(); ++k) CHECK(rays[i].values[k].name == names[k]);
   };
-  check(0, RayKind::pixel, 0, 0, {"place", "end"});
+  check(0, RayKind::pixel, 0, 0, {"point", "end"});
   check(1, RayKind::eye, 0, 1, {"t", "light"});
   check(2, RayKind::shadow, 1, 1, {"visibility"});
   check(3, RayKind::refracted, 1, 2, {});

@@ -9,7 +9,7 @@ FIGURES = [
     ("report.md", "Pixels that differ are examined {} at a time", "compare/against_reference.cpp", "examined_at_once"),
     ("report.md", "Pixels that differ are examined {} at a time", "compare/paths.cpp", "examined_at_once"),
     ("gates.md", "equal even so, and N is at most {}.", "compare/exact.cpp", "max_bound"),
-    ("rounding.md", "wider by 1 + n / 8, at most {}fold", "rounding/places.cpp", "most_reach"),
+    ("rounding.md", "wider by 1 + n / 8, at most {}fold", "rounding/positions.cpp", "most_reach"),
     ("gates.md", "the share that the scene allows, but at least {} pixels", "compare/against_reference.cpp", "always_allowed"),
     ("gates.md", "that they leave unexplained, if there are {} at most", "compare/against_reference.cpp", "few"),
     ("gates.md", "at more positions, as in gate B, if there are {} at most", "compare/paths.cpp", "few"),

@@ -27,7 +27,7 @@ uint32_t bits_of(float x) {
 
 // The values of `functions`, expressions of p, at each point: by function, then by point.
 std::vector<float> run(gpu::Device& device, const std::string& text,
-                       const std::vector<std::string>& functions, const std::vector<glm::vec4>& places) {
+                       const std::vector<std::string>& functions, const std::vector<glm::vec4>& positions) {
   std::string main =
       "#version 450\n#include \"math/formula.glsl\"\n"
       "uint formula_iterations = 0u;\n"
@@ -36,9 +36,9 @@ std::vector<float> run(gpu::Device& device, const std::string& text,
       "FORMULA_ITERATIONS; }\n" +
       text +
       "layout(local_size_x = 64) in;\n"
-      "layout(std430, set = 0, binding = 0) readonly buffer Places { vec4 places[]; };\n"
+      "layout(std430, set = 0, binding = 0) readonly buffer Positions { vec4 positions[]; };\n"
       "layout(std430, set = 0, binding = 1) buffer Values { float values[]; };\n"
-      "void main() {\n  uint i = gl_GlobalInvocationID.x;\n  vec3 p = places[i].xyz;\n";
+      "void main() {\n  uint i = gl_GlobalInvocationID.x;\n  vec3 p = positions[i].xyz;\n";
   for (size_t n = 0; n < functions.size(); ++n)
     main += fmt::format("  formula_iterations = 0u;\n  values[{}u + i] = {};\n", n * points, functions[n]);
   ShaderFiles embedded({}, "");
@@ -50,23 +50,23 @@ std::vector<float> run(gpu::Device& device, const std::string& text,
       gpu::compile_kernel(gpu::read_shader(read, "formulas.comp"), "", {device.info().float_modes}, cache)
           .spirv;
   gpu::Kernel kernel(device, spirv, "formulas", cache);
-  gpu::Buffer in(device, places.size() * sizeof(glm::vec4), "places"),
+  gpu::Buffer in(device, positions.size() * sizeof(glm::vec4), "positions"),
       out(device, functions.size() * points * 4, "values");
-  in.upload_records(places);
+  in.upload_records(positions);
   kernel.set_buffer(0, in);
   kernel.set_buffer(1, out);
   gpu::dispatch(device, kernel, {}, {1, 1, 1});
   return out.read_records<float>(functions.size() * points);
 }
 
-std::vector<glm::vec4> random_places(uint64_t seed) {
+std::vector<glm::vec4> random_positions(uint64_t seed) {
   test::Random random(seed);
-  std::vector<glm::vec4> places;
+  std::vector<glm::vec4> positions;
   for (size_t i = 0; i < points; ++i) {
     const Vec3 p = random.point(i % 8 == 0 ? 1e6 : 2);
-    places.push_back({float(p.x), float(p.y), float(p.z), 0});
+    positions.push_back({float(p.x), float(p.y), float(p.z), 0});
   }
-  return places;
+  return positions;
 }
 
 std::unique_ptr<formula::Formula> formula_of(const std::string& text) {
@@ -106,17 +106,17 @@ TEST_CASE("kernels of formulas at random compute the interpreter's bits, whereve
       functions.push_back(name + "f(p)");
       formulas.push_back(std::move(formula));
     }
-    const std::vector<glm::vec4> places = random_places(uint64_t(batch));
-    const std::vector<float> values = run(device, text, functions, places);
+    const std::vector<glm::vec4> positions = random_positions(uint64_t(batch));
+    const std::vector<float> values = run(device, text, functions, positions);
     for (size_t n = 0; n < formulas.size(); ++n) {
       for (size_t i = 0; i < points; ++i) {
-        const auto expected = value_at(*formulas[n], places[i]);
+        const auto expected = value_at(*formulas[n], positions[i]);
         if (!expected) continue;
         ++compared;
         if (bits_of(values[n * points + i]) == bits_of(*expected)) continue;
         if (++different > 3) continue;
-        MESSAGE("kernel ", values[n * points + i], ", interpreter ", *expected, " at ", places[i].x, " ",
-                places[i].y, " ", places[i].z, ":\n", formulas[n]->text().text);
+        MESSAGE("kernel ", values[n * points + i], ", interpreter ", *expected, " at ", positions[i].x, " ",
+                positions[i].y, " ", positions[i].z, ":\n", formulas[n]->text().text);
       }
     }
   }
@@ -132,16 +132,16 @@ TEST_CASE("formulas without anything undefined are what a driver makes of their 
     const std::string text = test::RandomFormula(test::seed() * 10'000'000 + uint64_t(k), true).text();
     const auto formula = formula_of(text);
     if (!formula) continue;
-    const std::vector<glm::vec4> places = random_places(uint64_t(k));
-    const std::vector<float> values = run(device, text, {"f(p)"}, places);
+    const std::vector<glm::vec4> positions = random_positions(uint64_t(k));
+    const std::vector<float> values = run(device, text, {"f(p)"}, positions);
     for (size_t i = 0; i < points; ++i) {
-      const auto expected = value_at(*formula, places[i]);
+      const auto expected = value_at(*formula, positions[i]);
       if (!expected || !std::isfinite(*expected) || !std::isfinite(values[i])) continue;
       ++compared;
       if (bits_of(values[i]) == bits_of(*expected)) continue;
       if (++different > 3) continue;
-      MESSAGE("driver ", values[i], ", interpreter ", *expected, " at ", places[i].x, " ", places[i].y, " ",
-              places[i].z, ":\n", text);
+      MESSAGE("driver ", values[i], ", interpreter ", *expected, " at ", positions[i].x, " ", positions[i].y,
+              " ", positions[i].z, ":\n", text);
     }
   }
   MESSAGE(compared, " values compared");

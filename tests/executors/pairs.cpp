@@ -49,7 +49,7 @@ const std::vector<std::string> materials = {
 };
 
 // 80 points, enough for a light BVH.
-std::string many_places() {
+std::string many_points() {
   std::string text;
   for (int i = 0; i < 80; ++i)
     text += std::string(i == 0 ? "" : ", ") + "[" + std::to_string(i % 8 - 4) + ", " +
@@ -77,7 +77,7 @@ const std::array<std::vector<std::string>, factors> levels = {{
      "checker = "
      "{ even = 1, odd = 9, size = 1 } }\n[[parallelogram]]\nedge_u = [0.1, 0, 0]\nedge_v = [0, 0, "
      "0.1]\nmaterial = 'lamp'\nbatch = { origin = [" +
-         many_places() + "] }"},
+         many_points() + "] }"},
     {"", "[medium]\nscattering = 0.1", "[medium]\nabsorption = 0.1",
      "[medium]\nscattering = 0.1\nscale_height = 2", "[medium]\nabsorption = 0.1\ntop = 3"},
     {"",

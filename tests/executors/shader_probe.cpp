@@ -74,7 +74,7 @@ void check_pixels(const std::string& file, int count) {
       const ProbedRay &ray = a.rays.rays[r], &other = b.rays.rays[r];
       CHECK(ray.kind == other.kind);
       CHECK(ray.parent == other.parent);
-      CHECK(ray.place == other.place);
+      CHECK(ray.index == other.index);
       REQUIRE(ray.values.size() == other.values.size());
       for (size_t k = 0; k < ray.values.size(); ++k) {
         CAPTURE(ray.values[k].name);
@@ -128,9 +128,9 @@ TEST_CASE("… in every kind of scene" * doctest::test_suite("long")) {
 
 TEST_CASE("a user's PROBE shows values of every type, where they are and at which ray") {
   const test::TemporaryFolder folder;
-  const std::string place = "  bool deeper = path.depth < frame.max_depth;\n";
-  const std::string text = test::replaced(test::own_shader("integrators/whitted.glsl"), place,
-                                          place +
+  const std::string before = "  bool deeper = path.depth < frame.max_depth;\n";
+  const std::string text = test::replaced(test::own_shader("integrators/whitted.glsl"), before,
+                                          before +
                                               "  PROBE(a_float, 0.25f); PROBE( a_vec2, vec2(1.0f, 2.0f) );\n"
                                               "  PROBE(a_vec3, vec3(1.0f, 2.0f, 3.0f));\n"
                                               "  if (deeper) PROBE(a_vec4, vec4(1.0f, 2.0f, 3.0f, 4.0f));\n"

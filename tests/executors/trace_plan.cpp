@@ -57,8 +57,9 @@ TEST_CASE("packets trace big pictures where vectors are narrow, or where they ar
   const records::PackedScene scene = spheres(2000);
   gpu::DeviceInfo cpu;
   cpu.type = gpu::DeviceType::cpu;
-  const auto wavefront = [&](const ProfileOptions& asked, uint32_t lanes) {
-    return plan_tracing(choose_profile(asked, cpu), asked, picture(2048, 2048), scene, lanes).wavefront;
+  const auto wavefront = [&](const ProfileOptions& requested, uint32_t lanes) {
+    return plan_tracing(choose_profile(requested, cpu), requested, picture(2048, 2048), scene, lanes)
+        .wavefront;
   };
   CHECK(wavefront({}, 8));
   CHECK_FALSE(wavefront({}, 16));

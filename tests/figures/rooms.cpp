@@ -243,14 +243,14 @@ constexpr const char* roof =
     "v -1 -0.1 -1\nv 1 -0.1 -1\nv 1 -0.1 1\nv -1 -0.1 1\nv -1 0.3 0\nv 1 0.3 0\n"
     "f 1 2 3 4\nf 1 5 6 2\nf 4 3 6 5\nf 1 4 5\nf 2 6 3\n";
 
-constexpr Vec3 places[] = {{0, 0, 0}, {1000, 0, 0}, {-300, 700, 500}};
+constexpr Vec3 positions[] = {{0, 0, 0}, {1000, 0, 0}, {-300, 700, 500}};
 
-// The room turned, stretched and at `place`, as seen from the origin.
-PackedScene packed_room(std::string text, const Vec3& place) {
+// The room turned, stretched and at `position`, as seen from the origin.
+PackedScene packed_room(std::string text, const Vec3& position) {
   const std::string turned = fmt::format(
       "transform = [{{ rotate = {{ axis = [1, 2, 3], degrees = 33 }} }}, {{ scale = [3, 2, 2.5] }}, "
       "{{ translate = [{}, {}, {}] }}]\nmaterial = 'm'\n",
-      place.x, place.y, place.z);
+      position.x, position.y, position.z);
   for (size_t at; (at = text.find("TURNED")) != std::string::npos;) text.replace(at, 6, turned);
   return pack::pack(
       loader::parse_scene("[camera]\neye = [0, 0, 0]\ntarget = [0, 0, -1]\n[[material]]\nname "
@@ -292,15 +292,15 @@ struct Count {
   std::atomic<int64_t> rays = 0, leaks = 0;
 };
 
-// Follows paths of eight rays from points around `place`. Directions are random; if `at_edges`, two of three
-// rays go towards an edge.
-void follow_paths(const PackedScene& scene, const Vec3& place, bool at_edges, int paths, Count& count) {
+// Follows paths of eight rays from points around `position`. Directions are random; if `at_edges`, two of
+// three rays go towards an edge.
+void follow_paths(const PackedScene& scene, const Vec3& position, bool at_edges, int paths, Count& count) {
   constexpr int parts = 64;
   parallel_for(0, parts, [&](int part) {
     const shader::Binding binding(twin::view_of(scene));
     Random random{uint64_t(part) + 1000 * test::seed() + 7};
     for (int i = 0; i < paths / parts; ++i) {
-      const glm::vec3 middle(place + random.point(0.01));
+      const glm::vec3 middle(position + random.point(0.01));
       shader::Surface from{};
       for (int bounce = 0; bounce < 8; ++bounce) {
         const auto direction = [&] {
@@ -331,13 +331,13 @@ TEST_CASE("closed rooms: paths that bounce about within stay, at random and from
   const int paths = test::amount(500, 2'000, 1'250'000);
   for (const auto& [name, text] : rooms_with_cuts()) {
     SUBCASE(name.c_str()) {
-      for (const Vec3& place : places) {
-        const PackedScene scene = packed_room(text, place);
+      for (const Vec3& position : positions) {
+        const PackedScene scene = packed_room(text, position);
         for (const bool at_edges : {false, true}) {
           Count count;
-          follow_paths(scene, place, at_edges, at_edges ? paths / 16 : paths, count);
+          follow_paths(scene, position, at_edges, at_edges ? paths / 16 : paths, count);
           MESSAGE(fmt::format("{}, {}, {:.0f} away: {} rays, {} leak", name,
-                              at_edges ? "at edges" : "at random", glm::length(place), count.rays.load(),
+                              at_edges ? "at edges" : "at random", glm::length(position), count.rays.load(),
                               count.leaks.load()));
           CHECK(count.leaks <= (leaking.contains(name) ? 1 + paths / 10'000 : 0));
         }

@@ -221,10 +221,10 @@ TEST_CASE("every closed shape as a part of CSG objects: first hits, no wrong ans
   }
 
   // The closed kinds are those that the shaders list.
-  std::set<std::string> asked;
-#define NAME(name, number) asked.insert(#name);
+  std::set<std::string> listed;
+#define NAME(name, number) listed.insert(#name);
   CLOSED_SHAPES(NAME)
-  CHECK(closed == asked);
+  CHECK(closed == listed);
 }
 
 TEST_CASE("rays that leave, sizes 1e-4 … 1e4: none hits its surface again, every hit is on it") {

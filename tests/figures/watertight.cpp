@@ -22,7 +22,7 @@ using test::Random;
 
 namespace {
 
-int rays_a_place() {
+int rays_a_placement() {
   return test::amount(10'000, 10'000, 100'000);
 }
 
@@ -32,10 +32,10 @@ constexpr int corners = 4 * teeth;
 // The face of a gear of the Standard Procedural Databases, about the y axis.
 Outline gear_face(double radius, double y) {
   constexpr double radii[] = {0.995, 0.995, 0.9, 0.9};
-  constexpr double places[] = {-0.19, 0.19, 0.3, 0.7};
+  constexpr double offsets[] = {-0.19, 0.19, 0.3, 0.7};
   Outline outline;
   for (int i = 0; i < corners; ++i) {
-    const double angle = 2 * std::numbers::pi / teeth * (i / 4 + places[i % 4]);
+    const double angle = 2 * std::numbers::pi / teeth * (i / 4 + offsets[i % 4]);
     const double r = radius * radii[i % 4];
     outline.push_back({r * std::cos(angle), y, -r * std::sin(angle)});
   }
@@ -102,28 +102,28 @@ Count shoot(const Shapes& shapes, const std::vector<std::array<Vec3, 2>>& edges,
   return count;
 }
 
-struct Place {
+struct Placement {
   const char* name;
   Vec3 center;
   double size;
 };
-constexpr Place places[] = {{"at the origin", {0, 0, 0}, 1},
-                            {"far away", {148376, 1234, -223423}, 1000},
-                            {"of size 0.01", {0, 0, 0}, 0.01}};
+constexpr Placement placements[] = {{"at the origin", {0, 0, 0}, 1},
+                                    {"far away", {148376, 1234, -223423}, 1000},
+                                    {"of size 0.01", {0, 0, 0}, 0.01}};
 
-Mat4 turned(const Place& place, double degrees) {
+Mat4 turned(const Placement& placement, double degrees) {
   return glm::scale(
-      glm::rotate(glm::translate(Mat4(1), place.center), glm::radians(degrees), Vec3(0.6, 0, 0.8)),
-      Vec3(place.size));
+      glm::rotate(glm::translate(Mat4(1), placement.center), glm::radians(degrees), Vec3(0.6, 0, 0.8)),
+      Vec3(placement.size));
 }
 
 }  // namespace
 
 TEST_CASE(
     "a gear's face of 36 teeth, a ring with a hole and a hub: each ray at their seams hits one of them") {
-  for (const Place& place : places) {
+  for (const Placement& placement : placements) {
     for (const double degrees : {0.0, 40.0}) {
-      const Mat4 map = turned(place, degrees);
+      const Mat4 map = turned(placement, degrees);
       const Outline rim = mapped(gear_face(1, 0), map);
       const Outline ring = mapped(gear_face(0.6, 0), map);
       Outline hub;
@@ -144,12 +144,12 @@ TEST_CASE(
       shapes.add({hub});
 
       Random random(uint64_t(degrees) + 7);
-      const Count count = shoot(shapes, seams, random, rays_a_place(), [&] {
+      const Count count = shoot(shapes, seams, random, rays_a_placement(), [&] {
         return Vec3(map * Vec4(random.point(0.7) + Vec3(0, random.below(2) == 0 ? 0.8 : -1.5, 0), 1));
       });
       MESSAGE(fmt::format(
           "{}, turned by {}°: {} rays, {} pass, {} hit several; in float64 {} pass, {} hit several",
-          place.name, degrees, count.rays, count.leaks, count.several, count.exact_leaks,
+          placement.name, degrees, count.rays, count.leaks, count.several, count.exact_leaks,
           count.exact_several));
       CHECK(count.leaks == 0);
       CHECK(count.several == 0);
@@ -163,8 +163,8 @@ TEST_CASE("a closed gear: no ray from within passes at edges or vertices, walls 
   constexpr const char* names[] = {"walls of polygons", "walls of polygons and triangles",
                                    "walls of all kinds"};
   for (const int kinds : {1, 2, 3}) {
-    for (const Place& place : places) {
-      const Mat4 map = turned(place, 25);
+    for (const Placement& placement : placements) {
+      const Mat4 map = turned(placement, 25);
       const Outline top = mapped(gear_face(1, 0.1), map);
       const Outline bottom = mapped(gear_face(1, -0.1), map);
       Shapes shapes;
@@ -185,10 +185,10 @@ TEST_CASE("a closed gear: no ray from within passes at edges or vertices, walls 
         }
       }
       Random random(11);
-      const Count count = shoot(shapes, edges, random, rays_a_place() / 4,
+      const Count count = shoot(shapes, edges, random, rays_a_placement() / 4,
                                 [&] { return Vec3(map * Vec4(random.point(0.5) * Vec3(1, 0.1, 1), 1)); });
-      MESSAGE(fmt::format("{}, {}: {} rays, {} pass; in float64 {}", place.name, names[kinds - 1], count.rays,
-                          count.leaks, count.exact_leaks));
+      MESSAGE(fmt::format("{}, {}: {} rays, {} pass; in float64 {}", placement.name, names[kinds - 1],
+                          count.rays, count.leaks, count.exact_leaks));
       CHECK(count.leaks == 0);
       // The corners of a parallelogram are sums. In float64 their last bits may differ from those of its
       // neighbours' corners.
@@ -214,7 +214,7 @@ TEST_CASE("a ray that grazes a polygon or a parallelogram hits it within its out
   Random random(3);
   int hits = 0;
   double farthest = 0;
-  for (int i = 0; i < rays_a_place() / 4; ++i) {
+  for (int i = 0; i < rays_a_placement() / 4; ++i) {
     const Vec3 n = random.direction(), u = glm::normalize(glm::cross(n, random.direction()));
     const Vec3 origin = random.point(1), v = glm::cross(n, u);
     const auto on_plane = [&](const Vec2& p) { return origin + p.x * u + p.y * v; };
@@ -252,6 +252,6 @@ TEST_CASE("a ray that grazes a polygon or a parallelogram hits it within its out
     }
   }
   MESSAGE(fmt::format("{} hits, at most {:.2g} beyond the outline", hits, farthest));
-  CHECK(hits > rays_a_place());
+  CHECK(hits > rays_a_placement());
   CHECK(farthest < 4e-6);
 }

@@ -10,14 +10,14 @@ namespace {
 // The formula's faults as "line:column: message", a line each, its text beginning at 10:1; "" if there are
 // none.
 std::string faults_of(const std::string& text, std::vector<formula::FormulaParameter> parameters = {}) {
-  std::string said;
+  std::string faults;
   try {
     const formula::Formula formula({text, {"a.toml", 10, 1}}, std::move(parameters), "it");
   } catch (const InputError& error) {
     for (const Diagnostic& fault : error.diagnostics())
-      said += fmt::format("{}:{}: {}\n", fault.position.line, fault.position.column, fault.message);
+      faults += fmt::format("{}:{}: {}\n", fault.position.line, fault.position.column, fault.message);
   }
-  return said;
+  return faults;
 }
 
 }  // namespace

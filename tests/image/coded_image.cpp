@@ -97,7 +97,7 @@ TEST_CASE("a PNG takes little more memory than its pixels, and only what the bud
 
   PixelBudget budget{4096 * 4096 + 6};
   std::vector<std::string> warnings;
-  const auto said = [&](const std::string& picture) -> std::string {
+  const auto message = [&](const std::string& picture) -> std::string {
     try {
       decode_coded_image(std::as_bytes(std::span(picture)), "a picture", budget, warnings);
     } catch (const Error& error) {
@@ -105,10 +105,10 @@ TEST_CASE("a PNG takes little more memory than its pixels, and only what the bud
     }
     return "accepted";
   };
-  CHECK(said(bytes) == "accepted");
-  CHECK(said(bytes_of("rgb.png")) == "accepted");
+  CHECK(message(bytes) == "accepted");
+  CHECK(message(bytes_of("rgb.png")) == "accepted");
   CHECK(
-      said(bytes_of("rgb.png")) ==
+      message(bytes_of("rgb.png")) ==
       "cannot read a picture: it has 3×2 pixels; of the 2^28 that all images of a scene may have together, 0 "
       "are left");
 }
@@ -223,9 +223,9 @@ TEST_CASE("pictures with damaged bytes are decoded or refused") {
       std::string bytes = whole;
       for (int change = 0, changes = 1 + random.below(4); change < changes; ++change)
         bytes[size_t(3 + random.below(int(whole.size()) - 3))] = char(random.bits());
-      const std::string said = refusal(bytes);
-      ++(said == "accepted" ? decoded : refused);
-      REQUIRE((said == "accepted" || said.starts_with("cannot read a picture: it ")));
+      const std::string message = refusal(bytes);
+      ++(message == "accepted" ? decoded : refused);
+      REQUIRE((message == "accepted" || message.starts_with("cannot read a picture: it ")));
     }
   }
   CHECK(decoded > 100);

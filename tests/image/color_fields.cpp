@@ -39,7 +39,7 @@ std::vector<std::string> warnings_of(const std::string& bytes) {
   return warnings;
 }
 
-std::string said_of_png(const std::vector<std::pair<std::string, std::string>>& chunks) {
+std::string message_of_png(const std::vector<std::pair<std::string, std::string>>& chunks) {
   const std::vector<std::string> warnings = warnings_of(png_with(chunks));
   REQUIRE(warnings.size() <= 1);
   return warnings.empty() ? "" : warnings[0];
@@ -68,32 +68,32 @@ std::string jpeg_with(uint8_t marker, const std::string& content) {
 
 TEST_CASE("PNG: of cICP, iCCP, sRGB, gAMA and cHRM the first that stands there counts") {
   const std::string not_srgb = " is ignored: its colours are read as sRGB";
-  CHECK(said_of_png({}) == "");
-  CHECK(said_of_png({{"gAMA", big(45455)}, {"cHRM", primaries(64000)}}) == "");
-  CHECK(said_of_png({{"gAMA", big(100000)}}) == "a: its gamma (gAMA) of 1" + not_srgb);
-  CHECK(said_of_png({{"gAMA", big(55556)}}) == "a: its gamma (gAMA) of 0.5556" + not_srgb);
-  CHECK(said_of_png({{"cHRM", primaries(68000)}}) == "a: its primaries (cHRM)" + not_srgb);
-  CHECK(said_of_png({{"sRGB", "\1"}, {"gAMA", big(100000)}}) == "");
-  CHECK(said_of_png({{"iCCP", profile("Display P3", "desc P3")}}) ==
+  CHECK(message_of_png({}) == "");
+  CHECK(message_of_png({{"gAMA", big(45455)}, {"cHRM", primaries(64000)}}) == "");
+  CHECK(message_of_png({{"gAMA", big(100000)}}) == "a: its gamma (gAMA) of 1" + not_srgb);
+  CHECK(message_of_png({{"gAMA", big(55556)}}) == "a: its gamma (gAMA) of 0.5556" + not_srgb);
+  CHECK(message_of_png({{"cHRM", primaries(68000)}}) == "a: its primaries (cHRM)" + not_srgb);
+  CHECK(message_of_png({{"sRGB", "\1"}, {"gAMA", big(100000)}}) == "");
+  CHECK(message_of_png({{"iCCP", profile("Display P3", "desc P3")}}) ==
         "a: its colour profile (iCCP)" + not_srgb);
-  CHECK(said_of_png({{"iCCP", profile("ICC Profile", "desc sRGB IEC61966-2.1")}}) == "");
-  CHECK(said_of_png({{"iCCP", profile("sRGB", "desc")}, {"gAMA", big(100000)}}) == "");
-  CHECK(said_of_png({{"iCCP", profile("ICC Profile", std::string("mluc s\0R\0G\0B", 12))}}) == "");
-  CHECK(said_of_png({{"cICP", std::string("\1\15\0\1", 4)}, {"gAMA", big(100000)}}) == "");
-  CHECK(said_of_png({{"cICP", std::string("\11\20\0\1", 4)}, {"sRGB", "\1"}}) ==
+  CHECK(message_of_png({{"iCCP", profile("ICC Profile", "desc sRGB IEC61966-2.1")}}) == "");
+  CHECK(message_of_png({{"iCCP", profile("sRGB", "desc")}, {"gAMA", big(100000)}}) == "");
+  CHECK(message_of_png({{"iCCP", profile("ICC Profile", std::string("mluc s\0R\0G\0B", 12))}}) == "");
+  CHECK(message_of_png({{"cICP", std::string("\1\15\0\1", 4)}, {"gAMA", big(100000)}}) == "");
+  CHECK(message_of_png({{"cICP", std::string("\11\20\0\1", 4)}, {"sRGB", "\1"}}) ==
         "a: its colour space (cICP 9, 16)" + not_srgb);
 }
 
 TEST_CASE("PNG: pixels that are no squares, an orientation") {
-  CHECK(said_of_png({{"pHYs", big(2835) + big(2835) + "\1"}}) == "");
-  CHECK(said_of_png({{"pHYs", big(1) + big(2) + std::string(1, '\0')}}) ==
+  CHECK(message_of_png({{"pHYs", big(2835) + big(2835) + "\1"}}) == "");
+  CHECK(message_of_png({{"pHYs", big(1) + big(2) + std::string(1, '\0')}}) ==
         "a: its pixels are not square (pHYs), which is ignored");
   const auto oriented = [](char orientation) {
     return "MM" + big(42, 2) + big(8) + big(1, 2) + big(0x0112, 2) + big(3, 2) + big(1) +
            std::string{'\0', orientation, '\0', '\0'};
   };
-  CHECK(said_of_png({{"eXIf", oriented(1)}}) == "");
-  CHECK(said_of_png({{"eXIf", oriented(6)}}) == "a: its EXIF orientation (eXIf) of 6 is ignored");
+  CHECK(message_of_png({{"eXIf", oriented(1)}}) == "");
+  CHECK(message_of_png({{"eXIf", oriented(6)}}) == "a: its EXIF orientation (eXIf) of 6 is ignored");
 }
 
 TEST_CASE("JPEG: profiles and densities") {

@@ -105,13 +105,14 @@ inline std::string meshopt_code(const std::string& bytes, const MeshoptCoding& c
 // Makes the coded `bytes` the view's data: the view itself then refers to a buffer that does not exist.
 inline Json& code_view(GltfFile& file, int index, const std::string& bytes, const MeshoptCoding& coding) {
   const std::string coded = meshopt_code(bytes, coding);
-  const Json place = file.json["bufferViews"][size_t(file.add_view(coded))];
+  const Json coded_view = file.json["bufferViews"][size_t(file.add_view(coded))];
   file.json["bufferViews"].erase(file.json["bufferViews"].size() - 1);
   Json& view = file.json["bufferViews"][size_t(index)];
   view = {{"buffer", 1}, {"byteOffset", 0}, {"byteLength", bytes.size()}};
   Json& extension = view["extensions"][coding.name];
-  extension = {{"buffer", 0},         {"byteOffset", place["byteOffset"]},     {"byteLength", coded.size()},
-               {"mode", coding.mode}, {"count", bytes.size() / coding.stride}, {"byteStride", coding.stride}};
+  extension = {
+      {"buffer", 0},         {"byteOffset", coded_view["byteOffset"]}, {"byteLength", coded.size()},
+      {"mode", coding.mode}, {"count", bytes.size() / coding.stride},  {"byteStride", coding.stride}};
   if (!coding.filter.empty()) extension["filter"] = coding.filter;
   if (file.more_buffers.empty()) file.more_buffers.push_back({{"byteLength", 1 << 20}});
   file.json["extensionsRequired"] = file.json["extensionsUsed"] = {coding.name};

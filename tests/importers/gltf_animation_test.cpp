@@ -244,7 +244,7 @@ TEST_CASE("animations that break rules, a row a rule") {
   struct Row {
     Sampled sampled;
     std::function<void(Json& file)> breach;
-    std::string said;
+    std::string message;
   };
   const auto none = [](Json&) {};
   const auto set = [](const char* pointer, const Json& value) {
@@ -314,9 +314,9 @@ TEST_CASE("animations that break rules, a row a rule") {
   for (const Row& row : rows) {
     GltfFile file = animated_square(row.sampled);
     row.breach(file.json);
-    CAPTURE(row.said);
-    const std::string said = refusal(file.gltf(), "a.gltf", {.playing = {.seconds = 0.5}});
-    CHECK(contains(said, row.said));
+    CAPTURE(row.message);
+    const std::string message = refusal(file.gltf(), "a.gltf", {.playing = {.seconds = 0.5}});
+    CHECK(contains(message, row.message));
   }
 
   // A broken rule whose meaning is clear causes only a warning.

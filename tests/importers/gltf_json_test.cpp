@@ -22,11 +22,11 @@ TEST_CASE("a key that stands twice in an object is refused, with its place") {
 TEST_CASE("JSON is read in time that grows with its length, and to a bound") {
   GltfFile file = square_file();
   const std::string plain = file.gltf();
-  const size_t place = plain.find("\"nodes\":[") + 9;
+  const size_t index = plain.find("\"nodes\":[") + 9;
   const auto with_nodes = [&](size_t count) {
     std::string nodes;
     for (size_t i = 0; i < count; ++i) nodes += "{},";
-    return std::string(plain).insert(place, nodes);
+    return std::string(plain).insert(index, nodes);
   };
   // When the time grew with the square of the size, this took 17 s; now it takes a tenth of a second.
   std::string many = with_nodes(300'000);

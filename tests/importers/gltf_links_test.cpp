@@ -32,14 +32,14 @@ std::function<void(GltfFile&)> animate(const char* path, const char* interpolati
   };
 }
 
-const std::string said_empty = "lists and objects that are empty, which glTF does not allow: 1, the first ";
-const std::string said_missing = "properties that glTF requires and the file lacks: 1, the first ";
-const std::string said_mismatch = "values of another type than that of their property in glTF: 1, the first ";
-const std::string said_out_of_range = "values that glTF does not allow for their property: 1, the first ";
-const std::string said_twice = "lists that contain the same element twice: 1, the first ";
-const std::string said_nowhere = "indices of objects that the file does not have: 1, the first ";
-const std::string said_undefined = "properties that glTF does not define, left out: 1, the first ";
-const std::string said_hidden =
+const std::string empty_text = "lists and objects that are empty, which glTF does not allow: 1, the first ";
+const std::string missing_text = "properties that glTF requires and the file lacks: 1, the first ";
+const std::string mismatch_text = "values of another type than that of their property in glTF: 1, the first ";
+const std::string out_of_range_text = "values that glTF does not allow for their property: 1, the first ";
+const std::string twice_text = "lists that contain the same element twice: 1, the first ";
+const std::string nowhere_text = "indices of objects that the file does not have: 1, the first ";
+const std::string undefined_text = "properties that glTF does not define, left out: 1, the first ";
+const std::string hidden_text =
     "morph targets that could not be shown with a weight: 1, the first "
     "meshes[0].primitives[0].targets[0]";
 
@@ -47,22 +47,22 @@ const std::string said_hidden =
 
 TEST_CASE("rules of glTF: properties, their types, ranges and lists") {
   const Rule table[] = {
-      {"a list without elements", set("/animations", Json::array()), said_empty + "animations"},
+      {"a list without elements", set("/animations", Json::array()), empty_text + "animations"},
       {"a scene without nodes that is not shown", add_object("scenes", {{"nodes", Json::array()}}),
-       said_empty + "scenes[1].nodes"},
+       empty_text + "scenes[1].nodes"},
       {"a mesh without primitives", add_object("meshes", {{"primitives", Json::array()}}),
-       said_empty + "meshes[1].primitives"},
+       empty_text + "meshes[1].primitives"},
       {"a morph target of nothing", hidden_target("/meshes/0/primitives/0/targets/0", Json::object()),
-       said_empty + "meshes[0].primitives[0].targets[0]"},
+       empty_text + "meshes[0].primitives[0].targets[0]"},
       {"lights without a light", set("/extensions/KHR_lights_punctual/lights", Json::array()),
-       said_empty + "extensions.KHR_lights_punctual.lights"},
+       empty_text + "extensions.KHR_lights_punctual.lights"},
       {"an accessor without a type", add_object("accessors", {{"componentType", 5126}, {"count", 1}}),
-       said_missing + "accessors[8].type"},
+       missing_text + "accessors[8].type"},
       {"a mesh that lacks its primitives", add_object("meshes", Json::object()),
-       said_missing + "meshes[1].primitives"},
+       missing_text + "meshes[1].primitives"},
       {"a light that lacks its type",
        set("/extensions/KHR_lights_punctual/lights", Json::array({Json::object()})),
-       said_missing + "extensions.KHR_lights_punctual.lights[0].type"},
+       missing_text + "extensions.KHR_lights_punctual.lights[0].type"},
       {"an animation whose channel has no path",
        [](GltfFile& file) {
          animate("translation", "LINEAR", 1)(file);
@@ -70,44 +70,44 @@ TEST_CASE("rules of glTF: properties, their types, ranges and lists") {
          second["channels"][0]["target"].erase("path");
          file.json["animations"].push_back(second);
        },
-       said_missing + "animations[1].channels[0].target.path"},
-      {"a name that is a number", set("/nodes/1/name", 5), said_mismatch + "nodes[1].name"},
+       missing_text + "animations[1].channels[0].target.path"},
+      {"a name that is a number", set("/nodes/1/name", 5), mismatch_text + "nodes[1].name"},
       {"extensions that are a list", set("/asset/extensions", Json::array()),
-       said_mismatch + "asset.extensions"},
+       mismatch_text + "asset.extensions"},
       {"a camera that is no object, and no node has", set("/cameras", {{{"perspective", 5}}}),
-       said_mismatch + "cameras[0].perspective"},
-      {"an image that is no object, and nothing shows", set("/images", {7}), said_mismatch + "images[0]"},
+       mismatch_text + "cameras[0].perspective"},
+      {"an image that is no object, and nothing shows", set("/images", {7}), mismatch_text + "images[0]"},
       {"a flag that is a number",
        add_object("accessors", {{"componentType", 5126}, {"type", "VEC2"}, {"count", 1}, {"normalized", 1}}),
-       said_mismatch + "accessors[8].normalized"},
+       mismatch_text + "accessors[8].normalized"},
       {"an index that is below 0", set("/textures", {{{"source", -1}}}),
-       said_mismatch + "textures[0].source"},
-      {"a list that is a number", set("/samplers", 5), said_mismatch + "samplers"},
+       mismatch_text + "textures[0].source"},
+      {"a list that is a number", set("/samplers", 5), mismatch_text + "samplers"},
       {"a view of no bytes", add_object("bufferViews", {{"buffer", 0}, {"byteLength", 0}}),
-       said_out_of_range + "bufferViews[8].byteLength"},
+       out_of_range_text + "bufferViews[8].byteLength"},
       {"a target of views that there is not", set("/bufferViews/0/target", 5),
-       said_out_of_range + "bufferViews[0].target"},
+       out_of_range_text + "bufferViews[0].target"},
       {"a sampler that nothing uses", set("/samplers", {{{"wrapS", 3}}}),
-       said_out_of_range + "samplers[0].wrapS"},
+       out_of_range_text + "samplers[0].wrapS"},
       {"sound values of samplers", set("/samplers", {{{"wrapS", 10497}, {"wrapT", 33071.0}}}), ""},
       {"an unknown type of accessor",
        add_object("accessors", {{"componentType", 5126}, {"type", "VEC5"}, {"count", 1}}),
-       said_out_of_range + "accessors[8].type"},
+       out_of_range_text + "accessors[8].type"},
       {"a matrix of 3 numbers in a node that is not shown", add_object("nodes", {{"matrix", {1, 0, 0}}}),
-       said_out_of_range + "nodes[2].matrix"},
+       out_of_range_text + "nodes[2].matrix"},
       {"an extension used twice", set("/extensionsUsed", {"KHR_materials_ior", "KHR_materials_ior"}),
-       said_twice + "extensionsUsed"},
+       twice_text + "extensionsUsed"},
       {"a joint that a skin lists twice",
-       [](GltfFile& file) { file.json["skins"][0] = {{"joints", {1, 1}}}; }, said_twice + "skins[0].joints"},
-      {"a skeleton that there is not", set("/skins/0/skeleton", 7), said_nowhere + "skins[0].skeleton"},
+       [](GltfFile& file) { file.json["skins"][0] = {{"joints", {1, 1}}}; }, twice_text + "skins[0].joints"},
+      {"a skeleton that there is not", set("/skins/0/skeleton", 7), nowhere_text + "skins[0].skeleton"},
       {"an image that there is not, in a texture that nothing shows", set("/textures", {{{"source", 0}}}),
-       said_nowhere + "textures[0].source"},
+       nowhere_text + "textures[0].source"},
       {"a material of an occlusion map that there is not",
        set("/materials/0/occlusionTexture", {{"index", 0}}),
-       "left out: occlusion maps (1); " + said_nowhere + "materials[0].occlusionTexture.index"},
+       "left out: occlusion maps (1); " + nowhere_text + "materials[0].occlusionTexture.index"},
       {"a slip in a property of an extension",
        set("/materials/0/extensions/KHR_materials_clearcoat", {{"clearCoatFactor", 1}}),
-       said_undefined + "materials[0].extensions.KHR_materials_clearcoat.clearCoatFactor"},
+       undefined_text + "materials[0].extensions.KHR_materials_clearcoat.clearCoatFactor"},
       {"an extension of materials in a node", set("/nodes/1/extensions/KHR_materials_unlit", Json::object()),
        "extensions of objects to which they do not apply, left out: 1, the first "
        "nodes[1].extensions.KHR_materials_unlit"},
@@ -148,11 +148,11 @@ TEST_CASE("rules of glTF: properties, their types, ranges and lists") {
        attribute("WEIGHTS_0", {1, double(NAN), 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, 5126, "VEC4", 4),
        "weights below 0 or not finite, set to 0: 1, the first " + attributes_at + ".WEIGHTS_0"},
       {"a morph target of fewer vertices, without weight", hidden_target("/accessors/7/count", 3),
-       said_hidden},
+       hidden_text},
       {"a morph target beyond its view, without weight", hidden_target("/accessors/7/byteOffset", 400),
-       said_hidden},
+       hidden_text},
       {"a morph target of another type, without weight", hidden_target("/accessors/7/type", "VEC4"),
-       said_hidden},
+       hidden_text},
       {"a sound morph target without weight", hidden_target("/meshes/0/weights", {0}), ""},
       {"animated weights of nothing", animate("weights", "LINEAR", 1),
        "animated weights of nodes without morph targets, left out: 1, the first "
@@ -274,11 +274,11 @@ TEST_CASE("rules of glTF: indices that begin a strip anew, and data of another t
   std::copy_n(square_positions.end() - 3, 3, many.end() - 3);
   file.add_positions(many);
   file.primitive()["indices"] = file.add({0, 1, 255}, 5121, "SCALAR", 1);
-  CHECK(said_of(file) ==
+  CHECK(message_of(file) ==
         "indices that begin a new strip in other readers, read as those of vertices: 1, the first "
         "accessors[1]");
   file.primitive()["indices"] = file.add({0, 1, 255}, 5123, "SCALAR", 1);
-  CHECK(said_of(file) == "");
+  CHECK(message_of(file) == "");
 
   const std::string text = square_file().gltf("data:text/plain;base64," + base64(square_file().data()));
   CHECK(import_sound(text, "a.gltf").warnings ==
@@ -292,26 +292,27 @@ TEST_CASE("rules of glTF: chunks of .glb") {
     glb.insert(at, Bytes().add(uint32_t(data.size())).add(type).text() + data);
     return glb.replace(8, 4, Bytes().add(uint32_t(glb.size())).text());
   };
-  const auto said = [](const std::string& glb) { return import_sound(glb, "a.glb").warnings; };
-  using Said = std::vector<std::string>;
+  const auto warnings_of = [](const std::string& glb) { return import_sound(glb, "a.glb").warnings; };
+  using Warnings = std::vector<std::string>;
   constexpr uint32_t binary = 0x004e4942, unknown = 0x12345678;
   const size_t second = sound.find("BIN") - 4;
-  CHECK(said(sound) == Said{});
-  CHECK(said(with_chunk(sound, sound.size(), unknown, "abcd")) ==
-        Said{"chunks of .glb of a type that glTF does not define, left out: 1, the first the file"});
-  CHECK(said(with_chunk(sound, second, unknown, "abcd")) ==
-        Said{"chunks of .glb of a type that glTF does not define, left out: 1, the first the file",
-             "binary chunks of .glb that are not the second chunk: 1, the first the file"});
+  CHECK(warnings_of(sound) == Warnings{});
+  CHECK(warnings_of(with_chunk(sound, sound.size(), unknown, "abcd")) ==
+        Warnings{"chunks of .glb of a type that glTF does not define, left out: 1, the first the file"});
+  CHECK(warnings_of(with_chunk(sound, second, unknown, "abcd")) ==
+        Warnings{"chunks of .glb of a type that glTF does not define, left out: 1, the first the file",
+                 "binary chunks of .glb that are not the second chunk: 1, the first the file"});
   std::string longer = sound + "ab";
   longer.replace(8, 4, Bytes().add(uint32_t(longer.size())).text());
-  CHECK(said(longer) == Said{"bytes after the last chunk of .glb, left out: 1, the first the file"});
+  CHECK(warnings_of(longer) ==
+        Warnings{"bytes after the last chunk of .glb, left out: 1, the first the file"});
 
   // A binary chunk in a file whose buffers are elsewhere.
   std::string json = square_file().gltf();
   while (json.size() % 4 != 0) json += ' ';
   std::string glb = Bytes().add(uint32_t(0x46546c67)).add(uint32_t(2)).add(uint32_t(20 + json.size())).text();
   glb += Bytes().add(uint32_t(json.size())).add(uint32_t(0x4e4f534a)).text() + json;
-  CHECK(said(glb) == Said{});
-  CHECK(said(with_chunk(glb, glb.size(), binary, "abcd")) ==
-        Said{"binary chunks of .glb that no buffer uses, left out: 1, the first the file"});
+  CHECK(warnings_of(glb) == Warnings{});
+  CHECK(warnings_of(with_chunk(glb, glb.size(), binary, "abcd")) ==
+        Warnings{"binary chunks of .glb that no buffer uses, left out: 1, the first the file"});
 }

@@ -67,16 +67,17 @@ TEST_CASE("EXT_mesh_gpu_instancing shows a mesh many times, each moved before it
 }
 
 TEST_CASE("EXT_mesh_gpu_instancing whose attributes do not fit together is refused") {
-  const std::string place = "a.gltf: error: nodes[0].extensions.EXT_mesh_gpu_instancing";
+  const std::string location = "a.gltf: error: nodes[0].extensions.EXT_mesh_gpu_instancing";
   GltfFile file = instanced_file();
   attributes_of(file)["SCALE"] = file.add({1, 1, 1}, 5126, "VEC3", 3);
-  CHECK(refusal(file.gltf(), "a.gltf") == place + ".attributes do not all have as many elements");
+  CHECK(refusal(file.gltf(), "a.gltf") == location + ".attributes do not all have as many elements");
   file = instanced_file();
   attributes_of(file)["ROTATION"] = file.add({0, 0, 0, 1, 0, 0, 0, 0}, 5126, "VEC4", 4);
-  CHECK(refusal(file.gltf(), "a.gltf") == place + ".attributes has a rotation of length 0");
+  CHECK(refusal(file.gltf(), "a.gltf") == location + ".attributes has a rotation of length 0");
   file = instanced_file();
   attributes_of(file) = Json::object();
-  CHECK(refusal(file.gltf(), "a.gltf") == place + ".attributes have none of TRANSLATION, ROTATION and SCALE");
+  CHECK(refusal(file.gltf(), "a.gltf") ==
+        location + ".attributes have none of TRANSLATION, ROTATION and SCALE");
   file.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"] = Json::object();
-  CHECK(refusal(file.gltf(), "a.gltf") == place + " has no attributes");
+  CHECK(refusal(file.gltf(), "a.gltf") == location + " has no attributes");
 }

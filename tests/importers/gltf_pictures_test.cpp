@@ -17,45 +17,45 @@ TEST_CASE("rules of glTF: samplers, and pictures without uv") {
   file.json["textures"] = {{{"source", 0}, {"sampler", 0}}};
   file.json["samplers"] = {{{"wrapS", 10497}, {"magFilter", 9729}}};
   file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
-  CHECK(said_of(file) == "");
+  CHECK(message_of(file) == "");
   file.json["samplers"][0]["wrapS"] = 5;
-  CHECK(said_of(file) == "a.gltf: error: samplers[0] has a wrapS that glTF does not define");
+  CHECK(message_of(file) == "a.gltf: error: samplers[0] has a wrapS that glTF does not define");
   file.json["samplers"][0] = {{"magFilter", 1}};
-  CHECK(said_of(file) == "a.gltf: error: samplers[0] has a magFilter that glTF does not define");
+  CHECK(message_of(file) == "a.gltf: error: samplers[0] has a magFilter that glTF does not define");
   file.json["samplers"][0] = {{"minFilter", 9988}};
-  CHECK(said_of(file) == "a.gltf: error: samplers[0] has a minFilter that glTF does not define");
+  CHECK(message_of(file) == "a.gltf: error: samplers[0] has a minFilter that glTF does not define");
   file.json["samplers"][0] = {{"minFilter", 9987}};
-  CHECK(said_of(file) == "");
+  CHECK(message_of(file) == "");
   file.json["samplers"][0] = Json::object();
   file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] = 1;
-  CHECK(said_of(file) ==
+  CHECK(message_of(file) ==
         "meshes without the uv that their material's picture needs: 1, the first meshes[0].primitives[0]");
 
   // A picture whose type is not the one that it states, and a picture that names two sources.
   Json& image = file.json["images"][0];
   file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] = 0;
   image["mimeType"] = "image/jpeg";
-  CHECK(said_of(file) ==
+  CHECK(message_of(file) ==
         "pictures of another type than their mimeType, decoded by their content: 1, the first images[0]");
   const Json as_it_was = image;
   const std::string tga =
       std::string(2, '\0') + "\2" + std::string(9, '\0') + std::string("\1\0\1\0\30\0abc", 9);
   image = {{"uri", "data:image/x-tga;base64," + base64(tga)}};
-  CHECK(said_of(file) ==
+  CHECK(message_of(file) ==
         "pictures that are neither PNG nor JPEG, decoded by their content: 1, the first images[0]");
   image = as_it_was;
   image["mimeType"] = "image/gif";
-  CHECK(said_of(file) ==
+  CHECK(message_of(file) ==
         "pictures of another type than their mimeType, decoded by their content: 1, the first images[0]");
   GltfFile in_view = file;
   in_view.json["images"][0] = {{"bufferView", in_view.add_view(picture)}};
   in_view.json["bufferViews"].back()["byteStride"] = 4;
-  CHECK(said_of(in_view) ==
+  CHECK(message_of(in_view) ==
         "pictures in views with a byteStride, which is ignored: 1, the first images[0]; pictures in views "
         "without a mimeType, decoded by their content: 1, the first images[0]");
   image["bufferView"] = 0;
   CHECK(
-      said_of(file) ==
+      message_of(file) ==
       "a picture was left out: a.gltf: error: images[0] has both a uri and a bufferView: it is one picture");
   image = {{"uri", image["uri"]}};
 

@@ -32,7 +32,7 @@ inline GltfFile rich_file() {
 }
 
 // The message of the file's refusal, or the file's warnings, or "".
-inline std::string said_of(const GltfFile& file) {
+inline std::string message_of(const GltfFile& file) {
   const std::string refused = refusal(file.gltf(), "a.gltf");
   if (refused != "accepted") return refused;
   std::string all;
@@ -45,7 +45,7 @@ inline std::string said_of(const GltfFile& file) {
 struct Rule {
   std::string name;
   std::function<void(GltfFile&)> breach;
-  std::string said;
+  std::string message;
 };
 
 inline std::function<void(GltfFile&)> set(const char* pointer, const Json& value) {
@@ -71,7 +71,7 @@ inline void check_rules(std::span<const Rule> table) {
     GltfFile file = rich_file();
     rule.breach(file);
     CAPTURE(rule.name);
-    CHECK(said_of(file) == rule.said);
+    CHECK(message_of(file) == rule.message);
   }
 }
 

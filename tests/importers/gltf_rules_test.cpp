@@ -8,12 +8,12 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-std::function<void(GltfFile&)> sparse(const std::vector<double>& places, const Json& count) {
+std::function<void(GltfFile&)> sparse(const std::vector<double>& indices, const Json& count) {
   return [=](GltfFile& file) {
     file.json["accessors"][positions]["sparse"] = {
         {"count", count},
-        {"indices", {{"bufferView", file.add_view(places, 5121)}, {"componentType", 5121}}},
-        {"values", {{"bufferView", file.add_view(std::vector<double>(3 * places.size(), 0.25), 5126)}}}};
+        {"indices", {{"bufferView", file.add_view(indices, 5121)}, {"componentType", 5121}}},
+        {"values", {{"bufferView", file.add_view(std::vector<double>(3 * indices.size(), 0.25), 5126)}}}};
   };
 }
 std::vector<double> with(std::vector<double> numbers, size_t at, double value) {
@@ -47,7 +47,7 @@ const std::string out_of_range =
 }  // namespace
 
 TEST_CASE("rules of glTF: what is said when each is broken") {
-  CHECK(said_of(rich_file()) == "");
+  CHECK(message_of(rich_file()) == "");
   const std::string error = "a.gltf: error: ";
   const std::vector<double> ones(16, 1), flat_normals = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
   const Rule table[] = {
@@ -351,12 +351,12 @@ TEST_CASE("rules of glTF: a kind is said once, with its count and first place") 
     file.json["nodes"].push_back({{"rotation", {0, 0, 0, 3}}});
     file.json["nodes"][0]["children"].push_back(i);
   }
-  CHECK(said_of(file) ==
+  CHECK(message_of(file) ==
         "rotations that are not of unit length, normalised: 38, the first nodes[2].rotation");
 
   // More positions than are remembered one by one.
   GltfFile many = square_file();
   for (int i = 0; i < 70'000; ++i) many.json["nodes"].push_back({{"name", i}});
-  CHECK(said_of(many) ==
+  CHECK(message_of(many) ==
         "values of another type than that of their property in glTF: 70000, the first nodes[1].name");
 }

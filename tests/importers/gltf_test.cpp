@@ -111,10 +111,10 @@ TEST_CASE("sparse accessors, upon data and upon nothing") {
     if (!base) positions.erase("bufferView");
     const std::vector<double> changes =
         base ? std::vector<double>{2, 2, 0} : std::vector<double>{1, 0, 0, 1, 1, 0, 0, 1, 0};
-    const std::vector<double> places = base ? std::vector<double>{2} : std::vector<double>{1, 2, 3};
+    const std::vector<double> indices = base ? std::vector<double>{2} : std::vector<double>{1, 2, 3};
     positions["sparse"] = {
-        {"count", places.size()},
-        {"indices", {{"bufferView", file.add_view(places, 5121)}, {"componentType", 5121}}},
+        {"count", indices.size()},
+        {"indices", {{"bufferView", file.add_view(indices, 5121)}, {"componentType", 5121}}},
         {"values", {{"bufferView", file.add_view(changes, 5126)}}}};
     const ImportedScene scene = import_sound(file.gltf(), "a.gltf");
     CHECK(signed_area(scene.meshes[0], {0, 0, 1}) == (base ? 4 : 2));
@@ -161,45 +161,47 @@ TEST_CASE("nodes that are their own ancestors, or have two parents, are refused"
 }
 
 TEST_CASE("wrong glTF is refused, and the place named") {
-  const auto said = [](const char* pointer, const Json& value) {
+  const auto message = [](const char* pointer, const Json& value) {
     GltfFile file = square_file();
     file.json[Json::json_pointer(pointer)] = value;
     return refusal(file.gltf(), "a.gltf");
   };
-  CHECK(said("/asset/version", "1.0") == "a.gltf: error: it is not glTF 2: its asset.version is \"1.0\"");
-  CHECK(said("/asset", 3) == "a.gltf: error: asset must be an object");
-  CHECK(said("/nodes/0/mesh", 1) == "a.gltf: error: nodes[0].mesh must be an index below 1");
-  CHECK(said("/nodes/0/mesh", -1) == "a.gltf: error: nodes[0].mesh must be an index below 1");
-  CHECK(said("/nodes/0/mesh", 0.5) == "a.gltf: error: nodes[0].mesh must be an index below 1");
-  CHECK(said("/nodes/0/scale", {1, 2}) == "a.gltf: error: nodes[0].scale must be a list of 3 numbers");
-  CHECK(said("/nodes/0/scale", {1, "a", 2}) == "a.gltf: error: nodes[0].scale must be a list of 3 numbers");
-  CHECK(said("/nodes/0/rotation", {0, 0, 0, 0}) == "a.gltf: error: nodes[0] has a rotation of length 0");
-  CHECK(said("/nodes/0/matrix", {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}) ==
+  CHECK(message("/asset/version", "1.0") == "a.gltf: error: it is not glTF 2: its asset.version is \"1.0\"");
+  CHECK(message("/asset", 3) == "a.gltf: error: asset must be an object");
+  CHECK(message("/nodes/0/mesh", 1) == "a.gltf: error: nodes[0].mesh must be an index below 1");
+  CHECK(message("/nodes/0/mesh", -1) == "a.gltf: error: nodes[0].mesh must be an index below 1");
+  CHECK(message("/nodes/0/mesh", 0.5) == "a.gltf: error: nodes[0].mesh must be an index below 1");
+  CHECK(message("/nodes/0/scale", {1, 2}) == "a.gltf: error: nodes[0].scale must be a list of 3 numbers");
+  CHECK(message("/nodes/0/scale", {1, "a", 2}) ==
+        "a.gltf: error: nodes[0].scale must be a list of 3 numbers");
+  CHECK(message("/nodes/0/rotation", {0, 0, 0, 0}) == "a.gltf: error: nodes[0] has a rotation of length 0");
+  CHECK(message("/nodes/0/matrix", {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}) ==
         "a.gltf: error: nodes[0] has a matrix that is not affine");
-  CHECK(said("/nodes", 7) == "a.gltf: error: nodes must be a list");
-  CHECK(said("/scene", 5) == "a.gltf: error: scene must be an index below 1");
-  CHECK(said("/meshes/0/primitives/0/mode", 9) ==
+  CHECK(message("/nodes", 7) == "a.gltf: error: nodes must be a list");
+  CHECK(message("/scene", 5) == "a.gltf: error: scene must be an index below 1");
+  CHECK(message("/meshes/0/primitives/0/mode", 9) ==
         "a.gltf: error: meshes[0].primitives[0] has a mode that glTF does not define");
-  CHECK(said("/meshes/0/primitives/0/indices", 0) ==
+  CHECK(message("/meshes/0/primitives/0/indices", 0) ==
         "a.gltf: error: accessors[0] contains indices, which must be unsigned integers");
-  CHECK(said("/meshes/0/primitives/0/attributes/NORMAL", 1) ==
+  CHECK(message("/meshes/0/primitives/0/attributes/NORMAL", 1) ==
         "a.gltf: error: accessors[1] contains NORMAL, which cannot be componentType 5123");
-  CHECK(said("/accessors/0/type", "VEC2") == "a.gltf: error: accessors[0] must be of type VEC3");
-  CHECK(said("/accessors/0/count", 3) ==
+  CHECK(message("/accessors/0/type", "VEC2") == "a.gltf: error: accessors[0] must be of type VEC3");
+  CHECK(message("/accessors/0/count", 3) ==
         "a.gltf: error: meshes[0].primitives[0] refers to vertex 3, but there are 3, counted from 0");
-  CHECK(said("/accessors/0/count", 5) ==
+  CHECK(message("/accessors/0/count", 5) ==
         "a.gltf: error: accessors[0] reaches beyond the end of its bufferView");
-  CHECK(said("/accessors/0/count", 9007199254740992) ==
+  CHECK(message("/accessors/0/count", 9007199254740992) ==
         "a.gltf: error: accessors[0] reaches beyond the end of its bufferView");
-  CHECK(said("/accessors/0/byteOffset", 9007199254740992) ==
+  CHECK(message("/accessors/0/byteOffset", 9007199254740992) ==
         "a.gltf: error: accessors[0] reaches beyond the end of its bufferView");
-  CHECK(said("/accessors/0/componentType", 5124) ==
+  CHECK(message("/accessors/0/componentType", 5124) ==
         "a.gltf: error: accessors[0] has a componentType that glTF does not define");
-  CHECK(said("/bufferViews/0/byteStride", 4) ==
+  CHECK(message("/bufferViews/0/byteStride", 4) ==
         "a.gltf: error: accessors[0] has elements of 12 bytes, 4 apart");
-  CHECK(said("/bufferViews/0/byteLength", 1000) ==
+  CHECK(message("/bufferViews/0/byteLength", 1000) ==
         "a.gltf: error: bufferViews[0] extends to byte 1000 of a buffer that has 60");
-  CHECK(said("/bufferViews/0/buffer", 3) == "a.gltf: error: bufferViews[0].buffer must be an index below 1");
+  CHECK(message("/bufferViews/0/buffer", 3) ==
+        "a.gltf: error: bufferViews[0].buffer must be an index below 1");
 }
 
 TEST_CASE("damaged files are refused") {

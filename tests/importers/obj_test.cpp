@@ -38,21 +38,21 @@ TEST_CASE("faces may come before their vertices, and a file needs no line break 
 }
 
 TEST_CASE("wrong OBJ is refused at its line and column") {
-  const auto said = [](const std::string& rest) { return refusal(square + rest, "a.obj"); };
-  CHECK(said("f 1 2 5") == "a.obj:5:7: error: there is no vertex 5: the file has 4");
-  CHECK(said("f 1 2 0") == "a.obj:5:7: error: indices count from 1, so 0 is not allowed");
-  CHECK(said("f 1 2 -5") == "a.obj:5:7: error: there is no vertex -5: the file has 4 up to here");
-  CHECK(said("f 1/1 2/1 3/1") == "a.obj:5:5: error: there is no texture coordinate 1: the file has 0");
-  CHECK(said("f 1//1 2//1 3//1") == "a.obj:5:6: error: there is no normal 1: the file has 0");
-  CHECK(said("f 1 2 x") == "a.obj:5:7: error: this is not an index of a vertex");
-  CHECK(said("f 1 2 3.5") == "a.obj:5:8: error: a corner of a face is written 1, 1/2, 1//3 or 1/2/3");
-  CHECK(said("f 1 2 99999999999999999999") == "a.obj:5:7: error: this is not an index of a vertex");
-  CHECK(said("f 1 2 4294967296") == "a.obj:5:7: error: there is no vertex 4294967296");
-  CHECK(said("v 1 2") == "a.obj:5:1: error: a vertex has three numbers");
-  CHECK(said("v 1,5 2 3") == "a.obj:5:3: error: this is not a number");
-  CHECK(said("v 1 2 3x") == "a.obj:5:7: error: this is not a number");
-  CHECK(said("vn 1 2") == "a.obj:5:1: error: a normal has three numbers");
-  CHECK(said("") == "a.obj: error: it has no visible triangles");
+  const auto message = [](const std::string& rest) { return refusal(square + rest, "a.obj"); };
+  CHECK(message("f 1 2 5") == "a.obj:5:7: error: there is no vertex 5: the file has 4");
+  CHECK(message("f 1 2 0") == "a.obj:5:7: error: indices count from 1, so 0 is not allowed");
+  CHECK(message("f 1 2 -5") == "a.obj:5:7: error: there is no vertex -5: the file has 4 up to here");
+  CHECK(message("f 1/1 2/1 3/1") == "a.obj:5:5: error: there is no texture coordinate 1: the file has 0");
+  CHECK(message("f 1//1 2//1 3//1") == "a.obj:5:6: error: there is no normal 1: the file has 0");
+  CHECK(message("f 1 2 x") == "a.obj:5:7: error: this is not an index of a vertex");
+  CHECK(message("f 1 2 3.5") == "a.obj:5:8: error: a corner of a face is written 1, 1/2, 1//3 or 1/2/3");
+  CHECK(message("f 1 2 99999999999999999999") == "a.obj:5:7: error: this is not an index of a vertex");
+  CHECK(message("f 1 2 4294967296") == "a.obj:5:7: error: there is no vertex 4294967296");
+  CHECK(message("v 1 2") == "a.obj:5:1: error: a vertex has three numbers");
+  CHECK(message("v 1,5 2 3") == "a.obj:5:3: error: this is not a number");
+  CHECK(message("v 1 2 3x") == "a.obj:5:7: error: this is not a number");
+  CHECK(message("vn 1 2") == "a.obj:5:1: error: a normal has three numbers");
+  CHECK(message("") == "a.obj: error: it has no visible triangles");
   CHECK(contains(refusal("", "a.obj"), "no visible triangles"));
 }
 

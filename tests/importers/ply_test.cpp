@@ -152,32 +152,35 @@ TEST_CASE("strips of triangles turn every other one") {
 }
 
 TEST_CASE("wrong PLY is refused, with its place in a text") {
-  const auto said = [](const std::string& bytes) { return refusal(bytes, "a.ply"); };
+  const auto message = [](const std::string& bytes) { return refusal(bytes, "a.ply"); };
   const std::string good = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
-  CHECK(said("") == "a.ply:1:1: error: the header ends without `end_header`");
-  CHECK(said("plx\n") == "a.ply:1:1: error: this is not a PLY file: it does not start with `ply`");
-  CHECK(said("ply\nformat ascii 2.0\n") ==
+  CHECK(message("") == "a.ply:1:1: error: the header ends without `end_header`");
+  CHECK(message("plx\n") == "a.ply:1:1: error: this is not a PLY file: it does not start with `ply`");
+  CHECK(message("ply\nformat ascii 2.0\n") ==
         "a.ply:2:1: error: write format ascii, binary_little_endian or binary_big_endian, and 1.0");
-  CHECK(said("ply\nend_header\n") == "a.ply:2:1: error: the header has no `format`");
-  CHECK(said("ply\nproperty int x\n") == "a.ply:2:1: error: a property must come after an element");
-  CHECK(said("ply\nelement vertex -1\n") == "a.ply:2:1: error: `-1` is not a number of elements");
-  CHECK(said("ply\nelement vertex 1\nproperty quad x\n") == "a.ply:3:1: error: `quad` is not a type of PLY");
-  CHECK(contains(said(header("ascii", "element vertex 1\nproperty int x\n") + "1\n"), "x, y and z"));
-  CHECK(contains(said(header("ascii", "element face 1\nproperty int x\n") + "1\n"),
+  CHECK(message("ply\nend_header\n") == "a.ply:2:1: error: the header has no `format`");
+  CHECK(message("ply\nproperty int x\n") == "a.ply:2:1: error: a property must come after an element");
+  CHECK(message("ply\nelement vertex -1\n") == "a.ply:2:1: error: `-1` is not a number of elements");
+  CHECK(message("ply\nelement vertex 1\nproperty quad x\n") ==
+        "a.ply:3:1: error: `quad` is not a type of PLY");
+  CHECK(contains(message(header("ascii", "element vertex 1\nproperty int x\n") + "1\n"), "x, y and z"));
+  CHECK(contains(message(header("ascii", "element face 1\nproperty int x\n") + "1\n"),
                  "no list of vertex_indices"));
-  CHECK(contains(
-      said(header("ascii", "element vertex 1\nproperty int x\nproperty int y\nproperty int z\n") + "1 2 3\n"),
-      "it has no faces: points alone cannot be seen"));
-  CHECK(said(ascii(good, "4 0 1 2 9")) ==
+  CHECK(
+      contains(message(header("ascii", "element vertex 1\nproperty int x\nproperty int y\nproperty int z\n") +
+                       "1 2 3\n"),
+               "it has no faces: points alone cannot be seen"));
+  CHECK(message(ascii(good, "4 0 1 2 9")) ==
         "a.ply: error: a face refers to vertex 9, but there are 4, counted from 0");
-  CHECK(said(ascii(good, "4 0 1 2 -1")) ==
+  CHECK(message(ascii(good, "4 0 1 2 -1")) ==
         "a.ply: error: a face refers to vertex -1, but there are 4, counted from 0");
-  CHECK(said(ascii(good, "4 0 1 2 1.5")) == "a.ply:15:12: error: 1.5 is not an index of a vertex");
-  CHECK(said(ascii(good, "4 0 1 x 3")) == "a.ply:15:7: error: this is not a number");
-  CHECK(said(ascii(good, "4 0 1 2")) == "a.ply:15:2: error: a list of 4 is longer than the rest of the file");
-  CHECK(said(ascii(good, "9 0 1 2 3")) ==
+  CHECK(message(ascii(good, "4 0 1 2 1.5")) == "a.ply:15:12: error: 1.5 is not an index of a vertex");
+  CHECK(message(ascii(good, "4 0 1 x 3")) == "a.ply:15:7: error: this is not a number");
+  CHECK(message(ascii(good, "4 0 1 2")) ==
+        "a.ply:15:2: error: a list of 4 is longer than the rest of the file");
+  CHECK(message(ascii(good, "9 0 1 2 3")) ==
         "a.ply:15:2: error: a list of 9 is longer than the rest of the file");
-  CHECK(said(ascii(good, "-4 0 1 2 3")) == "a.ply:15:3: error: the length of a list must be an integer");
+  CHECK(message(ascii(good, "-4 0 1 2 3")) == "a.ply:15:3: error: the length of a list must be an integer");
 }
 
 TEST_CASE("a header may promise what it likes") {

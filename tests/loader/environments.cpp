@@ -22,18 +22,18 @@ image::Image gray(int width, int height, float value, int channels = 3) {
 
 // The error, without its position, of a scene in the folder with that [environment] table; or the first
 // warning.
-std::string said_of(const test::Folder& folder, const std::string& table, const std::string& rest = "") {
+std::string message_of(const test::Folder& folder, const std::string& table, const std::string& rest = "") {
   const std::string scene = folder.write("scene.toml", "[environment]\n" + table + "\n" + rest);
-  std::string said;
+  std::string message;
   try {
     for (const Diagnostic& warning : load_scene(scene).warnings)
       if (warning.position.line > 0) return "warning: " + warning.message;
     return "accepted";
   } catch (const InputError& error) {
-    said = error.what();
+    message = error.what();
   }
-  said = said.substr(said.find("error: ") + 7);
-  return said.substr(0, said.find('\n'));
+  message = message.substr(message.find("error: ") + 7);
+  return message.substr(0, message.find('\n'));
 }
 
 std::shared_ptr<const EnvironmentMap> loaded(const test::Folder& folder, const std::string& table) {
@@ -69,46 +69,46 @@ TEST_CASE("an environment's texels arrive, scaled and turned, from each kind of 
 
 TEST_CASE("texels that are no light are an error, with their count and first place; a black file a warning") {
   const test::Folder folder;
-  const auto said = [&](const auto& spoil) {
+  const auto message = [&](const auto& spoil) {
     image::Image picture = gray(4, 3, 1);
     spoil(picture);
     image::write_image(folder / "a.pfm", picture);
-    return said_of(folder, "image = 'a.pfm'");
+    return message_of(folder, "image = 'a.pfm'");
   };
   const std::string wanted = "out of range: light must be from 0 to 1e+15; the first is ";
-  CHECK(said([](image::Image&) {}) == "accepted");
-  CHECK(said([](image::Image& picture) { picture.pixel(2, 1)[1] = std::nanf(""); }) ==
+  CHECK(message([](image::Image&) {}) == "accepted");
+  CHECK(message([](image::Image& picture) { picture.pixel(2, 1)[1] = std::nanf(""); }) ==
         "1 value of the picture is " + wanted + "nan, in column 2 of row 1");
-  CHECK(said([](image::Image& picture) { picture.pixel(0, 2)[0] = picture.pixel(3, 2)[0] = -0.5f; }) ==
+  CHECK(message([](image::Image& picture) { picture.pixel(0, 2)[0] = picture.pixel(3, 2)[0] = -0.5f; }) ==
         "2 values of the picture are " + wanted + "-0.5, in column 0 of row 2");
-  CHECK(said([](image::Image& picture) {
+  CHECK(message([](image::Image& picture) {
           picture.pixel(3, 0)[2] = std::numeric_limits<float>::infinity();
         }) == "1 value of the picture is " + wanted + "inf, in column 3 of row 0");
-  CHECK(said([](image::Image& picture) { picture.pixel(0, 0)[0] = 2e15f; }) ==
+  CHECK(message([](image::Image& picture) { picture.pixel(0, 0)[0] = 2e15f; }) ==
         "1 value of the picture is " + wanted + "2e+15, in column 0 of row 0");
-  CHECK(said([](image::Image& picture) { picture = gray(4, 3, 0); }) ==
+  CHECK(message([](image::Image& picture) { picture = gray(4, 3, 0); }) ==
         "warning: the environment is black: it lights nothing");
-  CHECK(said([](image::Image& picture) { picture = gray(1, 1, 2); }) == "accepted");
+  CHECK(message([](image::Image& picture) { picture = gray(1, 1, 2); }) == "accepted");
 }
 
 TEST_CASE("a file that holds no light is an error at its name") {
   const test::Folder folder;
-  CHECK(said_of(folder, "image = 'none.hdr'") ==
+  CHECK(message_of(folder, "image = 'none.hdr'") ==
         "cannot read " + (folder / "none.hdr") + ": No such file or directory");
-  CHECK(said_of(folder, "image = 'a.png'") ==
+  CHECK(message_of(folder, "image = 'a.png'") ==
         (folder / "a.png") + ": a .png stores colours for a screen, not light; use a .hdr, .exr or .pfm");
-  CHECK(said_of(folder, "image = 'a.jpg'") ==
+  CHECK(message_of(folder, "image = 'a.jpg'") ==
         (folder / "a.jpg") + ": a picture's name must end in .png, .pfm, .hdr or .exr");
   folder.write("a.hdr", "nothing");
-  CHECK(said_of(folder, "image = 'a.hdr'") ==
+  CHECK(message_of(folder, "image = 'a.hdr'") ==
         "cannot read " + (folder / "a.hdr") + " as HDR: it ends within its header");
-  CHECK(said_of(folder, "image = '../a.hdr'")
+  CHECK(message_of(folder, "image = '../a.hdr'")
             .ends_with("lies outside the scene's folder; --allow-path DIR allows other ones"));
-  CHECK(said_of(folder, "imagee = 'a.hdr'").starts_with("[environment] of type image needs `image`"));
-  CHECK(said_of(folder, "share = 1\nimage = 'a.hdr'") ==
+  CHECK(message_of(folder, "imagee = 'a.hdr'").starts_with("[environment] of type image needs `image`"));
+  CHECK(message_of(folder, "share = 1\nimage = 'a.hdr'") ==
         "`share` must be a number above 0 and below 1, not 1");
   image::write_image(folder / "b.pfm", gray(2, 1, 1));
-  CHECK(said_of(folder, "image = 'b.pfm'", "[render]\nbackground = 1") ==
+  CHECK(message_of(folder, "image = 'b.pfm'", "[render]\nbackground = 1") ==
         "[environment] takes the place of `background`: a scene has one or the other");
 }
 
@@ -125,11 +125,11 @@ TEST_CASE("a sky has its sun among the lights, the last; by night there is none"
   CHECK(load_scene(folder.write("night.toml", "[environment]\ntype = 'sky'\nsun = [0, -1, -9]\n"))
             .lights.empty());
 
-  CHECK(said_of(folder, "type = 'sky'").starts_with("[environment] of type sky needs `sun`"));
-  CHECK(said_of(folder, "type = 'sky'\nsun = [0, 0, 0]") == "`sun` has no length");
-  CHECK(said_of(folder, "type = 'sky'\nsun = [0, 1, 0]\nrotate = 3") ==
+  CHECK(message_of(folder, "type = 'sky'").starts_with("[environment] of type sky needs `sun`"));
+  CHECK(message_of(folder, "type = 'sky'\nsun = [0, 0, 0]") == "`sun` has no length");
+  CHECK(message_of(folder, "type = 'sky'\nsun = [0, 1, 0]\nrotate = 3") ==
         "`rotate` is for type = \"image\" only");
-  CHECK(said_of(folder, "type = 'sky'\nsun = [0, 1, 0]\nscale = 1e10") == "`scale` must be at most 1e9");
-  CHECK(said_of(folder, "type = 'sky'\nsun = [0, 1, 0]\nscale = 0") ==
+  CHECK(message_of(folder, "type = 'sky'\nsun = [0, 1, 0]\nscale = 1e10") == "`scale` must be at most 1e9");
+  CHECK(message_of(folder, "type = 'sky'\nsun = [0, 1, 0]\nscale = 0") ==
         "warning: the environment is black: it lights nothing");
 }

@@ -61,6 +61,6 @@ TEST_CASE("groups that multiply beyond all memory are refused before they fill i
     for (int i = 0; i < 100; ++i) text += fmt::format("[{{ translate = [{}, 0, 0] }}],", i);
     text += "] }\n";
   }
-  const std::string said = refused(text + sphere(table + ".sphere", 1));
-  CHECK_MESSAGE(said.find("objects; at most 67108864 are possible") != std::string::npos, said);
+  const std::string message = refused(text + sphere(table + ".sphere", 1));
+  CHECK_MESSAGE(message.find("objects; at most 67108864 are possible") != std::string::npos, message);
 }

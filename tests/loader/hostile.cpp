@@ -78,7 +78,7 @@ TEST_CASE("large input") {
 }
 
 TEST_CASE("keys and values are bounded, over all files of a scene, and the place is said") {
-  const auto said = [](const std::string& text) -> std::string {
+  const auto message = [](const std::string& text) -> std::string {
     try {
       parse_scene(text, "scene.toml");
     } catch (const InputError& error) {
@@ -89,14 +89,14 @@ TEST_CASE("keys and values are bounded, over all files of a scene, and the place
   };
   // Lists of numbers, tables, keys of two parts, headers of two.
   constexpr std::string_view much = ": error: the scene has more keys and values than eyeray reads";
-  const auto starts = [&](const std::string& text, const std::string& place) {
+  const auto starts = [&](const std::string& text, const std::string& location) {
     CAPTURE(text.substr(0, 200));
-    return text.starts_with(place + std::string(much));
+    return text.starts_with(location + std::string(much));
   };
-  CHECK(starts(said("x = [\n" + std::string(size_t{1} << 25, ',') + "]"), "scene.toml:2:33554423"));
-  CHECK(starts(said("x = [\n" + repeat("{},", 6'800'000) + "]"), "scene.toml:2:20132653"));
-  CHECK(starts(said(repeat("k.k=1\n", 2'100'000)), "scene.toml:2097153:4"));
-  CHECK(starts(said(repeat("[[a.b]]\n", 2'800'000)), "scene.toml:2796203:4"));
+  CHECK(starts(message("x = [\n" + std::string(size_t{1} << 25, ',') + "]"), "scene.toml:2:33554423"));
+  CHECK(starts(message("x = [\n" + repeat("{},", 6'800'000) + "]"), "scene.toml:2:20132653"));
+  CHECK(starts(message(repeat("k.k=1\n", 2'100'000)), "scene.toml:2097153:4"));
+  CHECK(starts(message(repeat("[[a.b]]\n", 2'800'000)), "scene.toml:2796203:4"));
 
   // Text in strings and comments does not count, and floats in rows of a list do not count as keys.
   TreeBudget budget;

@@ -144,23 +144,23 @@ TEST_CASE("a file that is no picture is an error at its name") {
   REQUIRE(mkfifo((folder / "pipe.png").c_str(), 0600) == 0);
   folder.write("long.png", "");
   fs::resize_file(folder / "long.png", (size_t{1} << 30) + 1);
-  const auto said_of = [&](const std::string& name) {
+  const auto message_of = [&](const std::string& name) {
     const std::string scene = folder.write("scene.toml", scene_with("{ image = \"" + name + "\" }"));
-    const std::string said = refusal(scene);
+    const std::string message = refusal(scene);
     const std::string start = scene + ":4:21: error: ";
-    REQUIRE(said.starts_with(start));
-    return said.substr(start.size(), said.find('\n') - start.size());
+    REQUIRE(message.starts_with(start));
+    return message.substr(start.size(), message.find('\n') - start.size());
   };
   const auto unreadable = [&](const std::string& name) { return "cannot read " + (folder / name) + ": "; };
-  CHECK(said_of("b.png") == unreadable("b.png") + "No such file or directory");
-  CHECK(said_of("text.png") == unreadable("text.png") + "it is not a PNG, JPEG, BMP or TGA");
-  CHECK(said_of("short.png").starts_with(unreadable("short.png") + "it is damaged ("));
-  CHECK(said_of("folder.png") == unreadable("folder.png") + "it is a folder");
-  CHECK(said_of("pipe.png") == unreadable("pipe.png") + "it is not a regular file");
-  CHECK(said_of("long.png") ==
+  CHECK(message_of("b.png") == unreadable("b.png") + "No such file or directory");
+  CHECK(message_of("text.png") == unreadable("text.png") + "it is not a PNG, JPEG, BMP or TGA");
+  CHECK(message_of("short.png").starts_with(unreadable("short.png") + "it is damaged ("));
+  CHECK(message_of("folder.png") == unreadable("folder.png") + "it is a folder");
+  CHECK(message_of("pipe.png") == unreadable("pipe.png") + "it is not a regular file");
+  CHECK(message_of("long.png") ==
         unreadable("long.png") + "it has 1073741825 bytes; the most is 1073741824 (1 GiB)");
-  CHECK(said_of("") == "`image` needs the name of a file");
-  CHECK(said_of("a.png\\u0000") == "`image` needs the name of a file");
+  CHECK(message_of("") == "`image` needs the name of a file");
+  CHECK(message_of("a.png\\u0000") == "`image` needs the name of a file");
 }
 
 TEST_CASE("all images of a scene share their pixels, each setting of one counted; the place is said") {

@@ -109,13 +109,13 @@ TEST_CASE("an include that cannot be read is an error at its name") {
   const Folder folder;
   folder.write("parts.toml", "");
   const std::string main = folder.write("main.toml", "include = [\n  'part.toml',\n  '.',\n  '',\n]");
-  const std::string said = refusal(main);
-  CHECK(said.find(main + ":2:3: error: cannot read the scene " + (folder / "part.toml") +
-                  ": No such file or directory; did you mean " + (folder / "parts.toml") + "?") !=
+  const std::string message = refusal(main);
+  CHECK(message.find(main + ":2:3: error: cannot read the scene " + (folder / "part.toml") +
+                     ": No such file or directory; did you mean " + (folder / "parts.toml") + "?") !=
         std::string::npos);
-  CHECK(said.find(":3:3: error: cannot read the scene ") != std::string::npos);
-  CHECK(said.find("it is a folder") != std::string::npos);
-  CHECK(said.find(main + ":4:3: error: `include` needs the name of a file") != std::string::npos);
+  CHECK(message.find(":3:3: error: cannot read the scene ") != std::string::npos);
+  CHECK(message.find("it is a folder") != std::string::npos);
+  CHECK(message.find(main + ":4:3: error: `include` needs the name of a file") != std::string::npos);
   CHECK(refusal(folder.write("list.toml", "include = ['parts.toml', 3]"))
             .find("`include` must be a file name or a list of them") != std::string::npos);
 }

@@ -219,8 +219,9 @@ TEST_CASE("parts of CSG objects count as kept objects") {
       "[[group.csg]]\nmaterial = \"wall\"\n[[group.csg.minus.sphere]]\ncenter = [0, 0, 0]\n"
       "radius = 1\n" +
       batch(10'000);
-  const std::string said = refused("[render]\ngroups = \"flat\"\n" + text);
-  CHECK_MESSAGE(says(said, "batches and groups make 100020001 objects; at most 67108864 are possible"), said);
+  const std::string message = refused("[render]\ngroups = \"flat\"\n" + text);
+  CHECK_MESSAGE(says(message, "batches and groups make 100020001 objects; at most 67108864 are possible"),
+                message);
 }
 
 // Shapes in a group that become too thin, too far or too distorted only under the group's map into the world.
@@ -257,14 +258,14 @@ TEST_CASE("shapes under a group's map are legal or not, however the group is kep
   for (const auto& [map, shape, wrong] : cases) {
     const std::string text(shape);
     CAPTURE(text);
-    std::string said[2];
+    std::string messages[2];
     for (const bool once : {false, true}) {
-      said[once] =
+      messages[once] =
           refused(fmt::format("[render]\ngroups = \"{}\"\n[[group]]\nbatch = {{ transform = [[{}], [{}]] "
                               "}}\n{}material = \"wall\"\n",
                               once ? "instanced" : "flat", map, map, shape));
     }
-    CHECK(said[0] == said[1]);
-    CHECK(says(said[1], wrong));
+    CHECK(messages[0] == messages[1]);
+    CHECK(says(messages[1], wrong));
   }
 }

@@ -62,7 +62,7 @@ Scene load(const std::string& file, const std::vector<std::string>& defines = {}
   return load_scene(file, overrides);
 }
 
-Vec3 place(const Instance& instance) {
+Vec3 position(const Instance& instance) {
   return Vec3(instance.transform[3]);
 }
 
@@ -77,9 +77,9 @@ TEST_CASE("a mesh shows its file's animation at the frame's moment") {
       folder.write("scene.toml",
                    std::string(sun) + "[animation]\nframes_per_second = 8\n[[mesh]]\nfile = 'walker.gltf'\n");
   const auto at = [&](const char* frame) {
-    return place(load(file, {std::string("animation.frame=") + frame}).instances.at(0));
+    return position(load(file, {std::string("animation.frame=") + frame}).instances.at(0));
   };
-  CHECK(place(load(file).instances.at(0)) == Vec3(0, 0, 0));  // and not the position at rest
+  CHECK(position(load(file).instances.at(0)) == Vec3(0, 0, 0));  // and not the position at rest
   CHECK(at("-3") == Vec3(0, 0, 0));
   CHECK(at("8") == Vec3(0, 0, 0));
   CHECK(at("10") == Vec3(2, 0, 0));
@@ -108,14 +108,14 @@ loop = true
 )");
   const Scene scene = load(file);
   REQUIRE(scene.instances.size() == 6);
-  CHECK(place(scene.instances[0]) == Vec3(0, 4, 0));
-  CHECK(place(scene.instances[1]) == Vec3(4, 0, 0));
-  CHECK(place(scene.instances[2]) == Vec3(0, 0, 5));
-  CHECK(place(scene.instances[3]) == Vec3(0, 4, 0));
-  CHECK(place(scene.instances[4]) == Vec3(4, 0, 0));
-  CHECK(place(scene.instances[5]) == Vec3(4, 0, 0));
-  CHECK(place(load(file, {"animation.frame=84"}).instances[5]) == Vec3(4, 0, 0));  // 3.5 s
-  CHECK(place(load(file, {"animation.frame=84"}).instances[4]) == Vec3(8, 0, 0));
+  CHECK(position(scene.instances[0]) == Vec3(0, 4, 0));
+  CHECK(position(scene.instances[1]) == Vec3(4, 0, 0));
+  CHECK(position(scene.instances[2]) == Vec3(0, 0, 5));
+  CHECK(position(scene.instances[3]) == Vec3(0, 4, 0));
+  CHECK(position(scene.instances[4]) == Vec3(4, 0, 0));
+  CHECK(position(scene.instances[5]) == Vec3(4, 0, 0));
+  CHECK(position(load(file, {"animation.frame=84"}).instances[5]) == Vec3(4, 0, 0));  // 3.5 s
+  CHECK(position(load(file, {"animation.frame=84"}).instances[4]) == Vec3(8, 0, 0));
   // If every shown file is at rest, the scene has no animation.
   const std::string still =
       folder.write("still.toml", std::string(sun) + "[[mesh]]\nfile = 'walker.gltf'\nanimation = 'none'\n");
@@ -126,7 +126,7 @@ TEST_CASE("an animation that a file does not have is an error at the key, and na
   const Folder folder;
   walker(folder);
   folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
-  const auto said = [&](const char* table) {
+  const auto message = [&](const char* table) {
     const std::string file = folder.write("scene.toml", std::string("[[mesh]]\n") + table);
     try {
       load(file);
@@ -136,31 +136,31 @@ TEST_CASE("an animation that a file does not have is an error at the key, and na
     }
     return std::string("accepted");
   };
-  CHECK(said("file = 'walker.gltf'\nanimation = 'walk'") ==
+  CHECK(message("file = 'walker.gltf'\nanimation = 'walk'") ==
         "3:13: error: the file has no animation \"walk\"; it has \"Walk\", \"Run\"");
-  CHECK(said("file = 'walker.gltf'\nanimation = '2'") ==
+  CHECK(message("file = 'walker.gltf'\nanimation = '2'") ==
         "3:13: error: the file has no animation \"2\"; it has \"Walk\", \"Run\"");
-  CHECK(said("file = 'a.obj'\nanimation = 'Walk'") == "3:13: error: the file has no animations");
-  CHECK(said("file = 'a.obj'\nanimation = 'none'") == "accepted");
-  CHECK(said("file = 'walker.gltf'\nanimation = 1") == "3:13: error: `animation` must be a string, not 1");
-  CHECK(said("file = 'walker.gltf'\nloop = 1") == "3:8: error: `loop` must be true or false, not 1");
+  CHECK(message("file = 'a.obj'\nanimation = 'Walk'") == "3:13: error: the file has no animations");
+  CHECK(message("file = 'a.obj'\nanimation = 'none'") == "accepted");
+  CHECK(message("file = 'walker.gltf'\nanimation = 1") == "3:13: error: `animation` must be a string, not 1");
+  CHECK(message("file = 'walker.gltf'\nloop = 1") == "3:8: error: `loop` must be true or false, not 1");
 }
 
 TEST_CASE("a file that is itself the scene moves too, before a camera that stands still") {
   const Folder folder;
   const std::string file = walker(folder);
   const Scene first = load(file), later = load(file, {"animation.frame=36"});
-  CHECK(place(first.instances.at(0)) == Vec3(0, 0, 0));
-  CHECK(place(later.instances.at(0)) == Vec3(4, 0, 0));
+  CHECK(position(first.instances.at(0)) == Vec3(0, 0, 0));
+  CHECK(position(later.instances.at(0)) == Vec3(4, 0, 0));
   CHECK(first.camera.eye == later.camera.eye);
   CHECK(first.animation.tracks == 1);
   CHECK(later.warnings.empty());
-  CHECK(place(load(file, {"animation.frames_per_second=12", "animation.frame=18"}).instances.at(0)) ==
+  CHECK(position(load(file, {"animation.frames_per_second=12", "animation.frame=18"}).instances.at(0)) ==
         Vec3(4, 0, 0));
   const Scene run = load(file, {"animation.frame=36", "mesh.0.animation=Run"});
-  CHECK(place(run.instances.at(0)) == Vec3(0, 4, 0));
+  CHECK(position(run.instances.at(0)) == Vec3(0, 4, 0));
   const Scene still = load(file, {"mesh.0.animation=none"});
-  CHECK(place(still.instances.at(0)) == Vec3(0, 0, 5));
+  CHECK(position(still.instances.at(0)) == Vec3(0, 0, 5));
   CHECK(still.animation.tracks == 0);
 
   // The file's own camera moves with its node.

@@ -89,30 +89,30 @@ TEST_CASE("a fault in a mesh is an error at its key") {
   folder.write("in/a.obj", square);
   folder.write("in/bad.obj", "v 0 0 0\nf 1 2 3\n");
   folder.write("outside.obj", square);
-  const auto said = [&](const std::string& table) {
+  const auto message = [&](const std::string& table) {
     const std::string scene = folder.write("in/scene.toml", "[[mesh]]\n" + table);
     const std::string text = refusal(scene);
     return text.starts_with(scene) ? text.substr(scene.size() + 1, text.find('\n') - scene.size() - 1) : text;
   };
-  CHECK(said("file = 'bad.obj'") ==
+  CHECK(message("file = 'bad.obj'") ==
         "2:8: error: " + (folder / "in/bad.obj") + ":2:7: there is no vertex 3: the file has 1");
-  CHECK(said("file = 'ab.obj'") == "2:8: error: cannot read the mesh " + (folder / "in/ab.obj") +
-                                       ": No such file or directory; did you mean " + (folder / "in/a.obj") +
-                                       "?");
-  CHECK(said("file = '../outside.obj'") ==
+  CHECK(message("file = 'ab.obj'") == "2:8: error: cannot read the mesh " + (folder / "in/ab.obj") +
+                                          ": No such file or directory; did you mean " +
+                                          (folder / "in/a.obj") + "?");
+  CHECK(message("file = '../outside.obj'") ==
         "2:8: error: ../outside.obj lies outside the scene's folder; --allow-path DIR allows other ones");
-  CHECK(said("file = ''") == "2:8: error: `file` needs the name of a file");
-  CHECK(contains(said("file = 'scene.toml'"), "a mesh file's name must end in .obj, .ply, .gltf or .glb"));
-  CHECK(said("smooth = 3") == "1:1: error: [[mesh]] needs `file`, a string");
-  CHECK(said("file = 'a.obj'\nsmooth = 181") ==
+  CHECK(message("file = ''") == "2:8: error: `file` needs the name of a file");
+  CHECK(contains(message("file = 'scene.toml'"), "a mesh file's name must end in .obj, .ply, .gltf or .glb"));
+  CHECK(message("smooth = 3") == "1:1: error: [[mesh]] needs `file`, a string");
+  CHECK(message("file = 'a.obj'\nsmooth = 181") ==
         "3:10: error: `smooth` must be a number from 0 to 180, not 181");
-  CHECK(said("file = 'a.obj'\nmaterial = 'x'") == "3:12: error: no [[material]] is named \"x\"");
-  CHECK(said("file = 'a.obj'\ntransform = [{ translate = [9e11, 9e11, 9e14] }]") ==
+  CHECK(message("file = 'a.obj'\nmaterial = 'x'") == "3:12: error: no [[material]] is named \"x\"");
+  CHECK(message("file = 'a.obj'\ntransform = [{ translate = [9e11, 9e11, 9e14] }]") ==
         "3:13: error: the transformed vertices are out of range (coordinates up to 1e12)");
-  CHECK(said("file = 'a.obj'\nradius = 3") ==
+  CHECK(message("file = 'a.obj'\nradius = 3") ==
         "3:1: error: unknown key `radius` in [[mesh]]; its keys are name, file, material, transform, smooth, "
         "animation, loop, batch");
-  CHECK(contains(said("file = 'a.obj'\nbatch = { radius = [3] }"),
+  CHECK(contains(message("file = 'a.obj'\nbatch = { radius = [3] }"),
                  "unknown key `radius` in the batch of [[mesh]]"));
   CHECK_THROWS_AS(parse_scene("[[mesh]]\nfile = 'a.obj'", "memory.toml"), InputError);
 }
@@ -163,8 +163,8 @@ TEST_CASE("a mesh file alone is a scene that frames it") {
     double most = 0;
     for (const Vec3& p : other.meshes[0].positions) {
       REQUIRE(glm::dot(p - other.camera.eye, camera_axes(other.camera).w) > 0);
-      const Vec2 place = test::place_seen(other, p) / half;
-      most = std::max({most, std::fabs(place.x), std::fabs(place.y)});
+      const Vec2 position = test::position_seen(other, p) / half;
+      most = std::max({most, std::fabs(position.x), std::fabs(position.y)});
     }
     CHECK(most == doctest::Approx(0.94));
   }

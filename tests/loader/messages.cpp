@@ -38,14 +38,14 @@ TEST_CASE("a wrong scene is refused with all that is wrong with it") {
   REQUIRE(scenes.size() >= 20);
   for (const auto& scene : scenes) {
     CAPTURE(scene);
-    std::string said;
+    std::string text;
     try {
       parse_scene(read(scene), "scene.toml");
     } catch (const InputError& error) {
       CHECK(error.code() == ExitCode::bad_input);
-      said = std::string(error.what()) + "\n";
+      text = std::string(error.what()) + "\n";
     }
-    CHECK(said == expected_for(scene));
+    CHECK(text == expected_for(scene));
   }
 }
 
@@ -54,11 +54,11 @@ TEST_CASE("a scene that is legal but hardly meant is loaded with warnings") {
   REQUIRE(scenes.size() >= 2);
   for (const auto& scene : scenes) {
     CAPTURE(scene);
-    std::string said;
+    std::string text;
     for (const Diagnostic& warning : parse_scene(read(scene), "scene.toml").warnings) {
       CHECK(warning.severity == Severity::warning);
-      said += format_diagnostic(warning) + "\n";
+      text += format_diagnostic(warning) + "\n";
     }
-    CHECK(said == expected_for(scene));
+    CHECK(text == expected_for(scene));
   }
 }

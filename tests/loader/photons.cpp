@@ -16,13 +16,13 @@ TEST_CASE("`sppm` refuses these scenes of the suite, and says where and why") {
     CAPTURE(line);
     const size_t middle = line.find(" | ");
     REQUIRE(middle != std::string::npos);
-    std::string said;
+    std::string message;
     try {
       load_scene(line.substr(0, middle), std::vector<Override>{{"render.integrator=\"sppm\""}});
     } catch (const InputError& error) {
-      said = error.what();
+      message = error.what();
     }
-    CHECK(said.substr(0, said.find('\n')) == line.substr(middle + 3));
+    CHECK(message.substr(0, message.find('\n')) == line.substr(middle + 3));
   }
   CHECK(scenes > 0);
 }

@@ -26,7 +26,7 @@ TEST_CASE("an edge does not excuse a value that is on neither side of it") {
 
 TEST_CASE("too many explained pixels fail, all of them explained") {
   // The picture with an edge along a whole column.
-  const Reference split = [](int x, int y, const Vec2& shift, rounding::Chance) {
+  const Reference split = [](int x, int y, const Vec2& shift, rounding::Coincidence) {
     Neighbour neighbour = picture_reference(x, y, shift);
     if (x + 0.5 + shift.x >= 40.5 + beyond) neighbour.samples[0].color *= 0.5;
     return neighbour;
@@ -45,7 +45,7 @@ TEST_CASE("an extreme between the usual places is looked for, in few pixels") {
   // In the first `columns` pixels of row 0, the picture is twice as bright if moved in a direction between
   // two of the 64 that are tried.
   const auto unexplained = [](int columns) {
-    const Reference wedge = [columns](int x, int y, const Vec2& shift, rounding::Chance) {
+    const Reference wedge = [columns](int x, int y, const Vec2& shift, rounding::Coincidence) {
       Neighbour neighbour = picture_reference(x, y, shift);
       const bool meets = std::fabs(std::atan2(shift.y, shift.x) - M_PI / 64) < M_PI / 200;
       if (x < columns && y == 0 && meets) neighbour.samples[0].color *= 2.0;
@@ -63,11 +63,11 @@ TEST_CASE("an extreme between the usual places is looked for, in few pixels") {
 
 TEST_CASE("unexamined pixels fail, even if all examined ones are explained") {
   // Seventy columns with an edge each: more pixels than are examined.
-  const Reference stripes = [](int x, int y, const Vec2& shift, rounding::Chance) {
+  const Reference stripes = [](int x, int y, const Vec2& shift, rounding::Coincidence) {
     Neighbour neighbour;
-    const double place = x + 0.5 + shift.x;
+    const double position = x + 0.5 + shift.x;
     neighbour.samples[0].color =
-        Vec3(place < 70 && std::fmod(place - beyond, 1) >= 0.5 ? 0.5 : 0.2, y / 100.0, 0);
+        Vec3(position < 70 && std::fmod(position - beyond, 1) >= 0.5 ? 0.5 : 0.2, y / 100.0, 0);
     return neighbour;
   };
   const Frame value = picture_frame(honest_shift, stripes), reference = picture_frame(Vec2(0.0), stripes);

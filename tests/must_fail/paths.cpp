@@ -53,7 +53,7 @@ TracedSample& sample_at(Frame& frame, int x, int y, int sample) {
 PathReference paths(double off = 0) {
   PathReference paths;
   paths.around = [](int sample) -> Reference {
-    return [sample](int x, int y, const Vec2& shift, rounding::Chance) {
+    return [sample](int x, int y, const Vec2& shift, rounding::Coincidence) {
       Neighbour neighbour;
       neighbour.samples = {{light_at(x + 0.5 + shift.x, y, sample), {2, 3}}};
       return neighbour;

@@ -177,13 +177,14 @@ e = 0.5
 n = 0.7
 material = "wall"
 )";
-  for (const char* place : {"{ translate = [0, 0, 0] }", "{ scale = 1e-4 }, { translate = [3e-4, 0, 1e-4] }",
-                            "{ scale = 1e4 }, { translate = [3e4, 1e4, -2e4] }",
-                            "{ scale = 1000 }, { translate = [148376, 1234, -223423] }",
-                            "{ matrix = [[1, 0.8, 0, 9], [0, 0.1, 0.5, 2], [0.3, 0, -3, 1]] }"}) {
+  for (const char* transform :
+       {"{ translate = [0, 0, 0] }", "{ scale = 1e-4 }, { translate = [3e-4, 0, 1e-4] }",
+        "{ scale = 1e4 }, { translate = [3e4, 1e4, -2e4] }",
+        "{ scale = 1000 }, { translate = [148376, 1234, -223423] }",
+        "{ matrix = [[1, 0.8, 0, 9], [0, 0.1, 0.5, 2], [0.3, 0, -3, 1]] }"}) {
     const Scene scene = stored(shapes + fmt::format("[[instance]]\ngroup = \"all\"\nbatch = {{ transform = "
                                                     "[[{}], [{{ translate = [0, 5e5, 0] }}]] }}\n",
-                                                    place),
+                                                    transform),
                                "instanced");
     const PackedScene packed = pack::pack(scene);
     REQUIRE(packed.instances.size() == 2);
@@ -208,7 +209,7 @@ material = "wall"
       ++left;
       again_hit += again.slot != NONE && again.id == hit.id;
     }
-    CAPTURE(place);
+    CAPTURE(transform);
     CHECK(again_hit == 0);
   }
 }

@@ -26,20 +26,20 @@ class HardScene {
   }
 
  private:
-  bool chance(double share) { return random_.uniform() < share; }
+  bool coin(double share) { return random_.uniform() < share; }
   size_t index(size_t count) { return size_t(random_.below(int(count))); }
 
   void build() {
-    size_ = chance(0.5) ? 1 : random_.log_uniform(1e-5, 1e5);
-    apart_ = chance(0.15) ? random_.direction() * size_ * random_.log_uniform(1e5, 1e7) : Vec3(0);
-    center_ = chance(0.5) ? Vec3(0) : random_.direction() * size_ * random_.log_uniform(1, 1e4);
-    grid_ = chance(0.4) ? size_ / 4 : 0;
-    scene_.camera.eye = chance(0.5) ? Vec3(0) : center_ + random_.point(2) * size_;
+    size_ = coin(0.5) ? 1 : random_.log_uniform(1e-5, 1e5);
+    apart_ = coin(0.15) ? random_.direction() * size_ * random_.log_uniform(1e5, 1e7) : Vec3(0);
+    center_ = coin(0.5) ? Vec3(0) : random_.direction() * size_ * random_.log_uniform(1, 1e4);
+    grid_ = coin(0.4) ? size_ / 4 : 0;
+    scene_.camera.eye = coin(0.5) ? Vec3(0) : center_ + random_.point(2) * size_;
     scene_.camera.target = scene_.camera.eye + Vec3(0, 0, -1);
-    if (chance(0.2)) scene_.render.triangle_method = TriangleMethod::moller_trumbore;
+    if (coin(0.2)) scene_.render.triangle_method = TriangleMethod::moller_trumbore;
     add(scene_, materials::make_phong({}));
     add(scene_, materials::make_dielectric({.shadow = 0.7}));
-    glass_ = chance(0.5) ? 0.5 : 0;
+    glass_ = coin(0.5) ? 0.5 : 0;
     const int kind = random_.below(12);
     if (kind == 0) {
       add_single();
@@ -47,17 +47,16 @@ class HardScene {
       add_nest();
     } else {
       add_spheres(random_.below(8));
-      if (chance(0.3))
-        add(scene_, shapes::make_plane(point(center_, size_), random_.direction()), material());
-      if (chance(0.4)) add_object_shapes(1 + random_.below(4));
-      if (chance(0.25)) add_csg_objects(1 + random_.below(4));
-      if (chance(0.7)) add_shapes(hard_triangles(1 + random_.below(20)));
-      if (chance(0.3)) add_polygons(1 + random_.below(5));
-      if (chance(0.6)) add_instances(1);
-      if (chance(0.6)) add_instances(2 + random_.below(4));
+      if (coin(0.3)) add(scene_, shapes::make_plane(point(center_, size_), random_.direction()), material());
+      if (coin(0.4)) add_object_shapes(1 + random_.below(4));
+      if (coin(0.25)) add_csg_objects(1 + random_.below(4));
+      if (coin(0.7)) add_shapes(hard_triangles(1 + random_.below(20)));
+      if (coin(0.3)) add_polygons(1 + random_.below(5));
+      if (coin(0.6)) add_instances(1);
+      if (coin(0.6)) add_instances(2 + random_.below(4));
       if (scene_.shapes.empty() && scene_.instances.empty()) add_single();
     }
-    if (chance(0.4)) add_groups(1 + random_.below(4));
+    if (coin(0.4)) add_groups(1 + random_.below(4));
     sort_shapes();
     // If more media are around the eye than a ray can carry, everything becomes opaque.
     if (reference::media_at(scene_, scene_.camera.eye).size() > 4) {
@@ -87,17 +86,17 @@ class HardScene {
 
   static bool is_csg(const Shape& shape) { return std::holds_alternative<CsgForm>(shape.form()); }
 
-  int material() { return chance(glass_) ? 1 : 0; }
+  int material() { return coin(glass_) ? 1 : 0; }
 
   Vec3 point(const Vec3& at, double reach) {
-    const Vec3 p = at + random_.point(1) * reach + (reach == size_ && chance(0.5) ? apart_ : Vec3(0));
+    const Vec3 p = at + random_.point(1) * reach + (reach == size_ && coin(0.5) ? apart_ : Vec3(0));
     return grid_ > 0 ? glm::round(p / grid_) * grid_ : p;
   }
 
   // A mesh of triangles of every bad kind.
   Mesh hard_triangles(int count) {
     Mesh mesh;
-    const bool at_one_point = chance(0.05);
+    const bool at_one_point = coin(0.05);
     const Vec3 only = point(center_, size_);
     for (int i = 0; i < count; ++i) {
       const Vec3 at = at_one_point ? only : point(center_, size_);
@@ -138,11 +137,11 @@ class HardScene {
   // Adds stars and parallelograms, some as thin as needles, some with flat boxes.
   void add_polygons(int count) {
     for (int i = 0; i < count; ++i) {
-      const Mat4 map = chance(0.5) ? some_map() : Mat4(1.0);
+      const Mat4 map = coin(0.5) ? some_map() : Mat4(1.0);
       const Vec3 at = point(center_, size_);
       const double reach = size_ * random_.log_uniform(1e-3, 1);
-      const Vec3 thin(1, 1, chance(0.3) ? random_.log_uniform(1e-6, 1) : 1);
-      if (chance(0.3)) {
+      const Vec3 thin(1, 1, coin(0.3) ? random_.log_uniform(1e-6, 1) : 1);
+      if (coin(0.3)) {
         add(scene_, shapes::make_parallelogram(at, Vec3(reach, 0, 0), reach * thin * Vec3(0.3, 0, 1), map),
             material());
         continue;
@@ -159,7 +158,7 @@ class HardScene {
   }
 
   void add_single() {
-    if (chance(0.5)) {
+    if (coin(0.5)) {
       add_shapes(hard_triangles(1));
     } else {
       add(scene_, shapes::make_sphere(point(center_, size_), size_ * random_.uniform(0.1, 1)), material());
@@ -168,7 +167,7 @@ class HardScene {
 
   void add_spheres(int count) {
     for (int i = 0; i < count; ++i) {
-      const bool again = i > 0 && chance(0.2);
+      const bool again = i > 0 && coin(0.2);
       if (!again) {
         sphere_center_ = point(center_, size_);
         sphere_radius_ = size_ * random_.log_uniform(1e-4, 1);
@@ -181,13 +180,13 @@ class HardScene {
   void add_object_shapes(int count) {
     Mat4 map(1.0);
     for (int i = 0; i < count; ++i) {
-      if (i == 0 || !chance(0.2)) {
+      if (i == 0 || !coin(0.2)) {
         // These shapes are not as far away or as small as the others: at a million times its size, such a
         // shape would have no digits left.
         map = some_map() * translation(center_ + random_.point(1) * size_);
         map = glm::scale(map, Vec3(size_ * random_.log_uniform(0.03, 1)));
       }
-      const bool open = chance(0.5);
+      const bool open = coin(0.5);
       switch (random_.below(4)) {
         case 0:
           add(scene_, shapes::make_box(Vec3(-1), Vec3(1), map), material());
@@ -216,18 +215,18 @@ class HardScene {
       shapes::ShapeType::Shapes operands, removed;
       for (auto& part : parts.shapes) {
         if (!part->is_closed()) continue;
-        if (!operands.empty() && chance(0.2))
+        if (!operands.empty() && coin(0.2))
           removed.push_back(std::move(part));
         else
           operands.push_back(std::move(part));
-        if (operands.size() == 2 && chance(0.3)) {
-          auto inner = shapes::make_csg(chance(0.5), std::move(operands));
+        if (operands.size() == 2 && coin(0.3)) {
+          auto inner = shapes::make_csg(coin(0.5), std::move(operands));
           operands.clear();
           operands.push_back(std::move(inner));
         }
       }
       // Most intersections of three or more operands would be empty.
-      const bool all = operands.size() < 3 && chance(0.4);
+      const bool all = operands.size() < 3 && coin(0.4);
       auto csg = shapes::make_csg(all, std::move(operands), std::move(removed));
       if (glm::all(glm::lessThan(csg->bounds().min, csg->bounds().max))) add(scene_, std::move(csg), 0);
     }
@@ -248,7 +247,7 @@ class HardScene {
     const int mesh = add(scene_, hard_triangles(1 + random_.below(30)));
     Mat4 map(1.0);
     for (int i = 0; i < count; ++i) {
-      if (i == 0 || !chance(0.2)) map = some_map();
+      if (i == 0 || !coin(0.2)) map = some_map();
       add_instance(scene_, mesh, material(), map);
     }
   }
@@ -258,20 +257,20 @@ class HardScene {
     std::vector<std::unique_ptr<Shape>> own;
     std::swap(own, scene_.shapes);
     add_spheres(random_.below(5));
-    if (chance(0.7)) add_object_shapes(1 + random_.below(4));
-    if (chance(0.3)) add_csg_objects(1 + random_.below(2));
-    if (chance(0.5)) add_shapes(hard_triangles(1 + random_.below(6)));
-    if (chance(0.3)) add_polygons(1 + random_.below(3));
+    if (coin(0.7)) add_object_shapes(1 + random_.below(4));
+    if (coin(0.3)) add_csg_objects(1 + random_.below(2));
+    if (coin(0.5)) add_shapes(hard_triangles(1 + random_.below(6)));
+    if (coin(0.3)) add_polygons(1 + random_.below(3));
     Group group;
     std::swap(group.shapes, scene_.shapes);
     std::swap(scene_.shapes, own);
-    if (chance(0.4) || group.shapes.empty())
+    if (coin(0.4) || group.shapes.empty())
       group.instances.push_back(
           {add(scene_, hard_triangles(1 + random_.below(10))), some_map(), material(), {}});
     scene_.groups.push_back(std::move(group));
     Mat4 map(1.0);
     for (int i = 0; i < count; ++i) {
-      if (i == 0 || !chance(0.2)) map = some_map();
+      if (i == 0 || !coin(0.2)) map = some_map();
       scene_.group_instances.push_back(
           {int(scene_.groups.size()) - 1, map, scene_.shapes.size(), index(scene_.instances.size() + 1), {}});
     }
@@ -280,17 +279,15 @@ class HardScene {
 
   // A map that turns, stretches, mirrors, shears, shrinks or enlarges, and moves.
   Mat4 some_map() {
-    if (chance(0.1)) return Mat4(1.0);
-    const double strongest = chance(0.3) ? 100 : 2;
-    const auto factor = [&] {
-      return random_.log_uniform(1 / strongest, strongest) * (chance(0.2) ? -1 : 1);
-    };
+    if (coin(0.1)) return Mat4(1.0);
+    const double strongest = coin(0.3) ? 100 : 2;
+    const auto factor = [&] { return random_.log_uniform(1 / strongest, strongest) * (coin(0.2) ? -1 : 1); };
     Mat4 map = translation(center_ + random_.point(1) * size_);
     for (int i = 0; i < 2; ++i) {
       map = glm::rotate(map, random_.uniform(0, 7), random_.direction());
-      if (chance(0.7)) map = glm::scale(map, Vec3(factor(), factor(), factor()));
+      if (coin(0.7)) map = glm::scale(map, Vec3(factor(), factor(), factor()));
     }
-    if (chance(0.2)) map = glm::scale(map, Vec3(random_.log_uniform(1e-3, 1e3)));
+    if (coin(0.2)) map = glm::scale(map, Vec3(random_.log_uniform(1e-3, 1e3)));
     return map * translation(-center_);
   }
 
@@ -320,9 +317,9 @@ class HardScene {
       case 0:  // along an axis
       case 1: {
         direction = Vec3(0);
-        direction[random_.below(3)] = chance(0.5) ? 1 : -1;
-        if (chance(0.3)) direction[random_.below(3)] += random_.log_uniform(1e-16, 1e-5);
-        origin = Vec3(target) - direction * (chance(0.3) ? 0.0 : size_ * random_.log_uniform(1e-2, 1e2));
+        direction[random_.below(3)] = coin(0.5) ? 1 : -1;
+        if (coin(0.3)) direction[random_.below(3)] += random_.log_uniform(1e-16, 1e-5);
+        origin = Vec3(target) - direction * (coin(0.3) ? 0.0 : size_ * random_.log_uniform(1e-2, 1e2));
         break;
       }
       case 2:  // from one point to another
@@ -333,8 +330,8 @@ class HardScene {
       case 4:  // along an edge, or tangent to a sphere, from within or from its extension
       case 5:
         direction = Vec3(other.b) - Vec3(other.a);
-        if (chance(0.5)) direction = Vec3(other.c) - Vec3(other.b);
-        origin = Vec3(other.b) - direction * random_.log_uniform(1e-3, 1e6) * (chance(0.5) ? 1.0 : -1.0);
+        if (coin(0.5)) direction = Vec3(other.c) - Vec3(other.b);
+        origin = Vec3(other.b) - direction * random_.log_uniform(1e-3, 1e6) * (coin(0.5) ? 1.0 : -1.0);
         break;
       case 6:  // past the end of a long edge, at any angle
         direction = random_.direction();
@@ -356,9 +353,7 @@ class HardScene {
     direction = unit(direction);
     // Half of the rays end, some close to their target.
     const double distance = glm::length(Vec3(target) - origin);
-    const double t_max = chance(0.5)   ? 3e38
-                         : chance(0.5) ? distance
-                                       : distance * random_.log_uniform(0.1, 10);
+    const double t_max = coin(0.5) ? 3e38 : coin(0.5) ? distance : distance * random_.log_uniform(0.1, 10);
     return query_ray(origin, direction, t_max);
   }
 

@@ -64,7 +64,7 @@ Mesh icosphere(int levels, double jitter, Random& random) {
   return mesh;
 }
 
-struct Place {
+struct Placement {
   const char* name;
   Vec3 center;
   Vec3 scale;
@@ -74,16 +74,16 @@ enum class Kept { baked, instance, in_group };
 constexpr Kept all_kept[] = {Kept::baked, Kept::instance, Kept::in_group};
 constexpr const char* kept_names[] = {"baked", "an instance", "in a group"};
 
-// The mesh, turned, scaled and moved to `place`. As an instance or in a group it is shown a second time far
-// away, so that both share a BVH.
+// The mesh, turned, scaled and moved to `placement`. As an instance or in a group it is shown a second time
+// far away, so that both share a BVH.
 struct PlacedMesh {
-  PlacedMesh(Mesh mesh, const Place& place, Kept kept) {
-    map = glm::scale(glm::rotate(translation(place.center), 0.7, Vec3(0.6, 0, 0.8)), place.scale);
+  PlacedMesh(Mesh mesh, const Placement& placement, Kept kept) {
+    map = glm::scale(glm::rotate(translation(placement.center), 0.7, Vec3(0.6, 0, 0.8)), placement.scale);
     triangles = uint32_t(mesh.triangles.size());
     scene.camera.eye = Vec3(0);
     add(scene, make_phong({}));
     const int index = add(scene, std::move(mesh));
-    const Mat4 second = translation(place.center * 3.0 + 1000.0 * place.scale) * map;
+    const Mat4 second = translation(placement.center * 3.0 + 1000.0 * placement.scale) * map;
     if (kept == Kept::in_group) {
       scene.groups.emplace_back().instances.push_back({.mesh = index, .position = {}});
       for (const Mat4& each : {map, second}) scene.group_instances.push_back({0, each, 0, 0, {}});
@@ -115,16 +115,16 @@ TEST_CASE(
   gpu::Device device({});
   Random random(11);
   const Mesh mesh = icosphere(3, 0.1, random);
-  const Place places[] = {{"at the origin", Vec3(0), Vec3(1)},
-                          {"far away", {148376, 1234, -223423}, Vec3(1000)},
-                          {"radius 0.01", Vec3(0), Vec3(0.01)},
-                          {"needles", Vec3(0), {1, 0.001, 1}}};
+  const Placement placements[] = {{"at the origin", Vec3(0), Vec3(1)},
+                                  {"far away", {148376, 1234, -223423}, Vec3(1000)},
+                                  {"radius 0.01", Vec3(0), Vec3(0.01)},
+                                  {"needles", Vec3(0), {1, 0.001, 1}}};
   const int count = 50'000 * effort();
   int64_t all = 0;
-  for (const Place& place : places) {
+  for (const Placement& placement : placements) {
     for (const Kept kept : all_kept) {
       const bool instanced = kept != Kept::baked;
-      const PlacedMesh placed(mesh, place, kept);
+      const PlacedMesh placed(mesh, placement, kept);
       Specialisation specialisation;
       specialisation.profile = {.texel_buffers = instanced, .packets = !instanced, .shift_stack = instanced};
       QueryKernel kernel(device, placed.packed, specialisation);
@@ -143,7 +143,7 @@ TEST_CASE(
         const std::vector<shader::QueryHit> hits = kernel.ask(rays, false);
         const auto leaks =
             std::ranges::count_if(hits, [&](const shader::QueryHit& hit) { return !placed.is_hit(hit); });
-        MESSAGE(fmt::format("{}, {}, aimed {}: {} of {} leak", place.name, kept_names[int(kept)],
+        MESSAGE(fmt::format("{}, {}, aimed {}: {} of {} leak", placement.name, kept_names[int(kept)],
                             aim_names[int(aim)], leaks, count));
         CHECK(leaks == 0);
         all += count;
@@ -159,15 +159,15 @@ TEST_CASE(
   gpu::Device device({});
   Random random(12);
   const Mesh mesh = icosphere(3, 0, random);
-  const Place places[] = {{"radius 1e-4", {1e-4, 2e-4, -3e-4}, Vec3(1e-4)},
-                          {"radius 1", {5, 3, -8}, Vec3(1)},
-                          {"radius 1e4", {3e4, 1e4, -2e4}, Vec3(1e4)},
-                          {"stretched", {0.5, 0, 0}, {1, 0.1, 3}},
-                          {"far away", {148376, 1234, -223423}, Vec3(1000)}};
+  const Placement placements[] = {{"radius 1e-4", {1e-4, 2e-4, -3e-4}, Vec3(1e-4)},
+                                  {"radius 1", {5, 3, -8}, Vec3(1)},
+                                  {"radius 1e4", {3e4, 1e4, -2e4}, Vec3(1e4)},
+                                  {"stretched", {0.5, 0, 0}, {1, 0.1, 3}},
+                                  {"far away", {148376, 1234, -223423}, Vec3(1000)}};
   const size_t count = size_t(10'000 * effort());
-  for (const Place& place : places) {
+  for (const Placement& placement : placements) {
     for (const Kept kept : all_kept) {
-      const PlacedMesh placed(mesh, place, kept);
+      const PlacedMesh placed(mesh, placement, kept);
       std::vector<shader::QueryRay> rays;
       const shader::Binding binding(twin::view_of(placed.packed));
       while (rays.size() < count) {
@@ -189,7 +189,7 @@ TEST_CASE(
       const std::vector<shader::QueryHit> hits = kernel.ask(rays, false);
       const auto met =
           std::ranges::count_if(hits, [&](const shader::QueryHit& hit) { return placed.is_hit(hit); });
-      MESSAGE(fmt::format("{}, {}: {} of {} hit again", place.name, kept_names[int(kept)], met, count));
+      MESSAGE(fmt::format("{}, {}: {} of {} hit again", placement.name, kept_names[int(kept)], met, count));
       CHECK(met == 0);
     }
   }

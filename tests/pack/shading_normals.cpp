@@ -224,16 +224,16 @@ TEST_CASE("vertex normals are interpolated in the object's space, however it com
       const PackedScene packed = pack::pack(scene);
       const shader::Binding binding(twin::view_of(packed));
       Random random(7);
-      int asked = 0;
+      int compared = 0;
       double worst = 0, worst_twin = 0;
-      while (asked < 200) {
+      while (compared < 200) {
         const double u = random.uniform(-1, 1), v = random.uniform(-1, 1);
         const Vec3 target = Mat3(map) * Vec3(u, v, 0.2);
         Ray ray{target + random.direction() * 5.0, {}};
         ray.d = glm::normalize(target - ray.o);
         const auto expected = expected_normal(map, ray);
         if (!expected) continue;
-        ++asked;
+        ++compared;
         worst = std::max(worst, magnitude(reference_normal(tracer, ray) - *expected));
         worst_twin = std::max(worst_twin, magnitude(by_twin(scene, ray) - *expected));
       }

@@ -23,21 +23,21 @@ namespace {
 class LongTriangles {
  public:
   explicit LongTriangles(uint64_t seed) : random_(seed) {
-    const double size = chance(0.5) ? 1 : random_.log_uniform(1e-4, 1e4);
-    const Vec3 center = chance(0.5) ? Vec3(0) : random_.direction() * size * random_.log_uniform(1, 1e3);
-    scene_.camera.eye = chance(0.5) ? Vec3(0) : center + random_.point(2) * size;
+    const double size = coin(0.5) ? 1 : random_.log_uniform(1e-4, 1e4);
+    const Vec3 center = coin(0.5) ? Vec3(0) : random_.direction() * size * random_.log_uniform(1, 1e3);
+    scene_.camera.eye = coin(0.5) ? Vec3(0) : center + random_.point(2) * size;
     scene_.camera.target = scene_.camera.eye + Vec3(0, 0, -1);
     add(scene_, make_phong({}));
     Mesh mesh;
     const Vec3 along = random_.direction() * size;
-    const double bundle = chance(0.7) ? 1 : 0;  // share of needles that run alike
+    const double bundle = coin(0.7) ? 1 : 0;  // share of needles that run alike
     for (const int end = 60 + random_.below(100); int(mesh.triangles.size()) < end;) {
       Corners v;
       for (Vec3& corner : v) corner = center + random_.point(1) * size;
       const double thin = random_.log_uniform(1e-8, 1e-1);
       const int kind = random_.below(4);
-      if (chance(bundle)) v[1] = v[0] + along * random_.uniform(0.5, 2) + random_.point(size) * 0.01;
-      if (chance(bundle)) v[2] = glm::mix(v[0], v[1], random_.uniform()) + random_.point(size) * 0.01;
+      if (coin(bundle)) v[1] = v[0] + along * random_.uniform(0.5, 2) + random_.point(size) * 0.01;
+      if (coin(bundle)) v[2] = glm::mix(v[0], v[1], random_.uniform()) + random_.point(size) * 0.01;
       if (kind == 0) v[2] = v[1] + random_.point(size) * thin;
       if (kind == 1) v[2] = glm::mix(v[0], v[1], random_.uniform()) + random_.point(size) * thin;
       if (!(thickness(v) >= thinnest_triangle)) continue;
@@ -47,7 +47,7 @@ class LongTriangles {
     }
     const int index = add(scene_, std::move(mesh));
     // A mesh that is shown twice becomes instances; one that is shown once is baked into the world.
-    const bool twice = chance(0.2);
+    const bool twice = coin(0.2);
     add_instance(scene_, index, 0, Mat4(1.0));
     if (twice)
       add_instance(scene_, index, 0,
@@ -72,18 +72,18 @@ class LongTriangles {
       };
       const Vec3 to = random_.below(3) == 0 ? glm::mix(a, b, random_.uniform()) : in_plane(0);
       Vec3 from = in_plane(2);
-      if (chance(0.1)) from = to + random_.direction() * size_ * random_.log_uniform(1e-2, 1e3);
-      if (chance(0.1)) from = to + (Vec3(b) - Vec3(c)) * random_.uniform(-3, 3);
-      if (chance(0.2)) from += random_.direction() * size_ * random_.log_uniform(1e-9, 1e-2);
+      if (coin(0.1)) from = to + random_.direction() * size_ * random_.log_uniform(1e-2, 1e3);
+      if (coin(0.1)) from = to + (Vec3(b) - Vec3(c)) * random_.uniform(-3, 3);
+      if (coin(0.2)) from += random_.direction() * size_ * random_.log_uniform(1e-9, 1e-2);
       if (from == to) from += Vec3(0, 0, size_);
       const Vec3 direction = glm::normalize(to - from);
-      ray = query_ray(from, direction, chance(0.5) ? 3e38 : glm::length(to - from));
+      ray = query_ray(from, direction, coin(0.5) ? 3e38 : glm::length(to - from));
     }
     return rays;
   }
 
  private:
-  bool chance(double share) { return random_.uniform() < share; }
+  bool coin(double share) { return random_.uniform() < share; }
 
   Random random_;
   Scene scene_ = test::empty_scene();

@@ -151,15 +151,15 @@ def test_ctrl_c_does_not_wait_for_a_driver():
     code = f"""
 import eyeray, signal, threading, time
 scene = eyeray.Scene.read({SMALL!r}, defines={LONG})
-held, asked = threading.Event(), threading.Event()
+held, called = threading.Event(), threading.Event()
 def progress(share):
-    asked.set()
+    called.set()
     held.wait()
-threading.Thread(target=lambda: (asked.wait(), signal.raise_signal(signal.SIGINT)), daemon=True).start()
+threading.Thread(target=lambda: (called.wait(), signal.raise_signal(signal.SIGINT)), daemon=True).start()
 try:
     eyeray.render(scene, progress=progress)
 except KeyboardInterrupt:
-    print("free", asked.is_set(), held.is_set(), flush=True)
+    print("free", called.is_set(), held.is_set(), flush=True)
 held.set()
 print(eyeray.render(eyeray.Scene.read({SMALL!r})).complete)
 """

@@ -40,9 +40,9 @@ TEST_CASE("a point on a pixel's ray falls on the pixel's centre, as near as its 
     const View view(camera, picture_size, part);
     for (int i = 0; i < 200; ++i) {
       const int x = random.below(part.width), y = random.below(part.height);
-      const Vec2 place(2 * (part.x + x + 0.5) / picture_size.x - 1,
-                       1 - 2 * (part.y + y + 0.5) / picture_size.y);
-      const Vec2 square(place.x, place.y * picture_size.y / picture_size.x);
+      const Vec2 position(2 * (part.x + x + 0.5) / picture_size.x - 1,
+                          1 - 2 * (part.y + y + 0.5) / picture_size.y);
+      const Vec2 square(position.x, position.y * picture_size.y / picture_size.x);
       const Ray ray = camera.projection->ray(camera_axes(camera), square, {0, 0}, picture_size);
       const double t = random.log_uniform(0.01, 100);
       const Vec3 seen = view.project(Vec4(view.to_camera(ray.o + ray.d * t), 1.0));

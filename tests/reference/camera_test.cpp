@@ -87,18 +87,18 @@ TEST_CASE("a panorama's places are longitude and latitude, a cylinder's longitud
 
 TEST_CASE("rays through a lens intersect in the plane in focus") {
   PerspectiveCamera values{70};
-  const Vec2 place(130, 20);
+  const Vec2 position(130, 20);
   const auto rays = [&] {
     return reference::CameraRays(looking_along_z(values), {.width = 200, .height = 100});
   };
-  const Ray pinhole = rays().ray(place);
+  const Ray pinhole = rays().ray(position);
   values.aperture = {.radius = 0.5, .focus = 3};
   for (const Vec2& u : {Vec2(0.1, 0.2), Vec2(0.9, 0.4), Vec2(0.5, 0.99)}) {
     for (const int blades : {0, 3, 6}) {
       values.aperture.blades = blades;
       const Vec2 lens = rays().lens_point(u);
       CHECK(glm::length(lens) <= 0.5);
-      const Ray ray = rays().ray(place, lens);
+      const Ray ray = rays().ray(position, lens);
       CHECK(near(ray.o, Vec3(lens, 5), 1e-15));
       CHECK(glm::length(ray.d) == doctest::Approx(1).epsilon(1e-14));
       CHECK(near(ray.o - 3 / ray.d.z * ray.d, pinhole.o - 3 / pinhole.d.z * pinhole.d, 1e-13));

@@ -56,7 +56,7 @@ radius = 1
                                       look.transmission, look.coat, look.sheen, look.thin),
                           "scene.toml");
   const Material& material = *scene.materials.back();
-  const ScatteringContext context{.place = {},
+  const ScatteringContext context{.point = {},
                                   .cos_view = cosine,
                                   .ior_from = leaving ? 1.5 : 1,
                                   .ior_to = leaving || look.thin || look.transmission == 0 ? 1 : 1.5};

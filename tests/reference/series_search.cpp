@@ -16,7 +16,7 @@ using test::Random;
 TEST_CASE("a Chebyshev series knows how far it stays from zero, and whether it turns") {
   const auto series = [](auto f) {
     std::array<double, ChebyshevSeries::points> values;
-    for (size_t i = 0; i < values.size(); ++i) values[i] = f(ChebyshevSeries::places()[i]);
+    for (size_t i = 0; i < values.size(); ++i) values[i] = f(ChebyshevSeries::sample_points()[i]);
     return ChebyshevSeries(values);
   };
   const ChebyshevSeries cubic = series([](double x) { return 3 + x * x * x; });

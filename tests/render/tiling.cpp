@@ -31,9 +31,9 @@ TEST_CASE("the shards' parts are all of the picture, and no pixel twice") {
           CHECK(part.y >= row);
           CHECK(part.y + part.height <= row + height);
           CHECK(part.x + part.width <= tiles.width());
-          const Rect place = tiles.in_picture(part);
-          for (int y = place.y; y < place.y + place.height; ++y)
-            for (int x = place.x; x < place.x + place.width; ++x)
+          const Rect rect = tiles.in_picture(part);
+          for (int y = rect.y; y < rect.y + rect.height; ++y)
+            for (int x = rect.x; x < rect.x + rect.width; ++x)
               ++times.at(size_t(y - area.y) * size_t(area.width) + size_t(x - area.x));
         }
         row += height;

@@ -37,10 +37,10 @@ inline compare::Frame render_frame(const Scene& scene, executors::Backend backen
 // Compares by gates B and C.
 inline compare::ReferenceComparison compare_with_reference(const Scene& scene, const compare::Frame& value) {
   const reference::Renderer renderer(scene);
-  const compare::Reference around = [&](int x, int y, const Vec2& shift, rounding::Chance chance) {
+  const compare::Reference around = [&](int x, int y, const Vec2& shift, rounding::Coincidence coincidence) {
     compare::Neighbour result;
     result.samples.clear();
-    const rounding::Displacement displacement{.coincident = chance == rounding::Chance::coincident};
+    const rounding::Displacement displacement{.coincident = coincidence == rounding::Coincidence::coincident};
     for (int i = 0; i < scene.image.samples; ++i) {
       const PixelSample sample = renderer.sample(x, y, uint32_t(i), shift, displacement);
       result.samples.push_back({sample.color, {double(sample.hits), double(sample.rays)}});

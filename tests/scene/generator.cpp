@@ -44,9 +44,9 @@ class Writer {
   std::string write();
 
  private:
-  bool chance(double share) { return random_.uniform() < share; }
+  bool coin(double share) { return random_.uniform() < share; }
   // True now and then, for a mistake that a legal scene does not have.
-  bool mishap() { return !wildness_.legal && chance(0.001); }
+  bool mishap() { return !wildness_.legal && coin(0.001); }
   template <typename Type>
   const Type& one_of(std::span<const Type* const> types) {
     return *types[size_t(random_.below(int(types.size())))];
@@ -81,11 +81,11 @@ class Writer {
 
 double Writer::extreme(const Key& key) {
   double value = extremes[random_.below(int(std::size(extremes)))];
-  if (chance(0.4)) value = -value;
-  if (chance(0.1)) value = key.min;
-  if (chance(0.1)) value = key.max;
+  if (coin(0.4)) value = -value;
+  if (coin(0.1)) value = key.min;
+  if (coin(0.1)) value = key.max;
   if (!wildness_.legal)
-    return chance(0.2) ? std::array{inf, -inf, not_a_number}[size_t(random_.below(3))] : value;
+    return coin(0.2) ? std::array{inf, -inf, not_a_number}[size_t(random_.below(3))] : value;
 
   // Clamps the value to the key's range, and to the range of float32 arithmetic.
   const double low =
@@ -99,7 +99,7 @@ double Writer::extreme(const Key& key) {
 }
 
 double Writer::number(const Key& key) {
-  if (chance(wildness_.share)) return extreme(key);
+  if (coin(wildness_.share)) return extreme(key);
   const bool share = key.type == KeyType::color || key.type == KeyType::texture;
   const double low = share ? 0 : std::max(key.min, -3.0);
   const double high = share ? 1 : key.max <= 1000 ? key.max : 3;
@@ -112,7 +112,7 @@ double Writer::number(const Key& key) {
 std::string Writer::numbers(const Key& key, int count) {
   std::vector<std::string> each;
   const double first = number(key);
-  const bool same = chance(0.2 * wildness_.share);
+  const bool same = coin(0.2 * wildness_.share);
   if (mishap()) ++count;
   for (int i = 0; i < count; ++i) each.push_back(fmt::format("{}", same ? first : number(key)));
   return fmt::format("[{}]", fmt::join(each, ", "));
@@ -121,16 +121,16 @@ std::string Writer::numbers(const Key& key, int count) {
 // A vector along an axis, or nearly.
 std::string Writer::direction() {
   Vec3 v(0);
-  v[random_.below(3)] = chance(0.5) ? 1 : -1;
-  if (chance(0.3)) v[random_.below(3)] += random_.log_uniform(1e-18, 1e-3);
-  if (chance(0.3)) v *= random_.log_uniform(1e-14, 1e14);
-  if (chance(0.05)) v = Vec3(0);
+  v[random_.below(3)] = coin(0.5) ? 1 : -1;
+  if (coin(0.3)) v[random_.below(3)] += random_.log_uniform(1e-18, 1e-3);
+  if (coin(0.3)) v *= random_.log_uniform(1e-14, 1e14);
+  if (coin(0.05)) v = Vec3(0);
   return fmt::format("[{}, {}, {}]", v.x, v.y, v.z);
 }
 
 std::string Writer::texture(const Key& key) {
-  if (chance(0.4)) return numbers(key, 3);
-  if (chance(0.5)) return fmt::format("{}", number(key));
+  if (coin(0.4)) return numbers(key, 3);
+  if (coin(0.5)) return fmt::format("{}", number(key));
   const reading::TextureType& type = one_of(std::span<const reading::TextureType* const>(tables_));
   std::vector<std::string> values;
   for (Key own : type.keys) {
@@ -140,7 +140,7 @@ std::string Writer::texture(const Key& key) {
       continue;
     }
     if (own.type == KeyType::color) own.max = std::min(own.max, key.max);
-    if (own.fallback.empty() || chance(0.7)) values.push_back(fmt::format("{} = {}", own.name, value(own)));
+    if (own.fallback.empty() || coin(0.7)) values.push_back(fmt::format("{} = {}", own.name, value(own)));
   }
   return fmt::format("{{ {} = {{ {} }} }}", type.name, fmt::join(values, ", "));
 }
@@ -164,16 +164,16 @@ std::string Writer::transform() {
 }
 
 std::string Writer::value(const Key& key) {
-  if (mishap()) return chance(0.5) ? "\"word\"" : "[[]]";
+  if (mishap()) return coin(0.5) ? "\"word\"" : "[[]]";
   switch (key.type) {
     case KeyType::boolean:
-      return chance(0.5) ? "true" : "false";
+      return coin(0.5) ? "true" : "false";
     case KeyType::integer: {
       constexpr int64_t whole[] = {0,         -1,       2, 7, 64, 65536, 65537, 4294967295, int64_t{1} << 53,
                                    INT64_MAX, INT64_MIN};
       const int64_t sane =
           key.name == "samples" ? 4 : int64_t(random_.uniform(key.min, std::min(key.max, 12.0)));
-      if (!chance(wildness_.share)) return fmt::format("{}", sane);
+      if (!coin(wildness_.share)) return fmt::format("{}", sane);
       const int64_t wild = whole[random_.below(int(std::size(whole)))];
       return fmt::format("{}", wildness_.legal ? std::clamp(wild, int64_t(key.min), int64_t(key.max)) : wild);
     }
@@ -194,7 +194,7 @@ std::string Writer::value(const Key& key) {
     case KeyType::vec2:
       return numbers(key, 2);
     case KeyType::vec3:
-      return chance(0.5 * wildness_.share) ? direction() : numbers(key, 3);
+      return coin(0.5 * wildness_.share) ? direction() : numbers(key, 3);
     case KeyType::vec2_list:
       return fmt::format("[{}, {}, {}]", numbers(key, 2), numbers(key, 2), numbers(key, 2));
     case KeyType::vec3_list: {
@@ -202,14 +202,14 @@ std::string Writer::value(const Key& key) {
       const int count = key.name == "points" ? 16 : key.name == "corners" ? 4 : 3;
       std::vector<std::string> points;
       for (int i = 0; i < count; ++i) points.push_back(numbers(key, 3));
-      if (chance(0.3 * wildness_.share)) points[2] = points[size_t(random_.below(2))];
+      if (coin(0.3 * wildness_.share)) points[2] = points[size_t(random_.below(2))];
       if (mishap()) points[1] = "[]";
       return fmt::format("[{}]", fmt::join(points, ", "));
     }
     case KeyType::outlines:
       return fmt::format("[[{}, {}, {}]]", numbers(key, 3), numbers(key, 3), numbers(key, 3));
     case KeyType::color:
-      return chance(0.7) ? numbers(key, 3) : fmt::format("{}", number(key));
+      return coin(0.7) ? numbers(key, 3) : fmt::format("{}", number(key));
     case KeyType::color_map: {
       const Key color{.name = "", .type = KeyType::color, .doc = "", .min = key.min, .max = key.max};
       return fmt::format("[[0, {}], [1, {}]]", numbers(color, 3), numbers(color, 3));
@@ -217,7 +217,7 @@ std::string Writer::value(const Key& key) {
     case KeyType::texture:
       return texture(key);
     case KeyType::scale2:
-      return chance(0.5) ? numbers(key, 2) : fmt::format("{}", number(key));
+      return coin(0.5) ? numbers(key, 2) : fmt::format("{}", number(key));
     case KeyType::scale3:
       return numbers(key, 3);
     case KeyType::transform:
@@ -237,7 +237,7 @@ void Writer::table(const std::string& title, std::initializer_list<std::span<con
     for (const Key& key : list) {
       if (left_out.contains(key.name) && !mishap()) continue;
       const bool needed = !key.optional && key.fallback.empty();
-      if (!chance(needed ? (wildness_.legal ? 1 : 0.999) : key.optional ? 0.3 : 0.7)) continue;
+      if (!coin(needed ? (wildness_.legal ? 1 : 0.999) : key.optional ? 0.3 : 0.7)) continue;
       text_ += fmt::format("{} = {}\n", key.name, value(key));
     }
   }
@@ -254,7 +254,7 @@ std::string Writer::write() {
   table("[render]", {loader::find_section("render")->keys}, {}, "");
 
   for (int i = random_.below(4); i > 0; --i) {
-    if (chance(0.25)) {
+    if (coin(0.25)) {
       const std::span<const loader::AreaShape> forms = loader::area_shapes();
       const loader::AreaShape& form = forms[size_t(random_.below(int(forms.size())))];
       table("[[light]]", {form.section.keys, form.section.shape->keys},
@@ -271,7 +271,7 @@ std::string Writer::write() {
     // Few shapes may have holes. The keys that bend a coat require a coat and each other. A conductor has one
     // of several keys.
     std::set<std::string_view> left_out;
-    if (chance(0.9)) left_out = {"alpha", "alpha_cutoff", "coat_normal", "coat_normal_scale"};
+    if (coin(0.9)) left_out = {"alpha", "alpha_cutoff", "coat_normal", "coat_normal_scale"};
     const bool conductor = type.name == "conductor";
     if (conductor) left_out.insert({"metal", "n", "k", "color"});
     table("[[material]]", {type.keys}, left_out,
@@ -282,22 +282,22 @@ std::string Writer::write() {
     const shapes::ShapeType& type = one_of(shapes::types());
     // Half of all random normals point to the wrong side and are refused, so most triangles have none.
     std::set<std::string_view> mostly;
-    if (chance(0.8)) mostly = {"normals"};
+    if (coin(0.8)) mostly = {"normals"};
     // A sphere cannot have an uneven scale.
-    if (chance(0.5)) mostly.insert("transform");
+    if (coin(0.5)) mostly.insert("transform");
     // `given` writes the one formula of a shape, and never as the name of a file.
     mostly.insert({"code", "file", "ready", "lipschitz"});
     const auto given = [&](const shapes::ShapeType& shape) {
       if (shape.name != "implicit") return "";
-      return chance(0.5) ? "ready = \"rounded-box\"\n"
-                         : "code = \"float f(vec3 p) { return dot(p, p) - 0.25; }\"\nlipschitz = 4\n";
+      return coin(0.5) ? "ready = \"rounded-box\"\n"
+                       : "code = \"float f(vec3 p) { return dot(p, p) - 0.25; }\"\nlipschitz = 4\n";
     };
     table(fmt::format("[[{}]]", type.name), {type.keys, loader::find_section(type.name)->keys}, mostly,
           given(type));
     if (!type.combine) continue;
     for (int part = 1 + random_.below(3); part > 0; --part) {
       const shapes::ShapeType& inner = closed_shape();
-      const char* holder = part > 1 && chance(0.3) ? "csg.minus" : "csg";
+      const char* holder = part > 1 && coin(0.3) ? "csg.minus" : "csg";
       table(fmt::format("[[{}.{}]]", holder, inner.name), {inner.keys, loader::find_section("sphere")->keys},
             mostly, given(inner));
     }

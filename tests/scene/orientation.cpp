@@ -18,12 +18,12 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-struct Place {
+struct PixelPosition {
   int x, y;
 };
 
 // The pixel that shows the world's point p, by docs/conventions.md.
-Place project(const Scene& scene, const Vec3& p) {
+PixelPosition project(const Scene& scene, const Vec3& p) {
   const Camera& camera = scene.camera;
   const Vec3 w = glm::normalize(camera.target - camera.eye);
   const Vec3 u = glm::normalize(glm::cross(w, camera.up));
@@ -59,8 +59,8 @@ TEST_CASE("orientation: red is right, green is up, blue is near, by every execut
     // Each object is seen where its centre projects to.
     for (const Object& object : objects) {
       CAPTURE(object.material);
-      const Place place = project(scene, object.center);
-      const FirstHit& hit = frame.first_hit(place.x, place.y);
+      const PixelPosition position = project(scene, object.center);
+      const FirstHit& hit = frame.first_hit(position.x, position.y);
       CHECK(hit.primitive == object.primitive);
       REQUIRE(hit.material >= 0);
       CHECK(scene.materials[size_t(hit.material)]->name == object.material);
@@ -89,8 +89,8 @@ TEST_CASE("orientation: red is right, green is up, blue is near, by every execut
 
     // The channels of colours are in order.
     const auto color = [&](const Object& object) {
-      const Place place = project(scene, object.center);
-      return color_at(frame.color, place.x, place.y);
+      const PixelPosition position = project(scene, object.center);
+      return color_at(frame.color, position.x, position.y);
     };
     const Vec3 red = color(objects[1]), green = color(objects[2]), blue = color(objects[3]);
     CHECK(red.r > 2 * std::max(red.g, red.b));
@@ -98,7 +98,7 @@ TEST_CASE("orientation: red is right, green is up, blue is near, by every execut
     CHECK(blue.b > 2 * std::max(blue.r, blue.g));
 
     // The blue object is in front of the white one.
-    const Place near = project(scene, objects[3].center), far = project(scene, objects[0].center);
+    const PixelPosition near = project(scene, objects[3].center), far = project(scene, objects[0].center);
     CHECK(frame.first_hit(near.x, near.y).t < frame.first_hit(far.x, far.y).t - 0.5);
   }
 }

@@ -34,8 +34,8 @@ linked() { printf '\t%s => %s (0x0)\n' "$1" "$system/$1"; }
 fake "$work/bin/ldd" "cat '$work/'\"\${1##*/}\".loads"
 printf '%s\n' "$system/libvulkan_lvp.so" "$work/lvp_icd.x.json" >"$work/packaged"
 
-fault() { echo "$1" >&2; cat "$work/said" >&2; exit 1; }
-bundle() { code=0; PATH="$work/bin:$PATH" sh "$tree/scripts/bundle" >"$work/said" 2>&1 || code=$?; }
+fault() { echo "$1" >&2; cat "$work/output" >&2; exit 1; }
+bundle() { code=0; PATH="$work/bin:$PATH" sh "$tree/scripts/bundle" >"$work/output" 2>&1 || code=$?; }
 bundle
 [ "$code" = 0 ] || fault 'does not make an archive'
 tar -xzf "$tree"/build/release/eyeray-1.2.3-linux-*.tar.gz -C "$work"
@@ -75,7 +75,7 @@ refuses() {
   cd "$work"
   bundle
   [ "$code" != 0 ] || fault "makes an archive although $1"
-  grep -qF "$2" "$work/said" || fault "does not say that $1"
+  grep -qF "$2" "$work/output" || fault "does not say that $1"
   [ -z "$(find "$tree/build/release" -name '*.tar.gz')" ] || fault "leaves an archive although $1"
 }
 printf '\tlibx.so.1 => not found\n' >>"$work/eyeray.loads"

@@ -46,16 +46,16 @@ apt_get() {
 }
 
 faults=0
-fault() { faults=$((faults + 1)); printf '%s: %s\n%s\n' "$name" "$1" "$(cat "$work/said" "$work/calls")" >&2; }
+fault() { faults=$((faults + 1)); printf '%s: %s\n%s\n' "$name" "$1" "$(cat "$work/output" "$work/calls")" >&2; }
 # run CODE SCRIPT [ARGUMENT...]: runs a script, which has to end with CODE.
 run() {
   expected=$1 script=$2 code=0
   shift 2
-  PATH="$work/bin:$work/tools" sh "$work/tree/scripts/$script" "$@" >"$work/said" 2>&1 || code=$?
+  PATH="$work/bin:$work/tools" sh "$work/tree/scripts/$script" "$@" >"$work/output" 2>&1 || code=$?
   [ "$code" = "$expected" ] || fault "exit code $code, not $expected"
 }
 setup() { expected=$1; shift; run "$expected" setup "$@"; }
-says() { grep -qF -- "$1" "$work/said" || fault "does not say: $1"; }
+says() { grep -qF -- "$1" "$work/output" || fault "does not say: $1"; }
 calls() { grep -qF -- "$1" "$work/calls" || fault "does not call: $1"; }
 never() { ! grep -qF -- "$1" "$work/calls" || fault "calls: $1"; }
 installs_nothing() { never installs; [ ! -e "$work/policy-rc.d" ] || fault 'leaves a policy-rc.d'; }
@@ -72,7 +72,7 @@ for system in bookworm trixie noble; do
   [ ! -e "$work/policy-rc.d" ] || fault 'leaves its policy-rc.d'
   : >"$work/calls"
   setup 0
-  [ -z "$(cat "$work/calls" "$work/said")" ] || fault 'does something the second time'
+  [ -z "$(cat "$work/calls" "$work/output")" ] || fault 'does something the second time'
 done
 
 machine 'tests' trixie
@@ -124,14 +124,14 @@ machine 'no network, no lists' bookworm
 apt_get '*" update "*) exit 100 ;; *" --simulate "*) echo "E: Unable to locate package cmake"; exit 100 ;;'
 setup 1
 says 'Is there a network? Nothing is installed.'
-[ "$(wc -l <"$work/said")" = 1 ] || fault 'says more than a sentence'
+[ "$(wc -l <"$work/output")" = 1 ] || fault 'says more than a sentence'
 installs_nothing
 
 machine 'no network, but lists' bookworm
 apt_get '*" update "*) exit 100 ;; *" --download-only "*) printf "E: cannot fetch %s\n" 1 2 3; exit 100 ;;'
 setup 1
 says 'cannot download the packages: cannot fetch 1. Is there a network? Nothing is installed.'
-[ "$(wc -l <"$work/said")" = 2 ] || fault 'says more than what it wants and why not'
+[ "$(wc -l <"$work/output")" = 2 ] || fault 'says more than what it wants and why not'
 installs_nothing
 
 machine 'a source that is out of reach, but none that is needed' bookworm
@@ -177,7 +177,7 @@ for system in fedora '' sid; do
   says 'calls pkg-config;'
   fake pkg-config 'exit 0'
   setup 0 test
-  [ ! -s "$work/said" ] || fault 'says something although it has all tools'
+  [ ! -s "$work/output" ] || fault 'says something although it has all tools'
   installs_nothing
 done
 machine 'no os-release' ''

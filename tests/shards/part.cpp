@@ -284,9 +284,9 @@ TEST_CASE("a header that says what no picture has is refused") {
 
 TEST_CASE("a number that its place cannot hold is refused, and not wrapped around or cut off") {
   const auto changed = [](std::string text, const std::string& from, const std::string& to) {
-    const size_t place = text.find(from);
-    REQUIRE(place != std::string::npos);
-    return text.replace(place, from.size(), to);
+    const size_t start = text.find(from);
+    REQUIRE(start != std::string::npos);
+    return text.replace(start, from.size(), to);
   };
   const std::string header = to_text(header_of_shard({0, 3})), totals = to_text(PartTotals{});
   for (const std::string number : {"4294967300", "-4294967292", "18446744073709551615", "1e300", "4.5",

@@ -50,7 +50,7 @@ class ArrayOf {
     return run_eyeray(command, environment);
   }
   // The command's report on the picture, as JSON.
-  Json said(const Words& more = {}, const Environment& environment = {}) const {
+  Json report(const Words& more = {}, const Environment& environment = {}) const {
     const ProcessResult result = run(more, environment);
     CAPTURE(result.err);
     REQUIRE(result.code == 0);
@@ -59,7 +59,7 @@ class ArrayOf {
   // Waits until no job of the array is in the queue.
   Json ended() const {
     Json last;
-    CHECK(happens([&] { return (last = said({"--no-submit"})).at("queue").empty(); }));
+    CHECK(happens([&] { return (last = report({"--no-submit"})).at("queue").empty(); }));
     return last;
   }
   bool is_whole() const {
@@ -86,7 +86,7 @@ const Words slow{"--backend", "twin", "-s", "240x160", "--spp", "64", "-D", "ima
 TEST_CASE("an array makes the picture of one machine, and says how far it is") {
   ArrayOf array(quick);
   array.add(array.merged());
-  const Json first = array.said({"--", "--comment=mine"});
+  const Json first = array.report({"--", "--comment=mine"});
   CHECK(first.at("missing") == Json{1, 2, 3});
   REQUIRE(first.at("submitted").size() == 2);
   const Json done = array.ended();
@@ -97,7 +97,7 @@ TEST_CASE("an array makes the picture of one machine, and says how far it is") {
             .ask({"scontrol", "-o", "show", "job", first.at("submitted").at(0).get<std::string>()})
             .out.find("Comment=mine") != std::string::npos);
   // Existing parts are not rendered again; another picture's parts are not used.
-  CHECK(array.said().at("submitted").empty());
+  CHECK(array.report().at("submitted").empty());
   write_text(array.folder().scene(), read_text(array.folder().scene()) + "\n# changed\n");
   CHECK(array.run().code == 2);
 }
@@ -105,18 +105,18 @@ TEST_CASE("an array makes the picture of one machine, and says how far it is") {
 TEST_CASE("cancelled and requeued, an array goes on by the same command" * doctest::test_suite("long")) {
   ArrayOf array(slow);
   array.add(array.merged());
-  const Json first = array.said();
+  const Json first = array.report();
   const auto job = first.at("submitted").at(0).get<std::string>();
-  const auto runs = [&] { return array.said().at("queue").dump().find("RUNNING") != std::string::npos; };
+  const auto runs = [&] { return array.report().at("queue").dump().find("RUNNING") != std::string::npos; };
   REQUIRE(happens(runs));
   // Nothing is submitted twice.
-  CHECK(array.said().at("submitted").empty());
+  CHECK(array.report().at("submitted").empty());
   // Requeues the task as preemption does.
   CHECK(cluster().ask({"scontrol", "requeue", job + "_1"}).code == 0);
   REQUIRE(happens(runs));
   CHECK(cluster().ask({"scancel", "--name=" + first.at("job_name").get<std::string>()}).code == 0);
   CHECK(array.ended().at("done") == false);
-  CHECK(array.said().at("submitted").size() == 2);
+  CHECK(array.report().at("submitted").size() == 2);
   CHECK(array.ended().at("done") == true);
   CHECK(array.is_whole());
 }
@@ -125,7 +125,7 @@ TEST_CASE("near its limit on time a share waits in the queue again" * doctest::t
   ArrayOf array({"--backend", "twin", "-s", "640x480", "--spp", "65536"});
   array.add(array.merged());
   // With a time limit of one minute, a warning 60 s before the end comes at once.
-  const Json first = array.said({"--", "--time=1"});
+  const Json first = array.report({"--", "--time=1"});
   CHECK(happens([&] {
     const auto jobs =
         cluster().ask({"scontrol", "-o", "show", "job", first.at("submitted").at(0).get<std::string>()});
@@ -138,7 +138,7 @@ TEST_CASE("near its limit on time a share waits in the queue again" * doctest::t
 TEST_CASE("a node without Vulkan says so where the command says it does") {
   ArrayOf array({});
   array.add(array.merged());
-  array.said({}, {{"EYERAY_VULKAN_LOADER", "/nowhere/libvulkan.so.1"}});
+  array.report({}, {{"EYERAY_VULKAN_LOADER", "/nowhere/libvulkan.so.1"}});
   CHECK(array.ended().at("missing").size() == 3);
   CHECK(array.run({"--no-submit"}).err.find("output of the failed jobs: " + array.work("1.output")) !=
         std::string::npos);
@@ -150,7 +150,7 @@ TEST_CASE("the folder of an array may have any name without a backslash") {
     CAPTURE(name);
     ArrayOf array(quick, name);
     array.add(array.merged());
-    array.said();
+    array.report();
     CHECK(array.ended().at("done") == true);
     for (const char* output : {"1.output", "3.output", "merge.output"})
       CHECK(std::filesystem::exists(array.work(output)));
@@ -171,13 +171,13 @@ keyframes = [[0, 1], [10, 0.2]]
                "for last; do :; done\n[ \"$1\" = -version ] && exit 0\n"
                "while [ \"$1\" != -i ]; do shift; done\ncp \"$2\" \"$last\"\n");
   array.add({"--frames", "0:4", "-o", array.folder() / "f%02d.png", "--video", array.folder() / "it's.mp4"});
-  CHECK(array.said().at("submitted").size() == 2);
+  CHECK(array.report().at("submitted").size() == 2);
   const Json done = array.ended();
   CHECK(done.at("done") == true);
   CHECK(done.at("files").size() == 6);
   CHECK(read_text(array.folder() / "it's.mp4").find("f04.png") != std::string::npos);
   std::filesystem::remove(array.folder() / "f04.png");
-  CHECK(array.said().at("missing") == Json{2});
+  CHECK(array.report().at("missing") == Json{2});
   CHECK(array.ended().at("done") == true);
 }
 

@@ -35,7 +35,7 @@ struct FakeSlurm : FakePrograms {
         "[ \"$job\" -gt \"$(cat \"$folder/most\")\" ] && { echo 'sbatch: error: no more' >&2; exit 1; }\n"
         "echo \"$job;cluster\"\n");
     add("squeue", "cat \"$folder/queue\"\n");
-    add("sacct", "cat \"$folder/accounts\" && echo \"$@\" >\"$folder/asked\"\n");
+    add("sacct", "cat \"$folder/accounts\" && echo \"$@\" >\"$folder/requested\"\n");
     add("scontrol", "echo \"$@\" >\"$folder/controlled\"\n");
     write("most", "1000");
     write("queue", "");

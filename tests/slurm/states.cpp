@@ -85,7 +85,7 @@ TEST_CASE("only missing shares are submitted, and the merge behind them, until a
   CHECK(farm.state().failures.empty());
   farm.slurm.write("accounts", "1_2 FAILED 3:0 n7\n");
   CHECK(farm.state().failures == std::vector<std::string>{"1_2 FAILED 3:0 n7"});
-  CHECK(contains(farm.slurm.read("asked"), "--name=" + name + " "));
+  CHECK(contains(farm.slurm.read("requested"), "--name=" + name + " "));
   farm.submit();
   CHECK(contains(farm.slurm.submitted()[2], "--array=2 "));
   CHECK_FALSE(std::filesystem::exists(farm.file("2.output")));

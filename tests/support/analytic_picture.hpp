@@ -73,7 +73,7 @@ inline compare::Neighbour picture_at(double x, double y) {
 }
 
 inline compare::Neighbour picture_reference(int x, int y, const Vec2& shift,
-                                            rounding::Chance = rounding::Chance::none) {
+                                            rounding::Coincidence = rounding::Coincidence::none) {
   return picture_at(x + 0.5 + shift.x, y + 0.5 + shift.y);
 }
 
@@ -87,7 +87,7 @@ inline compare::Frame picture_frame(const Vec2& shift = Vec2(0.0),
   frame.rays = 2u * picture_width * picture_height;
   for (int y = 0; y < picture_height; ++y) {
     for (int x = 0; x < picture_width; ++x) {
-      const compare::Neighbour neighbour = picture(x, y, shift, rounding::Chance::none);
+      const compare::Neighbour neighbour = picture(x, y, shift, rounding::Coincidence::none);
       const compare::Neighbour::Sample& sample = neighbour.samples.front();
       for (int c = 0; c < 3; ++c) frame.color.pixel(x, y)[c] = float(sample.color[c]);
       *frame.hits.pixel(x, y) = float(sample.counts.x);

@@ -14,7 +14,7 @@ Form camera_as(const Scene& scene) {
 
 // The position of a world point in a perspective picture, from its middle to the right and up, in half
 // widths.
-inline Vec2 place_seen(const Scene& scene, const Vec3& point) {
+inline Vec2 position_seen(const Scene& scene, const Vec3& point) {
   const CameraAxes camera = camera_axes(scene.camera);
   const double distance = scene.camera.projection->scale(scene.image.size()).z;
   const Vec3 way = point - camera.eye;

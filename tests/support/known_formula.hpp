@@ -22,9 +22,9 @@ class KnownFormula {
     std::string body = "  float zero = p.z;\n";
     known_ = &locals_;
     for (int i = 1 + random_.below(4); i > 0; --i) {
-      const bool is_const = chance(2);
+      const bool is_const = one_in(2);
       body += "  " + declaration(is_const ? "const " : "", locals_);
-      if (is_const || chance(3)) continue;
+      if (is_const || one_in(3)) continue;
       const Known changed = expression(locals_.back().type, 2);
       body += fmt::format("  {} = {};\n", locals_.back().text, changed.text);
       locals_.back().bits = changed.bits;
@@ -54,7 +54,7 @@ class KnownFormula {
     uint32_t bits;  // bits of a float; or a whole number; or 0 or 1
   };
 
-  bool chance(int one_in) { return random_.below(one_in) == 0; }
+  bool one_in(int n) { return random_.below(n) == 0; }
   char type() { return "ffiiub"[random_.below(6)]; }
   static std::string name_of(char type) {
     return type == 'f' ? "float" : type == 'i' ? "int" : type == 'u' ? "uint" : "bool";
@@ -84,7 +84,7 @@ class KnownFormula {
       if (list)
         for (const Known& known : *list)
           if (known.type == type) named.push_back(known);
-    if (!named.empty() && chance(2)) return named[size_t(random_.below(int(named.size())))];
+    if (!named.empty() && one_in(2)) return named[size_t(random_.below(int(named.size())))];
     Known known{type, "", 0};
     switch (type) {
       case 'f': {
@@ -100,11 +100,11 @@ class KnownFormula {
                                                                  {"0.0", 0.0f}};
         const auto& [text, value] = list[random_.below(10)];
         known = {type, text, bits(value)};
-        if (known_ && chance(4)) known.text = fmt::format("({} + zero)", known.text);
+        if (known_ && one_in(4)) known.text = fmt::format("({} + zero)", known.text);
         return known;
       }
       case 'b':
-        known.bits = uint32_t(chance(2));
+        known.bits = uint32_t(one_in(2));
         known.text = known.bits ? "true" : "false";
         return known;
       default: {
@@ -120,14 +120,14 @@ class KnownFormula {
                                                                     {"16777217", 16777217u}};
         const auto& [text, value] = list[random_.below(10)];
         known = {type, text + std::string(type == 'u' ? "u" : ""), value};
-        if (known_ && chance(4)) known.text = fmt::format("({} + {}(zero))", known.text, name_of(type));
+        if (known_ && one_in(4)) known.text = fmt::format("({} + {}(zero))", known.text, name_of(type));
         return known;
       }
     }
   }
 
   Known expression(char type, int depth) {
-    if (depth == 0 || chance(6)) return leaf(type);
+    if (depth == 0 || one_in(6)) return leaf(type);
     const Known result = operation(type, depth - 1);
     // Results that are not finite, or that machines may flush to 0, are not tested.
     if (type == 'f' && !(result.bits << 1 == 0 || std::isnormal(real(result.bits)))) return leaf(type);
@@ -136,12 +136,12 @@ class KnownFormula {
 
   Known operation(char type, int depth) {
     const auto e = [&](char of) { return expression(of, depth); };
-    if (chance(6)) {
+    if (one_in(6)) {
       const Known c = e('b'), x = e(type), y = e(type);
       return {type, fmt::format("({} ? {} : {})", c.text, x.text, y.text), c.bits ? x.bits : y.bits};
     }
-    return type == 'f'   ? float_operation(e('f'), e('f'), e(chance(2) ? 'i' : 'u'))
-           : type == 'b' ? truth(e('f'), e('f'), e(chance(2) ? 'i' : 'u'), e('b'), e('b'))
+    return type == 'f'   ? float_operation(e('f'), e('f'), e(one_in(2) ? 'i' : 'u'))
+           : type == 'b' ? truth(e('f'), e('f'), e(one_in(2) ? 'i' : 'u'), e('b'), e('b'))
                          : whole_operation(type, e(type), e(type), e('f'), e(type == 'i' ? 'u' : 'i'));
   }
 
@@ -174,9 +174,9 @@ class KnownFormula {
       case 8:
         return of_one("floor", std::floor(x));
       case 9:
-        return chance(2) ? of_one("sqrt", std::sqrt(x)) : of_one("trunc", std::trunc(x));
+        return one_in(2) ? of_one("sqrt", std::sqrt(x)) : of_one("trunc", std::trunc(x));
       case 10:
-        return chance(2) ? of_two("max", x < y ? y : x) : of_two("step", y < x ? 0.0f : 1.0f);
+        return one_in(2) ? of_two("max", x < y ? y : x) : of_two("step", y < x ? 0.0f : 1.0f);
       default:
         return {'f', fmt::format("float({})", w.text),
                 bits(w.type == 'i' ? float(int32_t(w.bits)) : float(w.bits))};

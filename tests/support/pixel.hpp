@@ -7,8 +7,9 @@ namespace eyeray::engine::test {
 
 // The point's position in the picture, in pixels from the top left corner.
 inline Vec2 pixel(const Scene& scene, const Vec3& point) {
-  const Vec2 place = place_seen(scene, point);
-  return {(1 + place.x) / 2 * scene.image.width, (scene.image.height - place.y * scene.image.width) / 2};
+  const Vec2 position = position_seen(scene, point);
+  return {(1 + position.x) / 2 * scene.image.width,
+          (scene.image.height - position.y * scene.image.width) / 2};
 }
 
 }  // namespace eyeray::engine::test

@@ -18,7 +18,7 @@ class RandomFormula {
 
   std::string text() {
     std::string all;
-    if (chance(3)) all += "const float K[3] = float[3](0.5, -2.0, 1.25);\nconst int SEVEN = 7;\n";
+    if (one_in(3)) all += "const float K[3] = float[3](0.5, -2.0, 1.25);\nconst int SEVEN = 7;\n";
     has_constants_ = !all.empty();
     for (int i = random_.below(4); i > 0; --i) all += function();
     scopes_ = {{{"vec3", "p", 0}}};
@@ -39,7 +39,7 @@ class RandomFormula {
     std::vector<std::pair<std::string, std::string>> parameters;  // direction, type
   };
 
-  bool chance(int one_in) { return random_.below(one_in) == 0; }
+  bool one_in(int n) { return random_.below(n) == 0; }
   template <size_t n>
   std::string pick(const char* const (&list)[n]) {
     return list[random_.below(int(n))];
@@ -52,28 +52,28 @@ class RandomFormula {
     return pick(types);
   }
   std::string name() {
-    return fmt::format("{}{}", "abcdefgh"[random_.below(8)], chance(3) ? "" : std::to_string(names_++));
+    return fmt::format("{}{}", "abcdefgh"[random_.below(8)], one_in(3) ? "" : std::to_string(names_++));
   }
 
   std::string literal(const std::string& type) {
-    if (type == "bool") return chance(2) ? "true" : "false";
+    if (type == "bool") return one_in(2) ? "true" : "false";
     if (type == "int") {
       static constexpr const char* odd[] = {"2147483647", "0x7f", "017", "(-2147483647 - 1)", "0xffffffff"};
-      return !tame_ && chance(6) ? pick(odd) : std::to_string(random_.below(9) - 2);
+      return !tame_ && one_in(6) ? pick(odd) : std::to_string(random_.below(9) - 2);
     }
     if (type == "uint") {
       static constexpr const char* odd[] = {"4294967295u", "0xdeadbeefu", "031u"};
-      return !tame_ && chance(4) ? pick(odd) : std::to_string(random_.below(7)) + "u";
+      return !tame_ && one_in(4) ? pick(odd) : std::to_string(random_.below(7)) + "u";
     }
     static constexpr const char* odd[] = {"1e-40", "3.4e38", "1e30", ".5",
                                           "2.",    "1e-10f", "0.1",  "16777217.0"};
     static constexpr const char* plain[] = {"0.0", "1.0", "-1.0", "0.5", "2.0", "-0.25", "3.0", "0.1", ".75"};
-    return !tame_ && chance(6) ? pick(odd) : pick(plain);
+    return !tame_ && one_in(6) ? pick(odd) : pick(plain);
   }
 
   // A variable of the type, or an element or part of one; "" where there is none. `stored`: the variable can
   // be written to.
-  std::string place(const std::string& type, bool stored, int depth) {
+  std::string variable(const std::string& type, bool stored, int depth) {
     std::vector<std::string> found;
     for (size_t scope = 0; scope < scopes_.size(); ++scope) {
       for (const Variable& v : scopes_[scope]) {
@@ -88,7 +88,7 @@ class RandomFormula {
         }
         if (v.type == type) found.push_back(v.name);
         if (size(v.type) == 1) continue;
-        if (type == "float" && chance(2))
+        if (type == "float" && one_in(2))
           found.push_back(fmt::format("{}[{}]", v.name, index(size(v.type), depth)));
         const std::string part = swizzle(size(v.type), size(type), stored);
         if ((type == "float" || type.starts_with("vec")) && !part.empty())
@@ -116,30 +116,30 @@ class RandomFormula {
     return result;
   }
   std::string index(int length, int depth) {
-    if (depth <= 0 || chance(3)) return std::to_string(random_.below(length));
+    if (depth <= 0 || one_in(3)) return std::to_string(random_.below(length));
     const std::string wild = expression("int", depth - 1);
     return tame_ ? fmt::format("clamp({}, 0, {})", wild, length - 1) : wild;
   }
 
   std::string expression(const std::string& type, int depth) {
-    if (depth <= 0 || chance(5)) {
-      const std::string v = chance(4) ? "" : place(type, false, depth - 1);
+    if (depth <= 0 || one_in(5)) {
+      const std::string v = one_in(4) ? "" : variable(type, false, depth - 1);
       return !v.empty()                ? v
              : type.starts_with("vec") ? fmt::format("{}({})", type, literal("float"))
                                        : literal(type);
     }
     const auto e = [&](const std::string& t) { return expression(t, depth - 1); };
-    if (chance(6)) return fmt::format("({} ? {} : {})", e("bool"), e(type), e(type));
+    if (one_in(6)) return fmt::format("({} ? {} : {})", e("bool"), e(type), e(type));
     for (const Function& f : functions_)
-      if (f.type == type && chance(4)) return call(f, depth - 1);
+      if (f.type == type && one_in(4)) return call(f, depth - 1);
     if (type == "bool") {
       switch (random_.below(5)) {
         case 0:
-          return fmt::format("({} {} {})", e("float"), chance(2) ? "<" : ">=", e("float"));
+          return fmt::format("({} {} {})", e("float"), one_in(2) ? "<" : ">=", e("float"));
         case 1:
-          return fmt::format("({} {} {})", e("int"), chance(2) ? "<" : "!=", e("int"));
+          return fmt::format("({} {} {})", e("int"), one_in(2) ? "<" : "!=", e("int"));
         case 2:
-          return fmt::format("({} {} {})", e("bool"), chance(3) ? "^^" : chance(2) ? "&&" : "||", e("bool"));
+          return fmt::format("({} {} {})", e("bool"), one_in(3) ? "^^" : one_in(2) ? "&&" : "||", e("bool"));
         case 3:
           return fmt::format("!{}", e("bool"));
         default:
@@ -154,16 +154,16 @@ class RandomFormula {
         case 1:
           return fmt::format("({} * {})", e(type), e(type));
         case 2:
-          return fmt::format("({} {} {})", e(type), chance(3) ? "^" : chance(2) ? "&" : "|", e(type));
+          return fmt::format("({} {} {})", e(type), one_in(3) ? "^" : one_in(2) ? "&" : "|", e(type));
         case 3:
-          return fmt::format("({} {} {}{})", e(type), chance(2) ? "<<" : ">>",
+          return fmt::format("({} {} {}{})", e(type), one_in(2) ? "<<" : ">>",
                              tame_ ? random_.below(32) : random_.below(80) - 20, suffix);
         case 4:
           return type == "int" && tame_ ? fmt::format("int({})", e("uint"))
                  : type == "int"        ? fmt::format("int({})", e("float"))
                                         : fmt::format("uint({})", e("int"));
         case 5:
-          return fmt::format("({} {} {})", e(type), chance(2) ? "/" : "%", e(type));
+          return fmt::format("({} {} {})", e(type), one_in(2) ? "/" : "%", e(type));
         case 6:
           return fmt::format("{}({})", type, e("float"));
         default:
@@ -177,12 +177,12 @@ class RandomFormula {
       case 1:
         return fmt::format("({} * {})", e(type), e(type));
       case 2:
-        return fmt::format("({} - {})", e(type), n > 1 && chance(2) ? e("float") : e(type));
+        return fmt::format("({} - {})", e(type), n > 1 && one_in(2) ? e("float") : e(type));
       case 3:
         return fmt::format("-({})", e(type));
       case 4:
         if (n == 1)
-          return chance(2)        ? fmt::format("float({})", e("int"))
+          return one_in(2)        ? fmt::format("float({})", e("int"))
                  : has_constants_ ? fmt::format("K[{}]", index(3, depth - 1))
                                   : e(type);
         return n == 2   ? fmt::format("vec2({}, {})", e("float"), e("float"))
@@ -203,12 +203,12 @@ class RandomFormula {
       }
       default:
         if (n == 1)
-          return chance(2)   ? fmt::format("length({})", e("vec3"))
-                 : chance(2) ? fmt::format("dot({}, {})", e("vec3"), e("vec3"))
+          return one_in(2)   ? fmt::format("length({})", e("vec3"))
+                 : one_in(2) ? fmt::format("dot({}, {})", e("vec3"), e("vec3"))
                              : fmt::format("distance({}, {})", e("vec2"), e("vec2"));
-        return n == 3 && chance(2) ? fmt::format("cross({}, {})", e(type), e(type))
-               : chance(2)         ? fmt::format("normalize({})", e(type))
-               : chance(2)         ? fmt::format("mix({}, {}, {})", e(type), e(type), e("float"))
+        return n == 3 && one_in(2) ? fmt::format("cross({}, {})", e(type), e(type))
+               : one_in(2)         ? fmt::format("normalize({})", e(type))
+               : one_in(2)         ? fmt::format("mix({}, {}, {})", e(type), e(type), e("float"))
                                    : fmt::format("clamp({}, {}, {})", e(type), e("float"), e("float"));
     }
   }
@@ -216,7 +216,7 @@ class RandomFormula {
   std::string call(const Function& f, int depth) {
     std::string arguments;
     for (const auto& [direction, type] : f.parameters) {
-      std::string argument = direction.empty() ? expression(type, depth) : place(type, true, 0);
+      std::string argument = direction.empty() ? expression(type, depth) : variable(type, true, 0);
       if (argument.empty()) return literal_of(f.type);
       arguments += (arguments.empty() ? "" : ", ") + argument;
     }
@@ -233,7 +233,7 @@ class RandomFormula {
     f.parameters.push_back({"", "float"});
     scopes_[0].push_back({"float", "q", 0});
     for (int i = random_.below(3); i > 0; --i) {
-      const std::string direction = chance(2) ? "" : "inout ", t = type(), n = fmt::format("q{}", i);
+      const std::string direction = one_in(2) ? "" : "inout ", t = type(), n = fmt::format("q{}", i);
       parameters += fmt::format(", {}{} {}", direction, t, n);
       f.parameters.push_back({direction, t});
       scopes_[0].push_back({t, n, 0});
@@ -262,15 +262,15 @@ class RandomFormula {
     for (const Variable& v : scopes_.back())
       if (v.name == n) n = fmt::format("z{}", names_++);
     const std::string t = type();
-    if (chance(4)) {
+    if (one_in(4)) {
       const int length = 1 + random_.below(5);
       std::string text = fmt::format("{} {}[{}]", t, n, length), list;
       for (int i = 0; i < length; ++i) list += (i ? ", " : "") + literal_of(t);
-      if (tame_ || chance(2)) text += fmt::format(" = {}[{}]({})", t, length, list);
+      if (tame_ || one_in(2)) text += fmt::format(" = {}[{}]({})", t, length, list);
       scopes_.back().push_back({t, n, length});
       return text + ";\n";
     }
-    const std::string value = tame_ || !chance(4) ? " = " + expression(t, 3) : "";
+    const std::string value = tame_ || !one_in(4) ? " = " + expression(t, 3) : "";
     scopes_.back().push_back({t, n, 0});
     return fmt::format("{} {}{};\n", t, n, value);
   }
@@ -282,22 +282,22 @@ class RandomFormula {
         return declaration();
       case 2:
       case 3: {
-        const std::string t = type(), v = place(t, true, 2);
+        const std::string t = type(), v = variable(t, true, 2);
         if (v.empty()) return declaration();
         static constexpr const char* signs[] = {"=", "=", "+=", "-=", "*="};
-        if (whole(t) && chance(3))
-          return fmt::format("{} {} {};\n", v, tame_ ? "^=" : chance(2) ? "<<=" : "%=", expression(t, 2));
-        if (t != "bool" && chance(6)) return v + (chance(2) ? "++;\n" : "--;\n");
+        if (whole(t) && one_in(3))
+          return fmt::format("{} {} {};\n", v, tame_ ? "^=" : one_in(2) ? "<<=" : "%=", expression(t, 2));
+        if (t != "bool" && one_in(6)) return v + (one_in(2) ? "++;\n" : "--;\n");
         return fmt::format("{} {} {};\n", v, t == "bool" ? "=" : pick(signs), expression(t, 3));
       }
       case 4: {
         for (const Function& f : functions_)
-          if (chance(2)) return call(f, 2) + ";\n";
+          if (one_in(2)) return call(f, 2) + ";\n";
         return array_statement();
       }
       case 5:
         return fmt::format("if ({}) {}", expression("bool", 2), block(1 + random_.below(3))) +
-               (chance(2) ? "else " + block(1 + random_.below(2)) : "");
+               (one_in(2) ? "else " + block(1 + random_.below(2)) : "");
       case 6: {
         const std::string i = fmt::format("i{}", names_++);
         scopes_.push_back({{"int", i, tame_ ? -1 : 0}});
@@ -306,7 +306,7 @@ class RandomFormula {
         --loops_;
         scopes_.pop_back();
         return fmt::format("for (int {0} = {1}; {0} {2} {3}; {0}{4}) {5}", i, random_.below(3),
-                           chance(4) ? "<=" : "<", random_.below(6), chance(4) ? " += 2" : "++", body);
+                           one_in(4) ? "<=" : "<", random_.below(6), one_in(4) ? " += 2" : "++", body);
       }
       case 7: {
         const std::string i = fmt::format("w{}", names_++);
@@ -318,7 +318,7 @@ class RandomFormula {
       }
       default:
         if (loops_ > 0)
-          return fmt::format("if ({}) {};\n", expression("bool", 2), chance(2) ? "break" : "continue");
+          return fmt::format("if ({}) {};\n", expression("bool", 2), one_in(2) ? "break" : "continue");
         return fmt::format("if ({}) return {};\n", expression("bool", 2), expression(returns_, 2));
     }
   }
@@ -330,7 +330,7 @@ class RandomFormula {
           if (a.length > 0 && a.length == b.length && a.type == b.type && a.name != b.name &&
               !shadowed(size_t(&scope - scopes_.data()), a.name) &&
               !shadowed(size_t(&scope - scopes_.data()), b.name))
-            return chance(2) ? fmt::format("{} = {};\n", a.name, b.name)
+            return one_in(2) ? fmt::format("{} = {};\n", a.name, b.name)
                              : fmt::format("if ({} == {}) {}", a.name, b.name, block(1));
     return declaration();
   }

@@ -81,16 +81,16 @@ TEST_CASE("a cylinder, and a tube that stands upright, above the floor") {
   for (const Mat4& map : {turned(), turned() * shear}) {
     Scene scene = floor(1024);
     add(scene, make_cylinder({0, -0.3, 0}, {0, 0.3, 0}, 0.25, false, map), emissive(scene));
-    const auto place = [&](double radius, double turn, double y) {
+    const auto point = [&](double radius, double turn, double y) {
       return Vec3(map * Vec4(radius * std::cos(2 * M_PI * turn), y, radius * std::sin(2 * M_PI * turn), 1));
     };
     // As v grows, the point goes from the axis along the bottom, up the side, and along the top back to the
     // axis.
     const double expected = irradiance_of_body(
         [&](double u, double v) {
-          if (v < 0.25) return place(v, u, -0.3);
-          if (v > 0.75) return place(1 - v, u, 0.3);
-          return place(0.25, u, -0.3 + 1.2 * (v - 0.25));
+          if (v < 0.25) return point(v, u, -0.3);
+          if (v > 0.75) return point(1 - v, u, 0.3);
+          return point(0.25, u, -0.3 + 1.2 * (v - 0.25));
         },
         Vec3(map[3]));
     check(scene, shown(expected), 2e-4);

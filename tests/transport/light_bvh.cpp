@@ -130,13 +130,13 @@ TEST_CASE("what may light a point is important to it, and to each node above") {
       const auto light = size_t(random.below(60));
       const LightBounds& bounds = lights.bounds[light];
       // A point of the light, and whether the light shines here.
-      Vec3 place = bounds.center;
+      Vec3 position = bounds.center;
       if (bounds.radius > 0) {
         const auto& [a, b, c] = lights.triangles[light].vertices;
         const double root = std::sqrt(random.uniform(0, 1)), v = random.uniform(0, 1);
-        place = (1 - root) * a + root * (1 - v) * b + root * v * c;
+        position = (1 - root) * a + root * (1 - v) * b + root * v * c;
       }
-      const Vec3 way = glm::normalize(point.position - place);
+      const Vec3 way = glm::normalize(point.position - position);
       double cosine = glm::dot(way, bounds.axis);
       if (bounds.both_sides) cosine = std::abs(cosine);
       const bool shines = bounds.spread == M_PI || cosine > std::cos(bounds.spread + bounds.reach);

@@ -102,16 +102,16 @@ TEST_CASE("aimed photons bring what others bring, to glass and past it, with les
   for (const Aiming aiming : all_lights) {
     CAPTURE(int(aiming));
     // The photons' random numbers are independent, so that standard errors are known.
-    const Flux by_chance = flux_of(above_balls(aiming, false)), by_aim = flux_of(above_balls(aiming, true));
+    const Flux at_random = flux_of(above_balls(aiming, false)), by_aim = flux_of(above_balls(aiming, true));
     for (const auto of : {&Flux::all, &Flux::at_balls}) {
-      const Estimate &a = by_chance.*of, &b = by_aim.*of;
+      const Estimate &a = at_random.*of, &b = by_aim.*of;
       CAPTURE(a.mean);
       CAPTURE(b.mean);
       CHECK(b.error < 0.005 * b.mean);
       CHECK(std::abs(a.mean - b.mean) < 5 * std::hypot(a.error, b.error) + 1e-9 * a.mean);
     }
     // Without aiming, a narrow spot shines at the balls already.
-    if (aiming != Aiming::spot) CHECK(by_aim.at_balls.error < 0.7 * by_chance.at_balls.error);
+    if (aiming != Aiming::spot) CHECK(by_aim.at_balls.error < 0.7 * at_random.at_balls.error);
     // No ball is visible from some points of an area light.
     CHECK(by_aim.share > 0.25);
   }

@@ -58,7 +58,7 @@ TEST_CASE("a photon that no rounding explains fails, though many may part") {
   CHECK_FALSE(diverged.tally.passes());
   CHECK(std::ranges::binary_search(diverged.left_out.of(0), number));
 
-  const verify::JudgedPhotons displaced = judge(box(), [&](auto& ways) { ways[number].places.x += 0.01; });
+  const verify::JudgedPhotons displaced = judge(box(), [&](auto& ways) { ways[number].positions.x += 0.01; });
   CHECK(displaced.tally.displaced == sound.tally.displaced + 1);
   CHECK(displaced.tally.unexplained == 1);
   CHECK(displaced.tally.worst.find(", which is displaced by 0.01") != std::string::npos);

@@ -50,8 +50,8 @@ TEST_CASE("a scene is rendered by each backend and by the reference, and the rep
   verify::Options options;
   options.backends = {Backend::twin};
   options.crop = {2, 3, 20, 13};
-  int asked = 0;
-  options.progress = [&] { return ++asked, std::function<void(const Progress&)>(); };
+  int calls = 0;
+  options.progress = [&] { return ++calls, std::function<void(const Progress&)>(); };
   const Report report = verify::verify_scene({scene, "balls.toml", " --spp 1", folder / "kept"}, options);
   CHECK(report.failures() == std::vector<std::string>());
   CHECK(report.scene == "balls.toml");
@@ -60,7 +60,7 @@ TEST_CASE("a scene is rendered by each backend and by the reference, and the rep
   REQUIRE(report.participants.size() == 2);
   CHECK(report.participants[0].name == "twin");
   CHECK(report.participants[1].name == "reference");
-  CHECK(asked == 2);
+  CHECK(calls == 2);
   CHECK(report.exact.empty());
   REQUIRE(report.against_reference.size() == 1);
   CHECK(report.against_reference[0].comparison.colors.pixels == 20 * 13);
