@@ -108,7 +108,7 @@ LobeValue bsdf_value(Bsdf bsdf, LobeShares shares, vec3 o, vec3 i, bool before) 
 #define LOBE_TRANSMITTED 15u
 #define LOBE_PASSED 16u
 
-// A direction that light may come from, in which the path goes on. The random number `chance`, in [0, 1), lies within the share of the
+// A direction that light may come from, in which the path goes on. The number `random`, in [0, 1), lies within the share of the
 // chosen lobe. No direction, 0, stands for one that the surface itself blocks.
 struct BsdfSample {
   vec3 i;
@@ -120,24 +120,24 @@ struct BsdfSample {
 #endif
 };
 
-BsdfSample sample_bsdf(Bsdf bsdf, LobeShares shares, vec3 o, float chance, vec2 u) {
+BsdfSample sample_bsdf(Bsdf bsdf, LobeShares shares, vec3 o, float random, vec2 u) {
   BsdfSample s;
   s.i = vec3(0.0f, 0.0f, 1.0f);
   s.lobe = 0u;
   float passed = 0.0f;
 #define DIRECTION_OF_LOBE(name, number, layers)                          \
-  if (shares.name > 0.0f && chance >= passed) {                          \
-    s.i = name##_direction(bsdf, o, u, (chance - passed) / shares.name); \
+  if (shares.name > 0.0f && random >= passed) {                          \
+    s.i = name##_direction(bsdf, o, u, (random - passed) / shares.name); \
     s.lobe = number;                                                     \
   }                                                                      \
   passed = passed + shares.name;
   LOBES(DIRECTION_OF_LOBE)
-  s.mirrored = shares.mirror > 0.0f && chance >= passed;
+  s.mirrored = shares.mirror > 0.0f && random >= passed;
   passed = passed + shares.mirror;
-  s.refracted = shares.transmitted > 0.0f && chance >= passed;
+  s.refracted = shares.transmitted > 0.0f && random >= passed;
 #if HAS_PANES
   passed = passed + shares.transmitted;
-  s.passed = shares.passed > 0.0f && chance >= passed;
+  s.passed = shares.passed > 0.0f && random >= passed;
   s.refracted = s.refracted && !s.passed;
   s.mirrored = s.mirrored && !s.passed;
 #endif

@@ -43,10 +43,10 @@ float alpha_test(Primitive primitive, uint id, uint instance, Ray ray, float t, 
     hit.instance = instance;
     hit.uv = uv;
     vec2 at = uv;
-#define PLACE_ON(name, number) \
+#define UV_AT(name, number) \
     if (kind_of(primitive) == number) at = name##_surface(primitive, ray, hit).uv;
-    ALPHA_TESTED_SHAPES(PLACE_ON)
-    float alpha = alpha_at(material, place_of_uv(at));
+    ALPHA_TESTED_SHAPES(UV_AT)
+    float alpha = alpha_at(material, context_of_uv(at));
 #if HAS_COLORS
     alpha = alpha * vertex_alpha(primitive, uv);
 #endif

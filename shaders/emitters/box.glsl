@@ -52,31 +52,31 @@ EmitterSample box_emitter_sample(Emitter e, vec3 from, vec2 u) {
   float v = 2.0f * u.y - 1.0f;
   vec3 p = is_x ? vec3(side, h, v) : is_y ? vec3(h, side, v) : vec3(h, v, side);
   vec2 face = vec2(is_x ? 0.0f : is_y ? 1.0f : 2.0f, side);
-  EmitterSample place;
-  place.p = map_out_of_object(map, p);
-  place.normal = normalize3(map_normal(map, cube_normal(face)));
-  place.uv = cube_uv(p, face).uv;
-  return place;
+  EmitterSample point;
+  point.p = map_out_of_object(map, p);
+  point.normal = normalize3(map_normal(map, cube_normal(face)));
+  point.uv = cube_uv(p, face).uv;
+  return point;
 }
 
-float box_emitter_density(Emitter e, vec3 from, EmitterSample place) {
+float box_emitter_density(Emitter e, vec3 from, EmitterSample point) {
   ObjectMap map = object_map(e);
   BoxFaces faces = box_faces(map, from);
   vec3 area = vec3(sqrt(dot3(map.across_x, map.across_x)), sqrt(dot3(map.across_y, map.across_y)), sqrt(dot3(map.across_z, map.across_z)));
   // The face by its normal, and from outside by its side.
-  float x = abs(dot3(map.across_x, place.normal)) / area.x;
-  float y = abs(dot3(map.across_y, place.normal)) / area.y;
-  float z = abs(dot3(map.across_z, place.normal)) / area.z;
+  float x = abs(dot3(map.across_x, point.normal)) / area.x;
+  float y = abs(dot3(map.across_y, point.normal)) / area.y;
+  float z = abs(dot3(map.across_z, point.normal)) / area.z;
   bool is_x = x >= y && x >= z;
   bool is_y = !is_x && y >= z;
   float its_area = is_x ? area.x : is_y ? area.y : area.z;
   float weight = is_x ? faces.weight.x : is_y ? faces.weight.y : faces.weight.z;
   float side = is_x ? faces.side.x : is_y ? faces.side.y : faces.side.z;
-  vec3 q = map_into_object(map, place.p - map.center);
+  vec3 q = map_into_object(map, point.p - map.center);
   bool turned = (is_x ? q.x : is_y ? q.y : q.z) * side > 0.0f;
   float sum = (faces.weight.x + faces.weight.y) + faces.weight.z;
   float share = faces.inside ? 0.5f * weight / sum : turned ? weight / sum : 0.0f;
-  return share * density_of_area(4.0f * its_area, from, place);
+  return share * density_of_area(4.0f * its_area, from, point);
 }
 
 SHADER_END

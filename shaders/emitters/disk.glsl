@@ -13,14 +13,14 @@ EmitterSample disk_emitter_sample(Emitter e, vec3 from, vec2 u) {
   float squared = at.x * at.x + at.y * at.y;
   float hole = disk_hole(e);
   float grow = squared == 0.0f ? 1.0f : sqrt((hole + squared * (1.0f - hole)) / squared);
-  EmitterSample place;
-  place.p = emitter_origin(e) + (emitter_edge_u(e) * (at.x * grow) + emitter_edge_v(e) * (at.y * grow));
-  place.normal = flat_normal(e);
-  place.uv = vec2(0.5f + 0.5f * (at.x * grow), 0.5f - 0.5f * (at.y * grow));
-  return place;
+  EmitterSample point;
+  point.p = emitter_origin(e) + (emitter_edge_u(e) * (at.x * grow) + emitter_edge_v(e) * (at.y * grow));
+  point.normal = flat_normal(e);
+  point.uv = vec2(0.5f + 0.5f * (at.x * grow), 0.5f - 0.5f * (at.y * grow));
+  return point;
 }
 
-float disk_emitter_density(Emitter e, vec3 from, EmitterSample place) { return density_of_area(e.area, from, place); }
+float disk_emitter_density(Emitter e, vec3 from, EmitterSample point) { return density_of_area(e.area, from, point); }
 
 SHADER_END
 #endif

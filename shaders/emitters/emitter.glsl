@@ -9,49 +9,49 @@
 SHADER_BEGIN
 
 EmitterSample sample_emitter(Emitter e, vec3 from, vec2 u) {
-  EmitterSample place;
-  place.p = emitter_origin(e);
-  place.normal = vec3(0.0f, 0.0f, 0.0f);
-  place.uv = vec2(0.0f, 0.0f);
+  EmitterSample point;
+  point.p = emitter_origin(e);
+  point.normal = vec3(0.0f, 0.0f, 0.0f);
+  point.uv = vec2(0.0f, 0.0f);
 #define SAMPLE_OF_EMITTER(name, number, itself) \
-  if (e.kind == number) place = name##_emitter_sample(e, from, u);
+  if (e.kind == number) point = name##_emitter_sample(e, from, u);
   EMITTERS(SAMPLE_OF_EMITTER)
-  return place;
+  return point;
 }
 
-// The density, by solid angle at `from`, with which sample_emitter chooses `place`.
-float emitter_density(Emitter e, vec3 from, EmitterSample place) {
+// The density, by solid angle at `from`, with which sample_emitter chooses `point`.
+float emitter_density(Emitter e, vec3 from, EmitterSample point) {
   float density = 0.0f;
 #define DENSITY_OF_EMITTER(name, number, itself) \
-  if (e.kind == number) density = name##_emitter_density(e, from, place);
+  if (e.kind == number) density = name##_emitter_density(e, from, point);
   EMITTERS(DENSITY_OF_EMITTER)
   return density;
 }
 
 // The radiance that the point emits towards the origin of `direction`, which points at it.
-vec3 emitter_radiance(Emitter e, EmitterSample place, vec3 direction) {
+vec3 emitter_radiance(Emitter e, EmitterSample point, vec3 direction) {
   vec3 light = e.radiance;
 #if HAS_EMISSION_TEXTURES
   if (e.texture != NONE) {
-    TextureContext at = place_of_uv(place.uv);
-    at.p = place.p;
+    TextureContext at = context_of_uv(point.uv);
+    at.p = point.p;
     vec3 color = vec3(1.0f, 1.0f, 1.0f);
     if (e.corners != NONE) {
-      float wa = (1.0f - place.uv.x) - place.uv.y;
+      float wa = (1.0f - point.uv.x) - point.uv.y;
       vec4 c0 = bits_to_floats(load_vertex(e.corners));
       vec4 c1 = bits_to_floats(load_vertex(e.corners + 1u));
       vec4 c2 = bits_to_floats(load_vertex(e.corners + 2u));
       vec4 v = bits_to_floats(load_vertex(e.corners + 3u));
-      at.uv = vec2((c0.w * wa + c1.w * place.uv.x) + c2.w * place.uv.y, (v.x * wa + v.y * place.uv.x) + v.z * place.uv.y);
+      at.uv = vec2((c0.w * wa + c1.w * point.uv.x) + c2.w * point.uv.y, (v.x * wa + v.y * point.uv.x) + v.z * point.uv.y);
 #if HAS_SECOND_UV
       at.second_uv = at.uv;  // corners have those that the texture reads
 #endif
-      color = (vec3(c0) * wa + vec3(c1) * place.uv.x) + vec3(c2) * place.uv.y;
+      color = (vec3(c0) * wa + vec3(c1) * point.uv.x) + vec3(c2) * point.uv.y;
     }
     light = emission_texture(e.texture, at) * color;
   }
 #endif
-  if (HAS_ONE_SIDED_EMISSION == 1 && e.side * dot3(place.normal, direction) > 0.0f) light = vec3(0.0f, 0.0f, 0.0f);
+  if (HAS_ONE_SIDED_EMISSION == 1 && e.side * dot3(point.normal, direction) > 0.0f) light = vec3(0.0f, 0.0f, 0.0f);
   return light;
 }
 

@@ -19,10 +19,10 @@ struct EmitterSample {
 };
 
 // The density, by solid angle at `from`, of a point chosen evenly on `area`.
-float density_of_area(float area, vec3 from, EmitterSample place) {
-  vec3 way = place.p - from;
+float density_of_area(float area, vec3 from, EmitterSample point) {
+  vec3 way = point.p - from;
   float squared = dot3(way, way);
-  return squared * sqrt(squared) / (area * maximum(abs(dot3(way, place.normal)), 1.0e-30f));
+  return squared * sqrt(squared) / (area * maximum(abs(dot3(way, point.normal)), 1.0e-30f));
 }
 
 SHADER_END

@@ -9,24 +9,24 @@ SHADER_BEGIN
 
 #if HAS_ENVIRONMENT
 // A point in the cell between the columns `column` and the next, and the rows above and below.
-struct EnvironmentPlace {
+struct EnvironmentTexel {
   uint column;
   uint row;
   float right;  // from the cell's left, as a share of it
   float down;
 };
 
-EnvironmentPlace environment_place(Frame frame, vec3 d) {
+EnvironmentTexel texel_towards(Frame frame, vec3 d) {
   float u = 0.5f + atan_yx(d.x, -d.z) * 0.159154943f + frame.environment_turn;
   float x = (u - floor(u)) * float(frame.environment_width) - 0.5f;
   float height = float(frame.environment_height);
   float y = minimum(atan_yx(sqrt(d.x * d.x + d.z * d.z), d.y) * 0.318309886f, 1.0f) * height + 0.5f;
-  EnvironmentPlace place;
-  place.column = x < 0.0f ? frame.environment_width - 1u : uint(x);
-  place.row = uint(y);
-  place.right = x - floor(x);
-  place.down = y - floor(y);
-  return place;
+  EnvironmentTexel texel;
+  texel.column = x < 0.0f ? frame.environment_width - 1u : uint(x);
+  texel.row = uint(y);
+  texel.right = x - floor(x);
+  texel.down = y - floor(y);
+  return texel;
 }
 
 uint environment_index(Frame frame, uint column, uint row) { return row * (frame.environment_width + 1u) + column; }
@@ -36,7 +36,7 @@ vec3 environment_texel(Frame frame, uint column, uint row) {
 }
 
 vec3 environment_radiance(Frame frame, vec3 d) {
-  EnvironmentPlace at = environment_place(frame, d);
+  EnvironmentTexel at = texel_towards(frame, d);
   uint above = at.row == 0u ? 0u : at.row - 1u;
   vec3 left = environment_texel(frame, at.column, above);
   vec3 upper = left + (environment_texel(frame, at.column + 1u, above) - left) * at.right;
@@ -135,7 +135,7 @@ EnvironmentSample sample_environment(Frame frame, vec2 u) {
 }
 
 float environment_density(Frame frame, vec3 d) {
-  EnvironmentPlace at = environment_place(frame, d);
+  EnvironmentTexel at = texel_towards(frame, d);
   return environment_cell_density(frame, at.column, at.row);
 }
 #endif

@@ -37,20 +37,20 @@ EmitterSample parallelogram_emitter_sample(Emitter e, vec3 from, vec2 u) {
   if (low) part = seen.low;
   if (!low) part = seen.high;
   float rest = (low ? turn : turn - seen.low.half_angle) / maximum(part.half_angle, 1.0e-30f);
-  vec2 weights = spherical_triangle_place(part, vec2(u.x, minimum(rest, 1.0f)));
+  vec2 weights = spherical_triangle_weights(part, vec2(u.x, minimum(rest, 1.0f)));
   vec2 spherical = low ? vec2(weights.x + weights.y, weights.y) : vec2(weights.x, weights.x + weights.y);
   vec2 at = u;
   if (is_by_solid_angle(seen)) at = spherical;
-  EmitterSample place;
-  place.p = emitter_origin(e) + (emitter_edge_u(e) * at.x + emitter_edge_v(e) * at.y);
-  place.normal = flat_normal(e);
-  place.uv = at;
-  return place;
+  EmitterSample point;
+  point.p = emitter_origin(e) + (emitter_edge_u(e) * at.x + emitter_edge_v(e) * at.y);
+  point.normal = flat_normal(e);
+  point.uv = at;
+  return point;
 }
 
-float parallelogram_emitter_density(Emitter e, vec3 from, EmitterSample place) {
+float parallelogram_emitter_density(Emitter e, vec3 from, EmitterSample point) {
   SphericalParallelogram seen = spherical_parallelogram(e, from);
-  return is_by_solid_angle(seen) ? 1.0f / (2.0f * half_angle_of(seen)) : density_of_area(e.area, from, place);
+  return is_by_solid_angle(seen) ? 1.0f / (2.0f * half_angle_of(seen)) : density_of_area(e.area, from, point);
 }
 
 SHADER_END

@@ -104,16 +104,16 @@ EmitterSample rectangle_emitter_sample(Emitter e, vec3 from, vec2 u) {
   float y = rectangle_y(seen, x, u.y);
   vec2 at = u;
   if (is_by_solid_angle(seen)) at = vec2((x - seen.x0) / rectangle_width(e), (y - seen.y0) / rectangle_height(e));
-  EmitterSample place;
-  place.p = emitter_origin(e) + (emitter_edge_u(e) * at.x + emitter_edge_v(e) * at.y);
-  place.normal = flat_normal(e);
-  place.uv = at;
-  return place;
+  EmitterSample point;
+  point.p = emitter_origin(e) + (emitter_edge_u(e) * at.x + emitter_edge_v(e) * at.y);
+  point.normal = flat_normal(e);
+  point.uv = at;
+  return point;
 }
 
-float rectangle_emitter_density(Emitter e, vec3 from, EmitterSample place) {
+float rectangle_emitter_density(Emitter e, vec3 from, EmitterSample point) {
   SphericalRectangle seen = spherical_rectangle(e, from);
-  return is_by_solid_angle(seen) ? 1.0f / (2.0f * seen.half_angle) : density_of_area(e.area, from, place);
+  return is_by_solid_angle(seen) ? 1.0f / (2.0f * seen.half_angle) : density_of_area(e.area, from, point);
 }
 
 SHADER_END

@@ -34,22 +34,22 @@ EmitterSample sample_sphere(Primitive sphere, vec3 from, vec2 u) {
   tangents(axis, s, t);
   vec3 d = axis * cosine + (s * turn.y + t * turn.x) * sqrt(maximum(sine_squared, 0.0f));
   float near = distance * cosine - sqrt(maximum(r * r - squared * sine_squared, 0.0f));
-  EmitterSample place;
-  place.normal = outside ? normalize3(d * near - way) : d;
-  place.p = sphere_center(sphere) + place.normal * r;
-  place.uv = sphere_uv(sphere, place.normal);
-  return place;
+  EmitterSample point;
+  point.normal = outside ? normalize3(d * near - way) : d;
+  point.p = sphere_center(sphere) + point.normal * r;
+  point.uv = sphere_uv(sphere, point.normal);
+  return point;
 }
 
 EmitterSample sphere_emitter_sample(Emitter e, vec3 from, vec2 u) { return sample_sphere(emitter_sphere(e), from, u); }
 
-float sphere_emitter_density(Emitter e, vec3 from, EmitterSample place) {
+float sphere_emitter_density(Emitter e, vec3 from, EmitterSample point) {
   Primitive sphere = emitter_sphere(e);
   vec3 way = sphere_center(sphere) - from;
   float r = sphere_radius(sphere);
   float sine_squared = r * r / dot3(way, way);
   return sphere_is_seen_from_outside(sphere, from) ? 1.0f / (2.0f * PI * versine(sine_squared))
-                                                   : density_of_area(e.area, from, place);
+                                                   : density_of_area(e.area, from, point);
 }
 
 SHADER_END

@@ -46,7 +46,7 @@ bool is_by_solid_angle(SphericalTriangle seen) {
 }
 
 // The point's weights of the first and the second corner, none of which is negative.
-vec2 spherical_triangle_place(SphericalTriangle seen, vec2 u) {
+vec2 spherical_triangle_weights(SphericalTriangle seen, vec2 u) {
   // Along the edge opposite the apex, to where the triangle that is left has its share of the angle: the edge's half angle there has the
   // tangent y / x · its sine.
   vec2 turn = sine_cosine(u.y * seen.half_angle);

@@ -10,17 +10,17 @@ EmitterSample triangle_emitter_sample(Emitter e, vec3 from, vec2 u) {
   // By area: Osada et al., "Shape Distributions" (TOG 2002).
   float root = sqrt(u.x);
   vec2 weights = vec2(root * (1.0f - u.y), root * u.y);
-  if (is_by_solid_angle(seen)) weights = spherical_triangle_place(seen, u);
-  EmitterSample place;
-  place.p = emitter_origin(e) + (emitter_edge_u(e) * weights.x + emitter_edge_v(e) * weights.y);
-  place.normal = flat_normal(e);
-  place.uv = weights;
-  return place;
+  if (is_by_solid_angle(seen)) weights = spherical_triangle_weights(seen, u);
+  EmitterSample point;
+  point.p = emitter_origin(e) + (emitter_edge_u(e) * weights.x + emitter_edge_v(e) * weights.y);
+  point.normal = flat_normal(e);
+  point.uv = weights;
+  return point;
 }
 
-float triangle_emitter_density(Emitter e, vec3 from, EmitterSample place) {
+float triangle_emitter_density(Emitter e, vec3 from, EmitterSample point) {
   SphericalTriangle seen = spherical_triangle(emitter_origin(e) - from, emitter_edge_u(e), emitter_edge_v(e));
-  return is_by_solid_angle(seen) ? 1.0f / (2.0f * seen.half_angle) : density_of_area(e.area, from, place);
+  return is_by_solid_angle(seen) ? 1.0f / (2.0f * seen.half_angle) : density_of_area(e.area, from, point);
 }
 
 SHADER_END

@@ -3,7 +3,7 @@
 #define RAY_GLSL
 #include "math/math.glsl"
 #include "records.h"
-#include "textures/place.glsl"
+#include "textures/context.glsl"
 
 SHADER_BEGIN
 
@@ -122,13 +122,13 @@ Surface no_surface() {
 }
 
 // The point at which the surface's textures are sampled.
-TextureContext place_on(Surface surface) {
-  TextureContext place = place_of_uv(surface.uv);
+TextureContext context_on(Surface surface) {
+  TextureContext point = context_of_uv(surface.uv);
 #if HAS_SECOND_UV
-  place.second_uv = surface.second_uv;
+  point.second_uv = surface.second_uv;
 #endif
-  place.p = surface.p;
-  return place;
+  point.p = surface.p;
+  return point;
 }
 
 // uv of a surface that is 1 wide: rounding does not take a point of its border to where the next check begins.

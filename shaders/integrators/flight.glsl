@@ -42,11 +42,11 @@ Flight flight_of(Frame frame, Path path, Hit hit) {
   Medium medium = load_medium(innermost_medium(path.media));
   if (max_component(medium.scattering) > 0.0f) {
     vec3 extinction = medium.absorption + medium.scattering;
-    vec2 chance = sample_pair(frame, path.pixel, path.index, PAIR_FLIGHT + surfaces_behind(path));
+    vec2 random = sample_pair(frame, path.pixel, path.index, PAIR_FLIGHT + surfaces_behind(path));
     float all = path.throughput.x + path.throughput.y + path.throughput.z;
     vec3 shares = path.throughput / maximum(all, 1.0e-30f);
-    float rate = chance.x < shares.x ? extinction.x : chance.x < shares.x + shares.y ? extinction.y : extinction.z;
-    float drawn = rate > 0.0f ? -log_positive(1.0f - chance.y) / rate : T_MISS;
+    float rate = random.x < shares.x ? extinction.x : random.x < shares.x + shares.y ? extinction.y : extinction.z;
+    float drawn = rate > 0.0f ? -log_positive(1.0f - random.y) / rate : T_MISS;
     flight.scattered = drawn < length;
     if (flight.scattered) flight.t = minimum(medium_distance(frame, path.media, path.o, path.d, drawn), hit.t);
     vec3 left = medium_transmittance(path.media, flight.scattered ? drawn : length);
@@ -75,7 +75,7 @@ Interaction scattered_at(Path path, Flight flight) {
   at.seen = at.surface;
   at.d = path.d;
   at.primitive = NONE;
-  at.context.place = place_of_uv(at.surface.uv);
+  at.context.point = context_of_uv(at.surface.uv);
   at.context.color = vec3(1.0f, 1.0f, 1.0f);
   at.context.cos_view = 1.0f;
   at.context.ior_from = 1.0f;

@@ -53,7 +53,7 @@ Interaction surface_interaction(Ray ray, Hit hit, uint media, INOUT(uint) flags)
   PROBE(front, front);
   PROBE(material, int(material));
 
-  at.context.place = place_on(at.surface);
+  at.context.point = context_on(at.surface);
   at.context.color = vec3(1.0f, 1.0f, 1.0f);
 #if HAS_COLORS
   at.context.color = vertex_color(primitive, hit);

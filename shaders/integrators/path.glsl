@@ -81,11 +81,11 @@ vec3 path_emitted(Frame frame, Path path, Interaction at) {
   light = at.scattering.emitted;
   uint emitter = EMITTER_COUNT > 0u && path.density > 0.0f ? emitter_of(at.primitive) : NONE;
   if (emitter != NONE) {
-    EmitterSample place;
-    place.p = at.surface.p;
-    place.normal = at.surface.normal_geometric;
+    EmitterSample point;
+    point.p = at.surface.p;
+    point.normal = at.surface.normal_geometric;
     float share = light_share(frame, last_vertex(path), path.normal, emitter) * (1.0f - environment_share(frame));
-    float density = share * emitter_density(load_emitter(emitter), last_vertex(path), place);
+    float density = share * emitter_density(load_emitter(emitter), last_vertex(path), point);
     light = light * power_heuristic(path.density, density);
   }
 #endif
@@ -122,8 +122,8 @@ Arriving nothing_arriving(Interaction at) {
 }
 
 // The light from one light or surface, chosen at random.
-Arriving emitter_arriving(Frame frame, Path path, Interaction at, float chance) {
-  LightPick pick = pick_light(frame, at.seen.p, normal_for_lights(at), chance);
+Arriving emitter_arriving(Frame frame, Path path, Interaction at, float random) {
+  LightPick pick = pick_light(frame, at.seen.p, normal_for_lights(at), random);
   uint light = pick.light;
   Arriving arriving = nothing_arriving(at);
   arriving.light = light;
@@ -146,16 +146,16 @@ Arriving emitter_arriving(Frame frame, Path path, Interaction at, float chance) 
 #if HAS_EMISSION
   if (light >= LIGHT_COUNT) {
     Emitter emitter = load_emitter(light);
-    EmitterSample place = sample_emitter(emitter, at.seen.p, path_pair(frame, path, PAIR_EMITTER));
-    arriving.direction = normalize3(place.p - at.seen.p);
+    EmitterSample point = sample_emitter(emitter, at.seen.p, path_pair(frame, path, PAIR_EMITTER));
+    arriving.direction = normalize3(point.p - at.seen.p);
     // The ray ends as far off the emitter as rays start off surfaces.
-    float side = dot3(arriving.direction, place.normal) < 0.0f ? emitter.offset : -emitter.offset;
+    float side = dot3(arriving.direction, point.normal) < 0.0f ? emitter.offset : -emitter.offset;
     vec3 start = spawn_scattered(at.seen, arriving.direction, is_before(at, arriving.direction)).o;
-    vec3 way = place.p + place.normal * side - start;
+    vec3 way = point.p + point.normal * side - start;
     arriving.distance = sqrt(dot3(way, way));
     arriving.ray = make_ray(start, way / arriving.distance);
-    if (may_light(emitter, at.primitive)) arriving.radiance = emitter_radiance(emitter, place, arriving.direction);
-    arriving.density = arriving.share * emitter_density(emitter, at.seen.p, place);
+    if (may_light(emitter, at.primitive)) arriving.radiance = emitter_radiance(emitter, point, arriving.direction);
+    arriving.density = arriving.share * emitter_density(emitter, at.seen.p, point);
   }
 #endif
   return arriving;
@@ -177,14 +177,14 @@ Arriving environment_arriving(Frame frame, Path path, Interaction at) {
 
 // The light of the one light that the vertex samples.
 Arriving light_arriving(Frame frame, Path path, Interaction at) {
-  vec2 chance = path_pair(frame, path, PAIR_LIGHT);
+  vec2 random = path_pair(frame, path, PAIR_LIGHT);
   bool around = false;
   Arriving arriving = nothing_arriving(at);
 #if HAS_ENVIRONMENT
-  around = uint(chance.y * 16777216.0f) < frame.environment_numbers;
+  around = uint(random.y * 16777216.0f) < frame.environment_numbers;
   if (around) arriving = environment_arriving(frame, path, at);
 #endif
-  if (!around && EMITTER_COUNT > 0u) arriving = emitter_arriving(frame, path, at, chance.x);
+  if (!around && EMITTER_COUNT > 0u) arriving = emitter_arriving(frame, path, at, random.x);
   return arriving;
 }
 

@@ -66,11 +66,11 @@ PhotonResult photon_way(Frame frame, uint index, uint number) {
     going = on_surface || flight.scattered;
     if (going) {
       Interaction at = first_interaction(path, ray, hit, flight, result.flags);
-      vec3 place = at.surface.p * pass.cells;
-      if (on_surface && path.depth > 0u && in_cells(place) && sum_of(part_of(at.bsdf, true)) > 0.0f) {
+      vec3 cell_position = at.surface.p * pass.cells;
+      if (on_surface && path.depth > 0u && in_cells(cell_position) && sum_of(part_of(at.bsdf, true)) > 0.0f) {
         Photon photon;
         photon.position = at.surface.p;
-        photon.key = cell_key(cell_of(place), pass.key_mask);
+        photon.key = cell_key(cell_of(cell_position), pass.key_mask);
         photon.direction = -at.d;
         photon.number = number;
         photon.normal = at.seen.normal_geometric;

@@ -10,9 +10,9 @@ SHADER_BEGIN
 #define MOST_CELLS 8388608.0f  // from the eye along an axis; points farther away are in none
 
 // The cell of a point given in units of cells, relative to the eye.
-vec3 cell_of(vec3 place) { return vec3(floor(place.x), floor(place.y), floor(place.z)); }
+vec3 cell_of(vec3 cell_position) { return vec3(floor(cell_position.x), floor(cell_position.y), floor(cell_position.z)); }
 
-bool in_cells(vec3 place) { return max_component(abs3(place)) < MOST_CELLS; }
+bool in_cells(vec3 cell_position) { return max_component(abs3(cell_position)) < MOST_CELLS; }
 
 // The key of a cell. Cells far apart may share one.
 uint cell_key(vec3 cell, uint mask) {

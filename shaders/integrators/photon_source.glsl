@@ -40,30 +40,30 @@ vec3 middle_of(Emitter e) {
 }
 
 // The density of these start points by area. On flat emitters they are chosen from their own plane, and so by area.
-float density_by_area(Emitter e, vec3 middle, EmitterSample place) {
-  vec3 way = place.p - middle;
+float density_by_area(Emitter e, vec3 middle, EmitterSample point) {
+  vec3 way = point.p - middle;
   float squared = maximum(dot3(way, way), 1.0e-30f);
-  float closed = emitter_density(e, middle, place) * abs(dot3(way, place.normal)) / (squared * sqrt(squared));
+  float closed = emitter_density(e, middle, point) * abs(dot3(way, point.normal)) / (squared * sqrt(squared));
   return may_light(e, e.primitive) ? closed : 1.0f / e.area;
 }
 
 PhotonSource from_surface(PhotonPass pass, Emitter e, vec2 start, vec2 heading, vec2 side) {
   vec3 middle = middle_of(e);
-  EmitterSample place = sample_emitter(e, middle, start);
+  EmitterSample point = sample_emitter(e, middle, start);
   PhotonSource source;
   source.below = e.side == 0.0f ? side.x >= 0.5f : e.side < 0.0f;
-  vec3 n = source.below ? -place.normal : place.normal;
+  vec3 n = source.below ? -point.normal : point.normal;
   vec3 s;
   vec3 t;
   tangents(n, s, t);
   vec3 by_cosine = cosine_direction(heading);
-  source.o = place.p + n * e.offset;
-  vec3 by_chance = normalize3(s * by_cosine.x + t * by_cosine.y + n * by_cosine.z);
-  Aimed way = aimed(pass, aim_from(place.p, n, false, side.y, heading), by_chance);
+  source.o = point.p + n * e.offset;
+  vec3 at_random = normalize3(s * by_cosine.x + t * by_cosine.y + n * by_cosine.z);
+  Aimed way = aimed(pass, aim_from(point.p, n, false, side.y, heading), at_random);
   source.d = way.at;
   source.aim = aim_event(way);
   float sides = e.side == 0.0f ? 2.0f : 1.0f;
-  source.flux = emitter_radiance(e, place, -source.d) * (sides * PI / density_by_area(e, middle, place) * aimed_weight(way, dot3(n, way.at) / PI));
+  source.flux = emitter_radiance(e, point, -source.d) * (sides * PI / density_by_area(e, middle, point) * aimed_weight(way, dot3(n, way.at) / PI));
   return source;
 }
 
@@ -84,10 +84,10 @@ PhotonSource from_around(Frame frame, PhotonPass pass, vec2 start, vec2 heading,
 #if HAS_MEDIUM_EXTENT && HAS_ABSORPTION
 // Light from infinitely far away has come through the medium around all before its photon starts. If the
 // medium leaves little of a photon, it is rare instead: it starts with the probability `survival`, by a random number.
-vec3 after_upstream(Frame frame, PhotonSource source, float chance) {
+vec3 after_upstream(Frame frame, PhotonSource source, float random) {
   vec3 left = medium_transmittance(0u, medium_length(frame, 0u, source.o, -source.d, T_MISS));
   float survival = max_component(left);
-  return chance < survival ? source.flux * left / survival : vec3(0.0f, 0.0f, 0.0f);
+  return random < survival ? source.flux * left / survival : vec3(0.0f, 0.0f, 0.0f);
 }
 #endif
 

@@ -21,9 +21,9 @@ vec3 raycast_emitted(Frame frame, Path path, Interaction at) {
   }
   float headlight = abs(dot3(at.seen.normal, at.d));
   if (LIGHT_COUNT == 0u) light = vec3(headlight, headlight, headlight);
-  vec3 base = color_of(at.material, at.context.place);
+  vec3 base = color_of(at.material, at.context.point);
 #if HAS_EMISSION
-  base = base + emission_of(at.material, at.context.place);
+  base = base + emission_of(at.material, at.context.point);
 #endif
 #if HAS_COLORS
   base = base * at.context.color;

@@ -21,11 +21,11 @@ vec3 gathered(Frame frame, Path path, Interaction at) {
   LobeShares wide = part_of(at.bsdf, true);
   vec3 n = at.seen.normal_geometric;
   vec3 p = at.surface.p;
-  vec3 place = p * pass.cells;
-  if (sum_of(wide) > 0.0f && path.depth <= frame.max_depth && in_cells(place)) {
+  vec3 cell_position = p * pass.cells;
+  if (sum_of(wide) > 0.0f && path.depth <= frame.max_depth && in_cells(cell_position)) {
     LocalFrame local = local_frame(at);
     vec3 o = towards_viewer(local, at);
-    vec3 lowest = cell_of(place - vec3(0.5f, 0.5f, 0.5f));
+    vec3 lowest = cell_of(cell_position - vec3(0.5f, 0.5f, 0.5f));
     for (uint corner = 0u; corner < 8u; corner++) {
       vec3 cell = lowest + vec3(float(corner & 1u), float((corner >> 1u) & 1u), float(corner >> 2u));
       uint key = cell_key(cell, pass.key_mask);

@@ -3,11 +3,11 @@
 #define EYE_PATH_GLSL
 #include "kernels/pixel.glsl"
 
-// The sample's path through the pixel at `place` of the tile. Where the camera sees nothing there is a ray all the same, whose hit is
+// The sample's path through the pixel at `slot` of the tile. Where the camera sees nothing there is a ray all the same, whose hit is
 // not used.
-Path eye_path(uint place) {
-  uint row = quotient(place, dispatch.tile_width);
-  uint x = dispatch.tile_x + (place - row * dispatch.tile_width) * dispatch.stride;
+Path eye_path(uint slot) {
+  uint row = quotient(slot, dispatch.tile_width);
+  uint x = dispatch.tile_x + (slot - row * dispatch.tile_width) * dispatch.stride;
   uint y = dispatch.tile_y + row * dispatch.stride;
   Frame frame = load_frame();
   Ray ray;

@@ -46,9 +46,9 @@ Frame load_frame() { return frame_record; }
 #endif
 #endif
 #if STORED_HITS
-uint stored_place;  // index of this invocation's pixel in the results
-PacketHit load_packet_hit() { return packet_hits[stored_place]; }
-uint load_occlusion(uint light) { return occlusions[light * dispatch.count + stored_place]; }
+uint stored_slot;  // index of this invocation's pixel in the results
+PacketHit load_packet_hit() { return packet_hits[stored_slot]; }
+uint load_occlusion(uint light) { return occlusions[light * dispatch.count + stored_slot]; }
 #endif
 #if HAS_LIGHT_BVH
 LightNode load_light_node(uint i) { return light_nodes[i]; }

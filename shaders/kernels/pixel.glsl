@@ -14,13 +14,13 @@ SHADER_BEGIN
 
 // The camera ray of sample `index` of pixel (x, y); false if there is none because the camera sees nothing there.
 bool camera_ray(Frame frame, uint x, uint y, uint index, OUT(Ray) ray) {
-  vec2 place = sample_position(frame, x, y, index);
+  vec2 position = sample_position(frame, x, y, index);
   vec2 lens = vec2(0.0f, 0.0f);
 #if HAS_LENS
   lens = point_on_lens(frame, sample_pair(frame, y * frame.width + x, index, PAIR_LENS));
 #endif
-  ray = camera_ray(frame, place, lens);
-  return camera_sees(frame, place, lens);
+  ray = camera_ray(frame, position, lens);
+  return camera_sees(frame, position, lens);
 }
 
 SampleResult render_sample(Frame frame, uint x, uint y, uint index) {
@@ -50,12 +50,12 @@ AuxiliaryResult render_auxiliary(Frame frame, uint x, uint y, uint index) {
 
 // Through the middle of the pixel, from that of the lens; of surfaces that blend, it hits those that the pixel's first sample hits.
 HitResult first_hit(Frame frame, uint x, uint y) {
-  vec2 place = vec2(float(x) + 0.5f, float(y) + 0.5f);
+  vec2 position = vec2(float(x) + 0.5f, float(y) + 0.5f);
   vec2 lens = vec2(0.0f, 0.0f);
-  Ray ray = camera_ray(frame, place, lens);
+  Ray ray = camera_ray(frame, position, lens);
   ray = with_alpha_key(ray, frame, begin(frame, ray, y * frame.width + x, 0u), 0u);
   uint flags = 0u;
-  TraversalState state = search(ray, camera_sees(frame, place, lens) ? T_MISS : -1.0f, false);
+  TraversalState state = search(ray, camera_sees(frame, position, lens) ? T_MISS : -1.0f, false);
   Hit hit = state.hit;
   flags = flags | iteration_limit(state) | loops_cut_off(LOOP_PROBE);
   HitResult result;
@@ -104,9 +104,9 @@ QueryHit answer(TraversalState state, bool any, uint flags) {
 }
 
 // A single ray: the nearest hit before its t_max, or whether anything keeps its light away.
-QueryHit query(QueryRay asked, bool any) {
-  Ray ray = make_ray(asked.origin, asked.direction);
-  TraversalState state = search(ray, minimum(asked.t_max, T_MISS), any);
+QueryHit query(QueryRay requested, bool any) {
+  Ray ray = make_ray(requested.origin, requested.direction);
+  TraversalState state = search(ray, minimum(requested.t_max, T_MISS), any);
   return answer(state, any, loops_cut_off(LOOP_PROBE));
 }
 

@@ -4,22 +4,22 @@
 #define QUEUED_PATH_GLSL
 #include "integrators/continuation.glsl"
 
-Path queued_path(uint place) {
+Path queued_path(uint slot) {
   Path path;
-  path.o = paths[place].origin;
-  path.d = paths[place].direction;
-  path.throughput = paths[place].throughput;
+  path.o = paths[slot].origin;
+  path.d = paths[slot].direction;
+  path.throughput = paths[slot].throughput;
   path.depth = dispatch.depth;
-  path.media = paths[place].media;
+  path.media = paths[slot].media;
 #if RANDOM_WALK
-  path.density = paths[place].density;
+  path.density = paths[slot].density;
   path.normal = vec3(0.0f, 0.0f, 0.0f);
 #if HAS_LIGHT_BVH
-  path.normal = paths[place].normal;
+  path.normal = paths[slot].normal;
 #endif
 #endif
 #if RANDOM_WALK || HAS_BLEND
-  path.pixel = paths[place].pixel;
+  path.pixel = paths[slot].pixel;
   path.index = dispatch.sample_index;
 #endif
 #if RAY_KINDS
@@ -29,19 +29,19 @@ Path queued_path(uint place) {
 }
 
 #ifdef QUEUES_PATHS
-void queue_path(uint place, Path path) {
-  paths[place].origin = path.o;
-  paths[place].direction = path.d;
-  paths[place].throughput = path.throughput;
-  paths[place].media = path.media;
+void queue_path(uint slot, Path path) {
+  paths[slot].origin = path.o;
+  paths[slot].direction = path.d;
+  paths[slot].throughput = path.throughput;
+  paths[slot].media = path.media;
 #if RANDOM_WALK
-  paths[place].density = path.density;
+  paths[slot].density = path.density;
 #if HAS_LIGHT_BVH
-  paths[place].normal = path.normal;
+  paths[slot].normal = path.normal;
 #endif
 #endif
 #if RANDOM_WALK || HAS_BLEND
-  paths[place].pixel = path.pixel;
+  paths[slot].pixel = path.pixel;
 #endif
 }
 #endif

@@ -31,24 +31,24 @@ void main() {
 #ifdef LISTED
   uint i = group * 64u + gl_LocalInvocationIndex;
   if (i >= list[0]) return;
-  uint place = list[1u + i];
-  Path path = queued_path(place);
-  color = results[place].color;
-  counts = counts_of(results[place]);
-  trail = results[place].trail;
+  uint slot = list[1u + i];
+  Path path = queued_path(slot);
+  color = results[slot].color;
+  counts = counts_of(results[slot]);
+  trail = results[slot].trail;
 #if RAY_KINDS
-  kinds = uvec3(reflected_of(results[place]), refracted_of(results[place]), total_reflections_of(results[place]));
-  counts.z = flags_of(results[place]);
+  kinds = uvec3(reflected_of(results[slot]), refracted_of(results[slot]), total_reflections_of(results[slot]));
+  counts.z = flags_of(results[slot]);
 #endif
 #else
   uvec2 pixel = pixel_of_block(group, gl_LocalInvocationIndex, dispatch.tile_width);
   if (pixel.x >= dispatch.tile_width || pixel.y >= dispatch.tile_height) return;
-  uint place = pixel.y * dispatch.tile_width + pixel.x;
+  uint slot = pixel.y * dispatch.tile_width + pixel.x;
   uint x = dispatch.tile_x + pixel.x * dispatch.stride;
   uint y = dispatch.tile_y + pixel.y * dispatch.stride;
   Ray first;
   if (!camera_ray(frame, x, y, dispatch.sample_index, first)) {
-    results[place] = sample_result(color, counts, trail);
+    results[slot] = sample_result(color, counts, trail);
     return;
   }
   Path path = begin(frame, first, y * frame.width + x, dispatch.sample_index);
@@ -56,7 +56,7 @@ void main() {
 
   Ray ray = path_ray(frame, path);
 #if STORED_HITS
-  stored_place = place;
+  stored_slot = slot;
   Hit hit = hit_of_packet(load_packet_hit(), counts);
 #else
   Hit hit = trace(ray, counts.z);
@@ -73,15 +73,15 @@ void main() {
 
 #ifdef ENDS_ONLY
   if (all.count > 0u) {
-    next_list[1u + atomicAdd(next_list[0], 1u)] = place;
+    next_list[1u + atomicAdd(next_list[0], 1u)] = slot;
     return;
   }
 #endif
-  results[place] = sample_result(positive_zeros(color), counts, trail);
+  results[slot] = sample_result(positive_zeros(color), counts, trail);
 #ifndef ENDS_ONLY
   if (all.count > 0u) {
-    queue_path(place, all.next);
-    next_list[1u + atomicAdd(next_list[0], 1u)] = place;
+    queue_path(slot, all.next);
+    next_list[1u + atomicAdd(next_list[0], 1u)] = slot;
   }
 #endif
 }

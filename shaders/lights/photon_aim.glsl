@@ -15,7 +15,7 @@ struct AimFrom {
   vec3 p;
   vec3 n;
   bool afar;
-  float chance;  // two random numbers: whether and at which target, …
+  float random;  // two random numbers: whether and at which target, …
   vec2 within;   // … and where in its window
 };
 
@@ -34,12 +34,12 @@ struct Aimed {
   uint around;    // … and that hold it
 };
 
-AimFrom aim_from(vec3 p, vec3 n, bool afar, float chance, vec2 within) {
+AimFrom aim_from(vec3 p, vec3 n, bool afar, float random, vec2 within) {
   AimFrom from;
   from.p = p;
   from.n = n;
   from.afar = afar;
-  from.chance = chance;
+  from.random = random;
   from.within = within;
   return from;
 }
@@ -65,10 +65,10 @@ vec3 in_window(Window window, AimFrom from) {
   return window.middle + (local.s * at.x + local.t * at.y);
 }
 
-// by_chance: the light's own choice without aiming.
-Aimed aimed(PhotonPass pass, AimFrom from, vec3 by_chance) {
+// at_random: the light's own choice without aiming.
+Aimed aimed(PhotonPass pass, AimFrom from, vec3 at_random) {
   Aimed all;
-  all.at = by_chance;
+  all.at = at_random;
   all.by_aim = false;
   all.density = 0.0f;
   all.windows = 0u;
@@ -81,8 +81,8 @@ Aimed aimed(PhotonPass pass, AimFrom from, vec3 by_chance) {
   }
   // Choose a window with a probability proportional to its size.
   uint chosen = NONE;
-  float left = from.chance * (sum / AIMED);
-  if (sum > 0.0f && from.chance < AIMED) {
+  float left = from.random * (sum / AIMED);
+  if (sum > 0.0f && from.random < AIMED) {
     for (uint i = 0u; i < pass.target_count; i++) {
       Window window = window_of(pass, load_photon_target(i), from);
       if (window.size > 0.0f && left >= 0.0f) {
@@ -116,16 +116,16 @@ uint aim_event(Aimed it) { return 32u * it.windows + it.around; }
 LightEmission from_afar(PhotonPass pass, vec3 d, vec2 start, float aim) {
   LocalFrame local = frame_around(d);
   vec2 at = on_disk(start);
-  vec3 by_chance = local.s * at.x + local.t * at.y;
-  Aimed place = aimed(pass, aim_from(pass.center, d, true, aim, start), by_chance * pass.reach);
+  vec3 at_random = local.s * at.x + local.t * at.y;
+  Aimed point = aimed(pass, aim_from(pass.center, d, true, aim, start), at_random * pass.reach);
   LightEmission emission;
-  emission.o = pass.center + (place.by_aim ? place.at + d * pass.reach : (by_chance + d) * pass.reach);
+  emission.o = pass.center + (point.by_aim ? point.at + d * pass.reach : (at_random + d) * pass.reach);
   emission.d = -d;
   float area = PI * pass.reach * pass.reach;
-  bool before_all = !place.by_aim || dot3(place.at, place.at) < pass.reach * pass.reach;
-  float flux = before_all ? area * aimed_weight(place, 1.0f / area) : 0.0f;
+  bool before_all = !point.by_aim || dot3(point.at, point.at) < pass.reach * pass.reach;
+  float flux = before_all ? area * aimed_weight(point, 1.0f / area) : 0.0f;
   emission.flux = vec3(flux, flux, flux);
-  emission.aim = aim_event(place);
+  emission.aim = aim_event(point);
   return emission;
 }
 #endif

@@ -47,7 +47,7 @@ vec3 mapped_normal(Surface surface, vec3 n, vec3 code, float scale) {
 float height_of(vec3 color) { return 0.2126f * color.x + 0.7152f * color.y + 0.0722f * color.z; }
 
 // Heights are compared on both sides, `bump_width` away: in space along two directions perpendicular to n, or in uv.
-vec3 bumped_normal(Material material, Surface surface, vec3 n, TextureContext place) {
+vec3 bumped_normal(Material material, Surface surface, vec3 n, TextureContext point) {
   bool in_space = (material.flags & MATERIAL_BUMP_IN_SPACE) != 0u;
   vec3 s;
   vec3 t;
@@ -57,9 +57,9 @@ vec3 bumped_normal(Material material, Surface surface, vec3 n, TextureContext pl
     bool first = i < 2u;
     float side = (i & 1u) == 0u ? 1.0f : -1.0f;
     float way = side * material.bump_width;
-    TextureContext beside = place;
-    beside.uv = vec2(place.uv.x + (in_space || !first ? 0.0f : way), place.uv.y + (in_space || first ? 0.0f : way));
-    beside.p = place.p + (first ? s : t) * (in_space ? way : 0.0f);
+    TextureContext beside = point;
+    beside.uv = vec2(point.uv.x + (in_space || !first ? 0.0f : way), point.uv.y + (in_space || first ? 0.0f : way));
+    beside.p = point.p + (first ? s : t) * (in_space ? way : 0.0f);
     vec3 direction = in_space ? (first ? s : t) : first ? surface.u_gradient : surface.v_gradient;
     slope = slope + direction * (side * height_of(bump_of(material, beside)));
   }
@@ -81,11 +81,11 @@ vec3 above_surface(vec3 n, vec3 normal_geometric, vec3 d) {
 
 // The surface as the material has it where it is hit in the unit direction d.
 Surface bent_by(Material material, Surface surface, vec3 d) {
-  TextureContext place = place_on(surface);
+  TextureContext point = context_on(surface);
   vec3 n = surface.normal;
   if (material.normal_map != NONE)
-    n = mapped_normal(as_read_by(material.normal_map, surface), n, normal_map_of(material, place), material.normal_scale);
-  if (material.bump != NONE) n = bumped_normal(material, surface, n, place);
+    n = mapped_normal(as_read_by(material.normal_map, surface), n, normal_map_of(material, point), material.normal_scale);
+  if (material.bump != NONE) n = bumped_normal(material, surface, n, point);
   float side = dot3(d, surface.normal_geometric) < 0.0f ? 1.0f : -1.0f;
   vec3 up = surface.normal_geometric * side;
   Surface bent = surface;
@@ -93,7 +93,7 @@ Surface bent_by(Material material, Surface surface, vec3 d) {
 #if HAS_BENT_COAT
   bent.coat_normal = surface.normal;
   if (material.coat_normal != NONE) {
-    vec3 coat = mapped_normal(as_read_by(material.coat_normal, surface), surface.normal, coat_normal_of(material, place),
+    vec3 coat = mapped_normal(as_read_by(material.coat_normal, surface), surface.normal, coat_normal_of(material, point),
                               material.coat_normal_scale);
     bent.coat_normal = above_surface(coat * side, up, d) * side;
   }

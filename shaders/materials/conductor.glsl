@@ -17,14 +17,14 @@ Bsdf conductor_bsdf(Material material, ScatteringContext context, Scattering sca
   Bsdf bsdf = black_bsdf();
 #if HAS_GLOSSY
   bsdf.metallic = 1.0f;
-  bsdf.metal = schlick(color_of(material, context.place) * context.color, vec3(1.0f, 1.0f, 1.0f));
+  bsdf.metal = schlick(color_of(material, context.point) * context.color, vec3(1.0f, 1.0f, 1.0f));
   if (conductor_is_measured(material)) {
     bsdf.metal.f0 = conductor_n(material);
     bsdf.metal.f90 = conductor_k(material);
     bsdf.metal.mean = conductor_mean(material);
     bsdf.metal.conductor = true;
   }
-  bsdf.roughness = roughness_of(material, context.place).y;
+  bsdf.roughness = roughness_of(material, context.point).y;
   bsdf.albedo = ggx_albedo(viewed_cosine(context), bsdf.roughness);
 #endif
   return bsdf;

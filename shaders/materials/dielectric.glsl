@@ -18,7 +18,7 @@ Scattering dielectric_scattering(Material material, ScatteringContext context) {
     reflected = fresnel_reflectance(context.cos_view, context.ior_from, pane_ior(material));
     reflected = 2.0f * reflected / (1.0f + reflected);
   }
-  s.specular = specular_of(material, context.place);
+  s.specular = specular_of(material, context.point);
   s.reflected = vec3(reflected, reflected, reflected);
   s.transmitted = vec3(1.0f - reflected, 1.0f - reflected, 1.0f - reflected);
   return s;
@@ -45,7 +45,7 @@ void add_glass(INOUT(Bsdf) bsdf, Scattering surface, float roughness, float weig
 #if HAS_PANES
 vec3 dielectric_passed(Material material, ScatteringContext context) {
   vec3 passed = dielectric_scattering(material, context).transmitted;
-  if (HAS_THIN == 1 && !is_interface(material, context) && roughness_of(material, context.place).y > 0.0f) passed = vec3(0.0f, 0.0f, 0.0f);
+  if (HAS_THIN == 1 && !is_interface(material, context) && roughness_of(material, context.point).y > 0.0f) passed = vec3(0.0f, 0.0f, 0.0f);
   return passed;
 }
 #endif
@@ -53,7 +53,7 @@ vec3 dielectric_passed(Material material, ScatteringContext context) {
 Bsdf dielectric_bsdf(Material material, ScatteringContext context, Scattering scattering) {
   Bsdf bsdf = black_bsdf();
   vec3 white = vec3(1.0f, 1.0f, 1.0f);
-  if (HAS_ROUGH_GLASS == 1 || HAS_THIN == 1) bsdf.roughness = roughness_of(material, context.place).y;
+  if (HAS_ROUGH_GLASS == 1 || HAS_THIN == 1) bsdf.roughness = roughness_of(material, context.point).y;
   bool pane = (material.flags & MATERIAL_PANE) != 0u;
 #if HAS_PANES
   if (pane) {

@@ -11,7 +11,7 @@ Scattering diffuse_scattering(Material material, ScatteringContext context) { re
 Bsdf diffuse_bsdf(Material material, ScatteringContext context, Scattering scattering) {
   Bsdf bsdf = black_bsdf();
   bsdf.diffuse = scattering.diffuse;
-  bsdf.diffuse_roughness = roughness_of(material, context.place).y;
+  bsdf.diffuse_roughness = roughness_of(material, context.point).y;
   return bsdf;
 }
 #endif

@@ -7,8 +7,8 @@ SHADER_BEGIN
 
 Scattering mirror_scattering(Material material, ScatteringContext context) {
   Scattering s = no_scattering();
-  s.specular = specular_of(material, context.place);
-  s.reflected = reflected_of(material, context.place);
+  s.specular = specular_of(material, context.point);
+  s.reflected = reflected_of(material, context.point);
   return s;
 }
 

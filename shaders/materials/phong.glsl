@@ -7,12 +7,12 @@ SHADER_BEGIN
 
 Scattering phong_scattering(Material material, ScatteringContext context) {
   Scattering s = no_scattering();
-  s.ambient = ambient_of(material, context.place) * context.color;
-  s.diffuse = base_of(material, context.place) * context.color;
-  s.specular = specular_of(material, context.place);
-  s.reflected = reflected_of(material, context.place);
+  s.ambient = ambient_of(material, context.point) * context.color;
+  s.diffuse = base_of(material, context.point) * context.color;
+  s.specular = specular_of(material, context.point);
+  s.reflected = reflected_of(material, context.point);
 #if HAS_EMISSION
-  s.emitted = emission_of(material, context.place) * context.color;
+  s.emitted = emission_of(material, context.point) * context.color;
 #endif
   return s;
 }

@@ -26,8 +26,8 @@ Scattering principled_scattering(Material material, ScatteringContext context) {
 
 #if RANDOM_WALK
 vec3 principled_color(Material material, ScatteringContext context) {
-  vec3 color = color_of(material, context.place);
-  if (HAS_TRANSMISSION == 1 && (material.flags & MATERIAL_CLEAR) != 0u) color = base_of(material, context.place);
+  vec3 color = color_of(material, context.point);
+  if (HAS_TRANSMISSION == 1 && (material.flags & MATERIAL_CLEAR) != 0u) color = base_of(material, context.point);
   return color * context.color;
 }
 
@@ -41,8 +41,8 @@ Bsdf principled_surface(Material material, ScatteringContext context, vec3 color
   float f90 = principled_f90(material);
   vec3 edge = white * f90;
 #if HAS_SPECULAR_TEXTURES
-  vec3 tint = specular_color_of(material, context.place);
-  float level = specular_level_of(material, context.place).x;
+  vec3 tint = specular_color_of(material, context.point);
+  float level = specular_level_of(material, context.point).x;
   f0 = vec3(minimum(f0.x * tint.x, f90), minimum(f0.y * tint.y, f90), minimum(f0.z * tint.z, f90)) * level;
   edge = edge * level;
 #endif
@@ -50,27 +50,27 @@ Bsdf principled_surface(Material material, ScatteringContext context, vec3 color
   bsdf.layered = 1.0f - metallic;
   bsdf.metal = schlick(color, white);
   bsdf.metallic = metallic;
-  bsdf.roughness = roughness_of(material, context.place).y;
+  bsdf.roughness = roughness_of(material, context.point).y;
   bsdf.albedo = ggx_albedo(viewed_cosine(context), bsdf.roughness);
 #endif
 #if HAS_COAT
-  bsdf.coat = coat_of(material, context.place).x;
-  bsdf.coat_roughness = coat_roughness_of(material, context.place).y;
+  bsdf.coat = coat_of(material, context.point).x;
+  bsdf.coat_roughness = coat_roughness_of(material, context.point).y;
   bsdf.coat_albedo = ggx_albedo(coat_cosine(context), bsdf.coat_roughness);
 #if HAS_BENT_COAT
   bsdf.coat_normal = context.coat_normal;
 #endif
 #endif
 #if HAS_SHEEN
-  bsdf.sheen = sheen_of(material, context.place);
-  bsdf.sheen_roughness = sheen_roughness_of(material, context.place).y;
+  bsdf.sheen = sheen_of(material, context.point);
+  bsdf.sheen_roughness = sheen_roughness_of(material, context.point).y;
   bsdf.sheen_albedo = sheen_table(viewed_cosine(context), bsdf.sheen_roughness);
 #endif
   return bsdf;
 }
 
 float principled_through(Material material, ScatteringContext context, float metallic) {
-  return transmission_of(material, context.place).x * (1.0f - metallic);
+  return transmission_of(material, context.point).x * (1.0f - metallic);
 }
 
 #if HAS_PANES
@@ -83,14 +83,14 @@ vec3 passed_straight(Bsdf bsdf, vec3 color, float through) {
 
 vec3 principled_passed(Material material, ScatteringContext context) {
   if ((material.flags & MATERIAL_PANE) == 0u) return vec3(0.0f, 0.0f, 0.0f);
-  float metallic = metallic_of(material, context.place).z;
+  float metallic = metallic_of(material, context.point).z;
   vec3 color = principled_color(material, context);
   return passed_straight(principled_surface(material, context, color, metallic), color, principled_through(material, context, metallic));
 }
 #endif
 
 Bsdf principled_bsdf(Material material, ScatteringContext context, Scattering scattering) {
-  float metallic = metallic_of(material, context.place).z;
+  float metallic = metallic_of(material, context.point).z;
   vec3 color = principled_color(material, context);
   Bsdf bsdf = principled_surface(material, context, color, metallic);
 #if HAS_TRANSMISSION

@@ -12,7 +12,7 @@
 SHADER_BEGIN
 
 struct ScatteringContext {
-  TextureContext place;
+  TextureContext point;
   vec3 color;      // color of a mesh's vertices, white where they have none
   float cos_view;  // in [0, 1]
   float ior_from;

@@ -14,7 +14,7 @@ uint pcg_hash(uint x) {
 }
 
 // The uses of pairs of random numbers. Each use has its own pair, on every path.
-#define PAIR_PLACE 0u     // in the pixel
+#define PAIR_POSITION 0u  // in the pixel
 #define PAIR_LENS 1u      // and on the lens
 #define PAIR_SCATTER 4u   // at the first vertex: which lobe, and whether the path ends; PAIRS_A_VERTEX further on those of the next
 #define PAIR_DIRECTION 5u

@@ -11,7 +11,7 @@ SHADER_BEGIN
 #define GAUSS_KEPT 0.98889100f
 
 // A point even on a disk, then moved out to where the filter has the same share within. From the middle, in widths.
-vec2 gaussian_place(vec2 u) {
+vec2 gaussian_point(vec2 u) {
   vec2 at = on_disk(u);
   float within = at.x * at.x + at.y * at.y;
   float r = sqrt(-2.0f * log_positive(maximum(1.0f - GAUSS_KEPT * within, 1.0f - GAUSS_KEPT))) / 6.0f;
@@ -25,7 +25,7 @@ float blackman_harris_within(float x) {
 }
 
 // One coordinate from the middle, in widths, by halving.
-float blackman_harris_place(float u) {
+float blackman_harris_coordinate(float u) {
   float side = 2.0f * u - 1.0f;
   float low = 0.0f;
   float high = 0.5f;
@@ -41,10 +41,10 @@ float blackman_harris_place(float u) {
 // A point in the pixel, by the filter, from one drawn evenly.
 vec2 filtered(Frame frame, vec2 u) {
   vec2 from_middle = u - vec2(0.5f, 0.5f);
-  if (frame.pixel_filter == FILTER_GAUSSIAN) from_middle = gaussian_place(u);
-  if (frame.pixel_filter == FILTER_BLACKMAN_HARRIS) from_middle = vec2(blackman_harris_place(u.x), blackman_harris_place(u.y));
-  vec2 place = vec2(0.5f, 0.5f) + from_middle * frame.filter_width;
-  return frame.pixel_filter == FILTER_BOX ? u : place;
+  if (frame.pixel_filter == FILTER_GAUSSIAN) from_middle = gaussian_point(u);
+  if (frame.pixel_filter == FILTER_BLACKMAN_HARRIS) from_middle = vec2(blackman_harris_coordinate(u.x), blackman_harris_coordinate(u.y));
+  vec2 position = vec2(0.5f, 0.5f) + from_middle * frame.filter_width;
+  return frame.pixel_filter == FILTER_BOX ? u : position;
 }
 
 SHADER_END

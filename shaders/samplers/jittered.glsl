@@ -6,8 +6,8 @@
 
 SHADER_BEGIN
 
-vec2 jittered_place(Frame frame, uint pixel, uint index) {
-  return in_grid(frame, index, independent_pair(pixel, index, PAIR_PLACE, frame.seed));
+vec2 jittered_position(Frame frame, uint pixel, uint index) {
+  return in_grid(frame, index, independent_pair(pixel, index, PAIR_POSITION, frame.seed));
 }
 vec2 jittered_pair(Frame frame, uint pixel, uint index, uint pair) { return independent_pair(pixel, index, pair, frame.seed); }
 

@@ -6,7 +6,7 @@
 
 SHADER_BEGIN
 
-vec2 random_place(Frame frame, uint pixel, uint index) { return independent_pair(pixel, index, PAIR_PLACE, frame.seed); }
+vec2 random_position(Frame frame, uint pixel, uint index) { return independent_pair(pixel, index, PAIR_POSITION, frame.seed); }
 vec2 random_pair(Frame frame, uint pixel, uint index, uint pair) { return independent_pair(pixel, index, pair, frame.seed); }
 
 SHADER_END

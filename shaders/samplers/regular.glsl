@@ -6,7 +6,7 @@
 
 SHADER_BEGIN
 
-vec2 regular_place(Frame frame, uint pixel, uint index) { return in_grid(frame, index, vec2(0.5f, 0.5f)); }
+vec2 regular_position(Frame frame, uint pixel, uint index) { return in_grid(frame, index, vec2(0.5f, 0.5f)); }
 vec2 regular_pair(Frame frame, uint pixel, uint index, uint pair) { return independent_pair(pixel, index, pair, frame.seed); }
 
 SHADER_END

@@ -10,14 +10,14 @@ SHADER_BEGIN
 // The position of sample `index` of pixel (x, y), in pixels from the picture's top left.
 vec2 sample_position(Frame frame, uint x, uint y, uint index) {
   uint pixel = y * frame.width + x;
-  vec2 place = vec2(0.5f, 0.5f);
-#define PLACE_OF(name, number, count) \
-  if (SAMPLER_IS(number)) place = name##_place(frame, pixel, index);
-  SAMPLERS(PLACE_OF)
+  vec2 position = vec2(0.5f, 0.5f);
+#define POSITION_OF(name, number, count) \
+  if (SAMPLER_IS(number)) position = name##_position(frame, pixel, index);
+  SAMPLERS(POSITION_OF)
 #if HAS_FILTER
-  place = filtered(frame, place);
+  position = filtered(frame, position);
 #endif
-  return vec2(float(x) + place.x, float(y) + place.y);
+  return vec2(float(x) + position.x, float(y) + position.y);
 }
 
 // A pair of random numbers in [0, 1), multiples of 2^-24, for one use of a sample: a PAIR_ of math/rng.glsl, of a vertex after the first

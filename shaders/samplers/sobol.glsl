@@ -44,7 +44,7 @@ vec2 sobol_pair(Frame frame, uint pixel, uint index, uint pair) {
   return vec2(unit_float(first), unit_float(second));
 }
 
-vec2 sobol_place(Frame frame, uint pixel, uint index) { return sobol_pair(frame, pixel, index, PAIR_PLACE); }
+vec2 sobol_position(Frame frame, uint pixel, uint index) { return sobol_pair(frame, pixel, index, PAIR_POSITION); }
 
 SHADER_END
 #endif

@@ -157,7 +157,7 @@ CsgHit csg_traverse(Primitive s, Ray ray, float t_max, uint enough) {
   // LeafCrossings of each; next_crossing is negative while the ray is inside.
   float next_crossing[MOST_LEAVES];
   float second_crossing[MOST_LEAVES];
-  uint asked = near;
+  uint requested = near;
   uint inside = 0u;
   float from = T_NONE;
   bool going = near != 0u;
@@ -166,7 +166,7 @@ CsgHit csg_traverse(Primitive s, Ray ray, float t_max, uint enough) {
     // all lanes idle: the results are in the arrays (docs/lavapipe.md).
 #define ASK(ask, which)                                                                                     \
     {                                                                                                       \
-      uint todo = asked & (which);                                                                          \
+      uint todo = requested & (which);                                                                      \
       float after = from;                                                                                   \
       uint within = inside;                                                                                 \
       do {                                                                                                  \
@@ -177,13 +177,13 @@ CsgHit csg_traverse(Primitive s, Ray ray, float t_max, uint enough) {
           r.after = after;                                                                                  \
           r.side = (within & one) != 0u ? SIDE_INSIDE : SIDE_OUTSIDE;                                       \
           LeafCrossings all = ask(load_leaf(leaves + LEAF_WORDS * i), r);                                   \
-          bool said = all.next >= 0.0f;                                                                     \
-          if (said) {                                                                                       \
+          bool known = all.next >= 0.0f;                                                                    \
+          if (known) {                                                                                      \
             next_crossing[i] = all.inside ? -all.next : all.next;                                           \
             second_crossing[i] = all.second;                                                                \
           }                                                                                                 \
-          todo = said ? todo ^ one : todo;                                                                  \
-          after = said ? from : all.passed;                                                                 \
+          todo = known ? todo ^ one : todo;                                                                 \
+          after = known ? from : all.passed;                                                                \
           within = all.inside ? within | one : within & ~one;                                               \
         }                                                                                                   \
       } while (todo != 0u);                                                                                 \
@@ -194,8 +194,8 @@ CsgHit csg_traverse(Primitive s, Ray ray, float t_max, uint enough) {
 #endif
 
     // Cross leaves, as long as the crossings are known. Tested at the top: its results stay for rays that are done with the loop around.
-    asked = 0u;
-    for (; going && asked == 0u;) {
+    requested = 0u;
+    for (; going && requested == 0u;) {
       float next = T_MISS;
       uint crossed = 0u;
       inside = 0u;
@@ -229,7 +229,7 @@ CsgHit csg_traverse(Primitive s, Ray ray, float t_max, uint enough) {
         uint one = rest & (~rest + 1u);
         uint i = lowest_bit(rest);
         float second = second_crossing[i];
-        asked = second == 0.0f ? asked | one : asked;
+        requested = second == 0.0f ? requested | one : requested;
         next_crossing[i] = (inside & one) != 0u ? -abs(second) : abs(second);
         second_crossing[i] = second < 0.0f ? 0.0f : T_MISS;
       }

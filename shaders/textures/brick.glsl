@@ -15,10 +15,10 @@ float brick_share(Texture texture, vec3 p) {
   return minimum(x, minimum(y, z)) < brick.w ? 0.0f : 1.0f;
 }
 
-vec3 brick_color(Texture texture, TextureContext place) {
-  return pattern_color(texture, brick_share(texture, pattern_place(texture, place.p)));
+vec3 brick_color(Texture texture, TextureContext point) {
+  return pattern_color(texture, brick_share(texture, pattern_point(texture, point.p)));
 }
-float brick_alpha(Texture texture, TextureContext place) { return brick_color(texture, place).x; }
+float brick_alpha(Texture texture, TextureContext point) { return brick_color(texture, point).x; }
 
 SHADER_END
 #endif

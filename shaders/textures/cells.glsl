@@ -22,10 +22,10 @@ float cells_share(Texture texture, vec3 p) {
   return sqrt(nearest);
 }
 
-vec3 cells_color(Texture texture, TextureContext place) {
-  return pattern_color(texture, cells_share(texture, pattern_place(texture, place.p)));
+vec3 cells_color(Texture texture, TextureContext point) {
+  return pattern_color(texture, cells_share(texture, pattern_point(texture, point.p)));
 }
-float cells_alpha(Texture texture, TextureContext place) { return cells_color(texture, place).x; }
+float cells_alpha(Texture texture, TextureContext point) { return cells_color(texture, point).x; }
 
 SHADER_END
 #endif

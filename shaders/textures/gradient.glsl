@@ -9,10 +9,10 @@ float gradient_share(Texture texture, vec3 p) {
   return fraction(p.x);
 }
 
-vec3 gradient_color(Texture texture, TextureContext place) {
-  return pattern_color(texture, gradient_share(texture, pattern_place(texture, place.p)));
+vec3 gradient_color(Texture texture, TextureContext point) {
+  return pattern_color(texture, gradient_share(texture, pattern_point(texture, point.p)));
 }
-float gradient_alpha(Texture texture, TextureContext place) { return gradient_color(texture, place).x; }
+float gradient_alpha(Texture texture, TextureContext point) { return gradient_color(texture, point).x; }
 
 SHADER_END
 #endif

@@ -3,7 +3,7 @@
 #define IMAGE_GLSL
 #include "math/math.glsl"
 #include "records.h"
-#include "textures/place.glsl"
+#include "textures/context.glsl"
 
 SHADER_BEGIN
 
@@ -69,29 +69,29 @@ TexelQuad texels_at(Texture texture, vec2 uv) {
   float centre = nearest ? 0.0f : 0.5f;
   float x = within_copy(u, wrap_u) * float(image_width(texture)) - centre;
   float y = within_copy(v, wrap_v) * float(image_height(texture)) - centre;
-  TexelQuad place;
-  place.to_right = nearest ? 0.0f : x - floor(x);
-  place.to_top = nearest ? 0.0f : y - floor(y);
+  TexelQuad quad;
+  quad.to_right = nearest ? 0.0f : x - floor(x);
+  quad.to_top = nearest ? 0.0f : y - floor(y);
 
   bool mirrored_u = mirrored_copy(u, wrap_u);
   bool mirrored_v = mirrored_copy(v, wrap_v);
-  place.left = copied_texel(int(floor(x)), image_width(texture), wrap_u, mirrored_u);
-  place.right = copied_texel(int(floor(x)) + 1, image_width(texture), wrap_u, mirrored_u);
-  place.bottom = copied_texel(int(floor(y)), image_height(texture), wrap_v, mirrored_v);
-  place.top = copied_texel(int(floor(y)) + 1, image_height(texture), wrap_v, mirrored_v);
-  return place;
+  quad.left = copied_texel(int(floor(x)), image_width(texture), wrap_u, mirrored_u);
+  quad.right = copied_texel(int(floor(x)) + 1, image_width(texture), wrap_u, mirrored_u);
+  quad.bottom = copied_texel(int(floor(y)), image_height(texture), wrap_v, mirrored_v);
+  quad.top = copied_texel(int(floor(y)) + 1, image_height(texture), wrap_v, mirrored_v);
+  return quad;
 }
 
 // The texture coordinates that the image reads.
-vec2 image_uv(Texture texture, TextureContext place) {
+vec2 image_uv(Texture texture, TextureContext point) {
 #if HAS_SECOND_UV
-  if (reads_second_uv(texture)) return place.second_uv;
+  if (reads_second_uv(texture)) return point.second_uv;
 #endif
-  return place.uv;
+  return point.uv;
 }
 
-vec3 image_color(Texture texture, TextureContext place) {
-  TexelQuad at = texels_at(texture, image_uv(texture, place));
+vec3 image_color(Texture texture, TextureContext point) {
+  TexelQuad at = texels_at(texture, image_uv(texture, point));
   vec3 bottom_left = texel_color(texture, at.left, at.bottom);
   vec3 top_left = texel_color(texture, at.left, at.top);
   vec3 lower = bottom_left + (texel_color(texture, at.right, at.bottom) - bottom_left) * at.to_right;
@@ -103,8 +103,8 @@ float texel_alpha(Texture texture, uint column, uint row) {
   return uintBitsToFloat(load_texel(TEXELS_LINEAR + (texel_codes(texture, column, row) >> 24u)));
 }
 
-float image_alpha(Texture texture, TextureContext place) {
-  TexelQuad at = texels_at(texture, image_uv(texture, place));
+float image_alpha(Texture texture, TextureContext point) {
+  TexelQuad at = texels_at(texture, image_uv(texture, point));
   float bottom_left = texel_alpha(texture, at.left, at.bottom);
   float top_left = texel_alpha(texture, at.left, at.top);
   float lower = bottom_left + (texel_alpha(texture, at.right, at.bottom) - bottom_left) * at.to_right;

@@ -10,10 +10,10 @@ float marble_share(Texture texture, vec3 p) {
   return triangle_wave(p.x + bent.y * turbulence(p, bent.x));
 }
 
-vec3 marble_color(Texture texture, TextureContext place) {
-  return pattern_color(texture, marble_share(texture, pattern_place(texture, place.p)));
+vec3 marble_color(Texture texture, TextureContext point) {
+  return pattern_color(texture, marble_share(texture, pattern_point(texture, point.p)));
 }
-float marble_alpha(Texture texture, TextureContext place) { return marble_color(texture, place).x; }
+float marble_alpha(Texture texture, TextureContext point) { return marble_color(texture, point).x; }
 
 SHADER_END
 #endif

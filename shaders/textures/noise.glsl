@@ -10,10 +10,10 @@ float noise_share(Texture texture, vec3 p) {
   return minimum(maximum(value, 0.0f), 1.0f);
 }
 
-vec3 noise_color(Texture texture, TextureContext place) {
-  return pattern_color(texture, noise_share(texture, pattern_place(texture, place.p)));
+vec3 noise_color(Texture texture, TextureContext point) {
+  return pattern_color(texture, noise_share(texture, pattern_point(texture, point.p)));
 }
-float noise_alpha(Texture texture, TextureContext place) { return noise_color(texture, place).x; }
+float noise_alpha(Texture texture, TextureContext point) { return noise_color(texture, point).x; }
 
 SHADER_END
 #endif

@@ -5,7 +5,7 @@
 #include "math/math.glsl"
 #include "math/rng.glsl"
 #include "records.h"
-#include "textures/place.glsl"
+#include "textures/context.glsl"
 
 SHADER_BEGIN
 
@@ -15,7 +15,7 @@ uint pattern_colors(Texture texture) { return texture.c.y; }  // how many
 vec4 pattern_word(Texture texture, uint i) { return bits_to_floats(load_vertex(pattern_first_word(texture) + i)); }
 vec4 pattern_parameters(Texture texture) { return pattern_word(texture, 3u); }
 
-vec3 pattern_place(Texture texture, vec3 p) {
+vec3 pattern_point(Texture texture, vec3 p) {
   vec4 x = pattern_word(texture, 0u);
   vec4 y = pattern_word(texture, 1u);
   vec4 z = pattern_word(texture, 2u);

@@ -10,10 +10,10 @@ float solid_checker_share(Texture texture, vec3 p) {
   return check - 2.0f * floor(0.5f * check) != 0.0f ? 1.0f : 0.0f;
 }
 
-vec3 solid_checker_color(Texture texture, TextureContext place) {
-  return pattern_color(texture, solid_checker_share(texture, pattern_place(texture, place.p)));
+vec3 solid_checker_color(Texture texture, TextureContext point) {
+  return pattern_color(texture, solid_checker_share(texture, pattern_point(texture, point.p)));
 }
-float solid_checker_alpha(Texture texture, TextureContext place) { return solid_checker_color(texture, place).x; }
+float solid_checker_alpha(Texture texture, TextureContext point) { return solid_checker_color(texture, point).x; }
 
 SHADER_END
 #endif

@@ -3,28 +3,28 @@
 #define TEXTURE_GLSL
 #include "materials/rows.h"
 #include "records.h"
-#include "textures/place.glsl"
+#include "textures/context.glsl"
 
 SHADER_BEGIN
 
 #define COLOR_OF(name, number, varies) \
-  if (texture.kind == number) color = name##_color(texture, place);
+  if (texture.kind == number) color = name##_color(texture, point);
 #define TEXTURE_OF(slot)                              \
-  vec3 slot##_texture(uint index, TextureContext place) { \
+  vec3 slot##_texture(uint index, TextureContext point) { \
     Texture texture = load_texture(index);            \
     vec3 color = vec3(0.0f, 0.0f, 0.0f);              \
     TEXTURES_OF(slot, COLOR_OF)                       \
     return color;                                     \
   }                                                   \
-  vec3 slot##_of(Material material, TextureContext place) { return slot##_texture(material.slot, place); }
+  vec3 slot##_of(Material material, TextureContext point) { return slot##_texture(material.slot, point); }
 MATERIAL_TEXTURES(TEXTURE_OF)
 
 #if HAS_ALPHA_TEST
-float alpha_at(Material material, TextureContext place) {
+float alpha_at(Material material, TextureContext point) {
   Texture texture = load_texture(material.alpha);
   float alpha = 0.0f;
 #define ALPHA_OF(name, number, varies) \
-  if (texture.kind == number) alpha = name##_alpha(texture, place);
+  if (texture.kind == number) alpha = name##_alpha(texture, point);
   TEXTURES_OF(alpha, ALPHA_OF)
   return alpha;
 }

@@ -10,10 +10,10 @@ float wood_share(Texture texture, vec3 p) {
   return triangle_wave(sqrt(p.x * p.x + p.y * p.y) + bent.y * turbulence(p, bent.x));
 }
 
-vec3 wood_color(Texture texture, TextureContext place) {
-  return pattern_color(texture, wood_share(texture, pattern_place(texture, place.p)));
+vec3 wood_color(Texture texture, TextureContext point) {
+  return pattern_color(texture, wood_share(texture, pattern_point(texture, point.p)));
 }
-float wood_alpha(Texture texture, TextureContext place) { return wood_color(texture, place).x; }
+float wood_alpha(Texture texture, TextureContext point) { return wood_color(texture, point).x; }
 
 SHADER_END
 #endif

@@ -19,13 +19,13 @@ using test::Random;
 namespace {
 
 // A point on some surface, for the reference and for the shaders.
-struct Place {
+struct Hit {
   SurfacePoint point;
   shader::Surface surface;
   Vec3 d;  // direction of the ray that hits the point
 };
 
-Place some_place(Random& random, bool own_tangent) {
+Hit some_hit(Random& random, bool own_tangent) {
   const Vec3 n = random.direction(), bent = glm::normalize(n + random.uniform(0, 0.8) * random.direction());
   const auto tangential = [&](const Vec3& v) { return v - n * glm::dot(n, v); };
   SurfacePoint point{.position = random.point(1),
@@ -58,14 +58,14 @@ struct Normals {
 };
 
 // The normals by the reference, with that material.
-Normals expected(const Material& material, const Place& place) {
-  SurfacePoint point = place.point;
-  reference::bend_normals(material, point, place.d);
+Normals expected(const Material& material, const Hit& hit) {
+  SurfacePoint point = hit.point;
+  reference::bend_normals(material, point, hit.d);
   return {point.normal, point.coat_normal};
 }
 
 // The normals by the shader.
-Normals shaded(const Material& material, const Place& place) {
+Normals shaded(const Material& material, const Hit& hit) {
   Packer packer(Vec3(0));
   shader::Material record{};
   record.normal_map = material.normal_map ? material.normal_map->texture->pack(packer) : NONE;
@@ -79,18 +79,18 @@ Normals shaded(const Material& material, const Place& place) {
   }
   packer.write_texels();
   const shader::Binding binding(twin::view_of(packer.scene));
-  const shader::Surface bent = shader::bent_by(record, place.surface, glm::vec3(place.d));
+  const shader::Surface bent = shader::bent_by(record, hit.surface, glm::vec3(hit.d));
   return {Vec3(bent.normal), Vec3(bent.coat_normal)};
 }
 
-void check_alike(const Material& material, const Place& place) {
-  const Normals there = expected(material, place), here = shaded(material, place);
+void check_alike(const Material& material, const Hit& hit) {
+  const Normals there = expected(material, hit), here = shaded(material, hit);
   CHECK(glm::length(here.normal - there.normal) < 2e-4);
   CHECK(glm::length(here.coat - there.coat) < 2e-4);
 }
 
-double cross(const Place& place) {
-  return glm::length(glm::cross(glm::normalize(place.point.along_u), glm::normalize(place.point.along_v)));
+double cross(const Hit& hit) {
+  return glm::length(glm::cross(glm::normalize(hit.point.along_u), glm::normalize(hit.point.along_v)));
 }
 
 }  // namespace
@@ -98,30 +98,30 @@ double cross(const Place& place) {
 TEST_CASE("a normal map bends as the reference says, by uv and by a mesh's tangents") {
   Random random{3};
   for (int i = 0; i < 20'000; ++i) {
-    const Place place = some_place(random, i % 2 == 0);
-    if (cross(place) < 0.1) continue;
+    const Hit hit = some_hit(random, i % 2 == 0);
+    if (cross(hit) < 0.1) continue;
     const auto material = materials::make_phong({});
     material->normal_map =
         NormalMap{textures::make_constant({random.uniform(), random.uniform(), random.uniform(0.4, 1)}),
                   random.uniform(-1.5, 1.5)};
-    check_alike(*material, place);
+    check_alike(*material, hit);
   }
 }
 
 TEST_CASE("a coat is bent by its own normal map alone") {
   Random random{6};
   for (int i = 0; i < 2'000; ++i) {
-    const Place place = some_place(random, i % 2 == 0);
-    if (cross(place) < 0.1) continue;
+    const Hit hit = some_hit(random, i % 2 == 0);
+    if (cross(hit) < 0.1) continue;
     const auto material = materials::make_principled({.coat = textures::make_constant(Vec3(1))});
     material->normal_map =
         NormalMap{textures::make_constant({random.uniform(), random.uniform(), random.uniform(0.4, 1)}), 1};
-    CHECK(expected(*material, place).coat == place.point.normal);
-    check_alike(*material, place);
-    const Vec3 body = expected(*material, place).normal;
+    CHECK(expected(*material, hit).coat == hit.point.normal);
+    check_alike(*material, hit);
+    const Vec3 body = expected(*material, hit).normal;
     material->coat_normal_map = material->normal_map;
-    check_alike(*material, place);
-    CHECK(expected(*material, place).coat == body);
+    check_alike(*material, hit);
+    CHECK(expected(*material, hit).coat == body);
   }
 }
 
@@ -136,11 +136,11 @@ TEST_CASE("bumps bend as the reference says, and by Blinn's formula") {
   }
   const TexturePtr texture = textures::make_image(image);
   for (int i = 0; i < 20'000; ++i) {
-    const Place place = some_place(random, false);
-    if (cross(place) < 0.1) continue;
+    const Hit hit = some_hit(random, false);
+    if (cross(hit) < 0.1) continue;
     const auto material = materials::make_phong({});
     material->bump_map = BumpMap{texture, random.uniform(-0.2, 0.2), 0.125};
-    check_alike(*material, place);
+    check_alike(*material, hit);
   }
 }
 
@@ -149,19 +149,19 @@ TEST_CASE(
   Random random{5};
   int low = 0, high = 0;
   for (int i = 0; i < 20'000; ++i) {
-    const Place place = some_place(random, false);
-    if (cross(place) < 0.1) continue;
+    const Hit hit = some_hit(random, false);
+    if (cross(hit) < 0.1) continue;
     const auto material = materials::make_phong({});
     const Vec3 code(random.uniform(), random.uniform(), random.uniform());
     material->normal_map = NormalMap{textures::make_constant(code), 1};
     const Vec3 up =
-        place.point.normal_geometric * (glm::dot(place.d, place.point.normal_geometric) < 0 ? 1.0 : -1.0);
-    const double side = glm::dot(up, place.point.normal_geometric);
-    for (const Vec3 n : {side * expected(*material, place).normal, side * shaded(*material, place).normal}) {
+        hit.point.normal_geometric * (glm::dot(hit.d, hit.point.normal_geometric) < 0 ? 1.0 : -1.0);
+    const double side = glm::dot(up, hit.point.normal_geometric);
+    for (const Vec3 n : {side * expected(*material, hit).normal, side * shaded(*material, hit).normal}) {
       CHECK(std::abs(glm::length(n) - 1) < 1e-5);
       CHECK(glm::dot(n, up) > 0);
-      CHECK(glm::dot(n, place.d) < 1e-5);
-      const double mirrored = glm::dot(glm::reflect(place.d, n), up);
+      CHECK(glm::dot(n, hit.d) < 1e-5);
+      const double mirrored = glm::dot(glm::reflect(hit.d, n), up);
       CHECK(mirrored > 0);
       ++(mirrored < 2e-3 ? low : high);
     }

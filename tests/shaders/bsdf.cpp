@@ -40,8 +40,8 @@ Vec3 albedo(const Bsdf& bsdf, double cosine) {
       for (int y = 0; y < side; ++y) {
         const double u = (x + random.uniform()) / side;
         const double v = (y + random.uniform()) / side;
-        const double chance = (l + random.uniform()) / lobes;
-        const BsdfValue found = above(viewed, viewed.sample(chance, {u, v}).i);
+        const double uc = (l + random.uniform()) / lobes;
+        const BsdfValue found = above(viewed, viewed.sample(uc, {u, v}).i);
         if (found.density > 0) sum += found.value / found.density;
       }
   return sum / double(lobes * side * side);
@@ -55,12 +55,12 @@ template <typename F>
 double integral(const F& f, const Vec2& low, const Vec2& high, double error, int halvings) {
   if (low.x == high.x) return 0;
   const auto once = [&f](const Vec2& from, const Vec2& to) {
-    static const double places[] = {0.5 - std::sqrt(0.15), 0.5, 0.5 + std::sqrt(0.15)};
+    static const double points[] = {0.5 - std::sqrt(0.15), 0.5, 0.5 + std::sqrt(0.15)};
     constexpr double weights[] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
     double sum = 0;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
-        sum += weights[i] * weights[j] * f(from + (to - from) * Vec2(places[i], places[j]));
+        sum += weights[i] * weights[j] * f(from + (to - from) * Vec2(points[i], points[j]));
     return sum * (to.x - from.x) * (to.y - from.y);
   };
   const Vec2 half = (high - low) / 2.0;
@@ -88,12 +88,14 @@ double share_lost(const ViewedBsdf& viewed) {
   constexpr double root = 1.2207440846057596;
   int lost = 0;
   for (int n = 0; n < count; ++n) {
-    const auto place = [n](double step) {
+    const auto coordinate = [n](double step) {
       const double x = (n + 0.5) * step;
       return x - std::floor(x);
     };
-    const Vec3 i =
-        viewed.sample(place(1 / root), {place(1 / (root * root)), place(1 / (root * root * root))}).i;
+    const Vec3 i = viewed
+                       .sample(coordinate(1 / root),
+                               {coordinate(1 / (root * root)), coordinate(1 / (root * root * root))})
+                       .i;
     lost += i == Vec3(0);
   }
   return double(lost) / count;
@@ -136,8 +138,8 @@ void check_samples(const std::vector<double>& roughnesses, const std::vector<dou
         std::vector<double> counts(rows * columns), expected(rows * columns);
         const auto number = [&] { return float(random.below(1 << 24)) * 0x1p-24f; };
         for (int n = 0; n < samples; ++n) {
-          const float chance = number(), x = number(), y = number();
-          const glm::vec3 i = shader::sample_bsdf(record, shares, o, chance, {x, y}).i;
+          const float uc = number(), x = number(), y = number();
+          const glm::vec3 i = shader::sample_bsdf(record, shares, o, uc, {x, y}).i;
           if (!(shader::bsdf_value(record, shares, o, i, i.z > 0).density > 0)) continue;
           const int row =
               std::clamp(int(std::acos(std::clamp(double(i.z), -1.0, 1.0)) / M_PI * rows), 0, rows - 1);
@@ -213,8 +215,8 @@ TEST_CASE("a shader's BSDF is the reference's, in value and in density") {
         // Half of the directions are where the lobes are.
         const shader::vec2 u(float(random.below(1 << 24)) * 0x1p-24f,
                              float(random.below(1 << 24)) * 0x1p-24f);
-        const float chance = float(random.below(1 << 24)) * 0x1p-24f;
-        const glm::vec3 i = n % 2 ? shader::sample_bsdf(record, shares, o, chance, u).i
+        const float uc = float(random.below(1 << 24)) * 0x1p-24f;
+        const glm::vec3 i = n % 2 ? shader::sample_bsdf(record, shares, o, uc, u).i
                                   : glm::vec3(glm::normalize(random.direction()));
         if (i == glm::vec3(0) || std::abs(i.z) < 0.01f) continue;
         const shader::LobeValue ours = shader::bsdf_value(record, shares, o, i, i.z > 0);

@@ -104,8 +104,8 @@ Mirrored mirrored(double roughness, double cosine) {
   Mirrored sums{};
   for (int i = 0; i < walks(); ++i) {
     sums.walked += surface.walk(o, random).z > 0;
-    const double chance = random.uniform(), u = random.uniform(), v = random.uniform();
-    const Vec3 to = viewed.sample(chance, {u, v}).i;
+    const double uc = random.uniform(), u = random.uniform(), v = random.uniform();
+    const Vec3 to = viewed.sample(uc, {u, v}).i;
     if (!(to.z > 0)) continue;
     const reference::BsdfValue value = viewed.at(to, true);
     if (value.density > 0) sums.found += value.value.x / value.density;
@@ -131,8 +131,8 @@ double sent_elsewhere(double roughness, double cosine) {
   Cells difference{};
   for (int i = 0; i < walks(); ++i) {
     difference[cell_of(o, surface.walk(o, random))] += 1.0 / walks();
-    const double chance = random.uniform(), u = random.uniform(), v = random.uniform();
-    const Vec3 to = viewed.sample(chance, {u, v}).i;
+    const double uc = random.uniform(), u = random.uniform(), v = random.uniform();
+    const Vec3 to = viewed.sample(uc, {u, v}).i;
     if (!(to.z > 0)) continue;
     const reference::BsdfValue value = viewed.at(to, true);
     if (value.density > 0) difference[cell_of(o, to)] -= value.value.x / value.density / walks();

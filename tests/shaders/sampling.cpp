@@ -194,14 +194,14 @@ TEST_CASE("light from all around, its density and places in it are those of the 
 namespace {
 
 // Points of pixel filters by the shaders, relative to the filter's middle and in units of its width.
-std::vector<Vec2> filtered_places(PixelFilter filter, uint32_t count) {
+std::vector<Vec2> filtered_points(PixelFilter filter, uint32_t count) {
   shader::Frame frame = seeded(3);
   frame.pixel_filter = uint32_t(filter);
   frame.filter_width = 1;
-  std::vector<Vec2> places;
+  std::vector<Vec2> points;
   for (uint32_t i = 0; i < count; ++i)
-    places.push_back(Vec2(shader::filtered(frame, shader::random_pair(frame, 5, i, 0))) - Vec2(0.5));
-  return places;
+    points.push_back(Vec2(shader::filtered(frame, shader::random_pair(frame, 5, i, 0))) - Vec2(0.5));
+  return points;
 }
 
 // The excess of chi² over its expectation, in standard deviations, for equally likely cells.
@@ -252,11 +252,11 @@ TEST_CASE(
   std::vector<int> cells(16 * 16);
   double squares = 0;
   int outside = 0;
-  for (const Vec2& place : filtered_places(PixelFilter::gaussian, count)) {
-    const double r2 = 36 * glm::dot(place, place);  // in standard deviations
+  for (const Vec2& point : filtered_points(PixelFilter::gaussian, count)) {
+    const double r2 = 36 * glm::dot(point, point);  // in standard deviations
     const double within = std::expm1(-r2 / 2) / std::expm1(-4.5);
     outside += within > 1 + 1e-5;
-    const double turn = std::atan2(place.y, place.x) / (2 * M_PI) + 0.5;
+    const double turn = std::atan2(point.y, point.x) / (2 * M_PI) + 0.5;
     ++cells[size_t(16 * cell(within, 16) + cell(turn, 16))];
     squares += r2 / count;
   }
@@ -279,10 +279,10 @@ TEST_CASE("a Blackman-Harris filter's places: as many in each cell, and its vari
   std::vector<int> cells(16 * 16);
   Vec2 squares(0.0);
   int outside = 0;
-  for (const Vec2& place : filtered_places(PixelFilter::blackman_harris, count)) {
-    outside += std::max(std::abs(place.x), std::abs(place.y)) > 0.5;
-    ++cells[size_t(16 * cell(below(place.x), 16) + cell(below(place.y), 16))];
-    squares += place * place / double(count);
+  for (const Vec2& point : filtered_points(PixelFilter::blackman_harris, count)) {
+    outside += std::max(std::abs(point.x), std::abs(point.y)) > 0.5;
+    ++cells[size_t(16 * cell(below(point.x), 16) + cell(below(point.y), 16))];
+    squares += point * point / double(count);
   }
   CHECK(outside == 0);
   CHECK(excess(cells, count) < 4);

@@ -74,11 +74,11 @@ CutEmitter cut(const TriangleForm& it, const Vec3& from) {
   const Vec3 &a = it.vertices[0], &b = it.vertices[1], &c = it.vertices[2];
   for (int i = 0; i < cuts; ++i)
     for (int k = 0; k < cuts; ++k) {
-      const auto place = [&](int out, int along) {
+      const auto point = [&](int out, int along) {
         return a + double(out) / cuts * (b - a + double(along) / cuts * (c - b)) - from;
       };
-      const Vec3 near0 = place(i, k), near1 = place(i, k + 1), far0 = place(i + 1, k),
-                 far1 = place(i + 1, k + 1);
+      const Vec3 near0 = point(i, k), near1 = point(i, k + 1), far0 = point(i + 1, k),
+                 far1 = point(i + 1, k + 1);
       const double whole = solid_angle(near0, far0, far1);
       emitter.solid_angles.push_back(i == 0 ? whole : whole + solid_angle(near0, far1, near1));
     }
@@ -98,8 +98,8 @@ double excess(const CutEmitter& emitter, const std::function<Vec2(const shader::
   for (const double one : emitter.solid_angles) all += one;
   // Cells with few expected points count as one.
   double few_expected = 0, few_found = 0;
-  const auto add = [&](double expected, double places) {
-    chi_squared += (places - expected) * (places - expected) / expected;
+  const auto add = [&](double expected, double observed) {
+    chi_squared += (observed - expected) * (observed - expected) / expected;
     degrees += 1;
   };
   for (size_t i = 0; i < found.size(); ++i) {
@@ -230,11 +230,11 @@ TEST_CASE("a sampled point of an area light is never outside of it, from whereve
     for (const EmitterForm& form : {EmitterForm(ParallelogramForm{corner, along, upright}),
                                     EmitterForm(ParallelogramForm{corner, along, across}),
                                     EmitterForm(TriangleForm{{corner, corner + along, corner + across}})}) {
-      const shader::EmitterSample place = shader::sample_emitter(record_of(form), shader::vec3(from), u);
+      const shader::EmitterSample point = shader::sample_emitter(record_of(form), shader::vec3(from), u);
       const bool triangle = std::holds_alternative<TriangleForm>(form);
-      const float most = triangle ? place.uv.x + place.uv.y : std::max(place.uv.x, place.uv.y);
-      const bool on_it = place.uv.x >= 0 && place.uv.y >= 0 && most <= 1 + 2e-7f;
-      beside += !on_it || !std::isfinite(place.p.x + place.p.y + place.p.z);
+      const float most = triangle ? point.uv.x + point.uv.y : std::max(point.uv.x, point.uv.y);
+      const bool on_it = point.uv.x >= 0 && point.uv.y >= 0 && most <= 1 + 2e-7f;
+      beside += !on_it || !std::isfinite(point.p.x + point.p.y + point.p.z);
     }
   }
   CHECK(beside == 0);

@@ -43,7 +43,7 @@ Vec3 shaded(const TexturePtr& texture, const Vec2& uv) {
   const uint32_t index = texture->pack(packer);
   packer.write_texels();
   const shader::Binding binding(twin::view_of(packer.scene));
-  return Vec3(shader::base_texture(index, shader::place_of_uv(glm::vec2(uv))));
+  return Vec3(shader::base_texture(index, shader::context_of_uv(glm::vec2(uv))));
 }
 
 Texel random_texel(Random& random) {
@@ -96,13 +96,13 @@ TEST_CASE("a row of texels goes on beyond its edges as `wrap` says, and bilinear
       const double centre = (from + k + 0.5) / 6;
       CAPTURE(int(wrap));
       CAPTURE(from + k);
-      const auto check = [&](Filter filter, double place, double value) {
+      const auto check = [&](Filter filter, double position, double value) {
         const TexturePtr row_image = make_image(linear_image(6, 1, row, filter, wrap));
         const TexturePtr upward = make_image(linear_image(1, 6, column, filter, wrap));
-        CHECK(std::abs(shaded(row_image, {place, 0.3}).x - value) < 2e-6);
-        CHECK(std::abs(shaded(upward, {0.3, place}).y - value) < 2e-6);
-        CHECK(std::abs(row_image->at(Vec2{place, 0.3}).z - value) < 1e-14);
-        CHECK(std::abs(upward->at(Vec2{0.3, place}).x - value) < 1e-14);
+        CHECK(std::abs(shaded(row_image, {position, 0.3}).x - value) < 2e-6);
+        CHECK(std::abs(shaded(upward, {0.3, position}).y - value) < 2e-6);
+        CHECK(std::abs(row_image->at(Vec2{position, 0.3}).z - value) < 1e-14);
+        CHECK(std::abs(upward->at(Vec2{0.3, position}).x - value) < 1e-14);
       };
       const double here = texels[size_t(k)] / 5.0, next = texels[size_t(k) + 1] / 5.0;
       check(Filter::nearest, centre, here);
@@ -185,12 +185,12 @@ TEST_CASE("200 000 points of random images: the shader agrees with the formulas 
     for (int i = 0; i < 500; ++i) {
       const glm::vec2 uv(random.uniform(-reach, reach), random.uniform(-reach, reach));
       // The largest displacement of the point, in texels, by three roundings of a float32.
-      const Vec2 place = Vec2(uv) / size * Vec2(width, height);
-      const Vec2 error = (glm::abs(place) + Vec2(width, height)) * 3.0 * 0x1p-24;
-      const Vec2 to_border = glm::abs(place - glm::round(place));
+      const Vec2 position = Vec2(uv) / size * Vec2(width, height);
+      const Vec2 error = (glm::abs(position) + Vec2(width, height)) * 3.0 * 0x1p-24;
+      const Vec2 to_border = glm::abs(position - glm::round(position));
       if (filter == Filter::nearest && (to_border.x <= error.x || to_border.y <= error.y)) continue;
       const Vec3 difference =
-          glm::abs(Vec3(shader::base_texture(index, shader::place_of_uv(uv))) - texture->at(Vec2(uv)));
+          glm::abs(Vec3(shader::base_texture(index, shader::context_of_uv(uv))) - texture->at(Vec2(uv)));
       const double allowed = (filter == Filter::nearest ? 0 : error.x + error.y) + 1e-6;
       worst = std::max(worst, std::max({difference.x, difference.y, difference.z}) / allowed);
       ++compared;
@@ -206,11 +206,11 @@ TEST_CASE("no uv whatever leaves the image") {
   constexpr float inf = std::numeric_limits<float>::infinity();
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   Random random(4);
-  std::vector<float> places = {0.0f,    -0.0f,       1.0f,         -1.0f, 1e-45f,     -1e-45f,
-                               -1e-10f, 0.99999994f, -0.99999994f, 1e10f, -1e10f,     3e38f,
-                               -3e38f,  inf,         -inf,         nan,   8388607.5f, -8388607.5f};
+  std::vector<float> coordinates = {0.0f,    -0.0f,       1.0f,         -1.0f, 1e-45f,     -1e-45f,
+                                    -1e-10f, 0.99999994f, -0.99999994f, 1e10f, -1e10f,     3e38f,
+                                    -3e38f,  inf,         -inf,         nan,   8388607.5f, -8388607.5f};
   for (int i = 0; i < 40; ++i)
-    places.push_back(float(random.uniform(-1, 1) * random.log_uniform(1e-12, 1e12)));
+    coordinates.push_back(float(random.uniform(-1, 1) * random.log_uniform(1e-12, 1e12)));
   for (const Filter filter : filters) {
     for (const Wrap wrap : wraps) {
       for (const auto& [width, height] : {std::pair{1, 1}, {3, 1}, {1, 5}, {7, 4}}) {
@@ -227,9 +227,9 @@ TEST_CASE("no uv whatever leaves the image") {
             ->pack(packer);
         packer.write_texels();
         const shader::Binding binding(twin::view_of(packer.scene));
-        for (const float u : places)
-          for (const float v : places) {
-            const glm::vec3 color = shader::base_texture(index, shader::place_of_uv({u, v}));
+        for (const float u : coordinates)
+          for (const float v : coordinates) {
+            const glm::vec3 color = shader::base_texture(index, shader::context_of_uv({u, v}));
             CAPTURE(u);
             CAPTURE(v);
             REQUIRE(color == glm::vec3(0, 1, 0.2f));

@@ -42,16 +42,16 @@ void main() {
   find_group(gl_SubgroupInvocationID);
 #if defined(BOUNCE_HITS) || defined(BOUNCE_SHADOW)
   bool there = i < list[0];
-  uint place = list[1u + (there ? i : 0u)];
-  Path path = queued_path(place);
+  uint slot = list[1u + (there ? i : 0u)];
+  Path path = queued_path(slot);
   Frame frame = load_frame();
   Ray bounced = path_ray(frame, path);
 #ifdef BOUNCE_HITS
   TraversalState found = trace_cooperatively(bounced, there ? T_MISS : -1.0f);
-  if (there) hits[place] = packet_of_hit(found.hit, loops_cut_off(LOOP_PROBE) | iteration_limit(found));
+  if (there) hits[slot] = packet_of_hit(found.hit, loops_cut_off(LOOP_PROBE) | iteration_limit(found));
 #else
   uvec4 counts = uvec4(0u, 0u, 0u, 0u);
-  Hit hit = hit_of_packet(hits[place], counts);
+  Hit hit = hit_of_packet(hits[slot], counts);
   bool on_surface;
   Interaction at_hit = vertex_at(frame, path, bounced, hit, there, on_surface);
   uint flags = 0u;
@@ -61,21 +61,21 @@ void main() {
     float distance;
     vec3 contribution;
     uint number;
-    bool asked = shadow_ray(frame, path, at_hit, light, to_light, distance, contribution, number) && on_surface;
-    if (!asked) to_light = make_ray(vec3(0.0f, 0.0f, 0.0f), vec3(1.0f, 0.0f, 0.0f));
-    TraversalState found = trace_cooperatively(to_light, asked ? distance : -1.0f);
+    bool requested = shadow_ray(frame, path, at_hit, light, to_light, distance, contribution, number) && on_surface;
+    if (!requested) to_light = make_ray(vec3(0.0f, 0.0f, 0.0f), vec3(1.0f, 0.0f, 0.0f));
+    TraversalState found = trace_cooperatively(to_light, requested ? distance : -1.0f);
     flags = flags | iteration_limit(found);
-    if (there) occlusions[light * dispatch.count + place] = found.occluded;
+    if (there) occlusions[light * dispatch.count + slot] = found.occluded;
     light += 1u;
   } while (light < shadow_rays());
   flags = flags | loops_cut_off(LOOP_PROBE);
-  if (there) hits[place].flags = hits[place].flags | flags;
+  if (there) hits[slot].flags = hits[slot].flags | flags;
 #endif
 #else
   bool there = i < dispatch.count;
-  QueryRay asked = rays[there ? i : 0u];
-  Ray own = make_ray(asked.origin, asked.direction);
-  TraversalState found = trace_cooperatively(own, there ? minimum(asked.t_max, T_MISS) : -1.0f);
+  QueryRay requested = rays[there ? i : 0u];
+  Ray own = make_ray(requested.origin, requested.direction);
+  TraversalState found = trace_cooperatively(own, there ? minimum(requested.t_max, T_MISS) : -1.0f);
   if (there) results[i] = answer(found, ANY, loops_cut_off(LOOP_PROBE));
 #endif
 }

@@ -214,15 +214,15 @@ TraversalState trace_cooperatively(Ray own, float t_max) {
   intersect_linear_list(own_state, own, ANY);
   uint start = traverse_together(own_boxes, own_state.occluded >= OPTICAL_DEPTH_OPAQUE ? -1 : floatBitsToInt(own_state.hit.t));
 
-  // Rays that trace together should have equal work: order the rays by the number of children that wait for them. `place`: the number
+  // Rays that trace together should have equal work: order the rays by the number of children that wait for them. `rank`: the number
   // of rays with more. `order`: the member of each position, three bits each.
   uint work = start != TRAVERSAL_DONE ? 1u : 0u;
   EACH_WAITING work += waiting[i] != TRAVERSAL_DONE ? 1u : 0u;
   work = (work << 3u) | member;
-  uint place = 0u;
+  uint rank = 0u;
   [[unroll]] for (uint k = 1u; k < GROUP; k++)
-    place += from_member(work, (member + k) & (GROUP - 1u)) > work ? 1u : 0u;
-  uint order = sum_of_group(member << (3u * place));
+    rank += from_member(work, (member + k) & (GROUP - 1u)) > work ? 1u : 0u;
+  uint order = sum_of_group(member << (3u * rank));
   uint with_work = sum_of_group(work > 7u ? 1u : 0u);
 
   uint turn = 0u;
@@ -270,13 +270,13 @@ TraversalState trace_cooperatively(Ray own, float t_max) {
     uint u = least(first_of_them ? floatBitsToUint(state.hit.uv.x) : NONE);
     uint v = least(first_of_them ? floatBitsToUint(state.hit.uv.y) : NONE);
     uint occluded = sum(state.occluded);
-    uint tracer = (place % AT_ONCE) * 4u;
+    uint tracer = (rank % AT_ONCE) * 4u;
     uint t_back = from_member(uint(nearest_t), tracer);
     uint id_back = from_member(id, tracer);
     uint slot_back = from_member(slot, tracer);
     vec2 uv_back = vec2(uintBitsToFloat(from_member(u, tracer)), uintBitsToFloat(from_member(v, tracer)));
     uint occluded_back = from_member(occluded < OPTICAL_DEPTH_OPAQUE ? occluded : OPTICAL_DEPTH_OPAQUE, tracer);
-    bool mine = place / AT_ONCE == turn;
+    bool mine = rank / AT_ONCE == turn;
     own_state.hit.t = mine ? uintBitsToFloat(t_back) : own_state.hit.t;
     own_state.hit.id = mine ? id_back : own_state.hit.id;
     own_state.hit.slot = mine ? slot_back : own_state.hit.slot;

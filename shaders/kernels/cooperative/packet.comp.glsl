@@ -39,7 +39,7 @@ uint ray_of(uint lane, uint k) {
 }
 
 // The index of the result of ray i of a packet; NONE if there is no such ray.
-uint place_of(uint packet, uint i) {
+uint slot_of(uint packet, uint i) {
   uint j = packet * uint(PACKET) + i;
 #if defined(PACKET_PRIMARY) || defined(PACKET_SHADOW)
   uvec2 pixel = pixel_of_block(j / 64u, j % 64u, dispatch.tile_width);
@@ -51,13 +51,13 @@ uint place_of(uint packet, uint i) {
 }
 
 #ifdef PACKET_SHADOW
-// The interaction at the hit of the camera ray at `place`; on_surface: whether it hits anything.
-Interaction interaction_of(uint place, out bool on_surface) {
+// The interaction at the hit of the camera ray at `slot`; on_surface: whether it hits anything.
+Interaction interaction_of(uint slot, out bool on_surface) {
   uvec4 counts = uvec4(0u, 0u, 0u, 0u);
-  uint there = place == NONE ? 0u : place;
+  uint there = slot == NONE ? 0u : slot;
   Hit hit = hit_of_packet(hits[there], counts);
   Path path = eye_path(there);
-  return vertex_at(load_frame(), path, make_ray(path.o, path.d), hit, place != NONE, on_surface);
+  return vertex_at(load_frame(), path, make_ray(path.o, path.d), hit, slot != NONE, on_surface);
 }
 #endif
 
@@ -65,8 +65,8 @@ void main() {
   uint group = swizzled_workgroup(gl_WorkGroupID.x, gl_NumWorkGroups.x, GROUP_STRIDE);
   uint packet = group * (64u / LANES) + gl_SubgroupID;
   uint lane = gl_SubgroupInvocationID;
-  uint place[RAYS_A_LANE];
-  EACH place[k] = place_of(packet, ray_of(lane, uint(k)));
+  uint slot[RAYS_A_LANE];
+  EACH slot[k] = slot_of(packet, ray_of(lane, uint(k)));
 
 #ifdef PACKET_SHADOW
   Frame frame = load_frame();
@@ -74,7 +74,7 @@ void main() {
   bool on_surface[RAYS_A_LANE];
   uint flags[RAYS_A_LANE];
   EACH flags[k] = 0u;
-  EACH at_hit[k] = interaction_of(place[k], on_surface[k]);
+  EACH at_hit[k] = interaction_of(slot[k], on_surface[k]);
   uint light = 0u;
   do {
     // A ray that need not be traced hits nothing, but must be valid.
@@ -83,7 +83,7 @@ void main() {
       float distance;
       vec3 contribution;
       uint number;
-      bool counts = shadow_ray(frame, eye_path(place[k] == NONE ? 0u : place[k]), at_hit[k], light, to_light, distance, contribution, number) && on_surface[k];
+      bool counts = shadow_ray(frame, eye_path(slot[k] == NONE ? 0u : slot[k]), at_hit[k], light, to_light, distance, contribution, number) && on_surface[k];
       ray[k] = make_ray(vec3(0.0f, 0.0f, 0.0f), vec3(1.0f, 0.0f, 0.0f));
       if (counts) ray[k] = to_light;
       state[k] = traversal_state(counts ? distance : -1.0f);
@@ -92,34 +92,34 @@ void main() {
     traverse_together(lane);
     EACH {
       flags[k] = flags[k] | iteration_limit(state[k]);
-      if (place[k] != NONE) occlusions[light * dispatch.count + place[k]] = state[k].occluded;
+      if (slot[k] != NONE) occlusions[light * dispatch.count + slot[k]] = state[k].occluded;
     }
     light += 1u;
   } while (light < shadow_rays());
   uint cut_off = loops_cut_off(LOOP_PROBE);
   EACH {
-    if (place[k] != NONE) hits[place[k]].flags = hits[place[k]].flags | flags[k] | cut_off;
+    if (slot[k] != NONE) hits[slot[k]].flags = hits[slot[k]].flags | flags[k] | cut_off;
   }
 #else
   EACH {
 #ifdef PACKET_PRIMARY
-    ray[k] = path_ray(load_frame(), eye_path(place[k] == NONE ? 0u : place[k]));
-    state[k] = traversal_state(place[k] == NONE ? -1.0f : T_MISS);
+    ray[k] = path_ray(load_frame(), eye_path(slot[k] == NONE ? 0u : slot[k]));
+    state[k] = traversal_state(slot[k] == NONE ? -1.0f : T_MISS);
 #else
-    QueryRay asked = rays[place[k] == NONE ? 0u : place[k]];
-    ray[k] = make_ray(asked.origin, asked.direction);
-    state[k] = traversal_state(place[k] == NONE ? -1.0f : minimum(asked.t_max, T_MISS));
+    QueryRay requested = rays[slot[k] == NONE ? 0u : slot[k]];
+    ray[k] = make_ray(requested.origin, requested.direction);
+    state[k] = traversal_state(slot[k] == NONE ? -1.0f : minimum(requested.t_max, T_MISS));
 #endif
     intersect_linear_list(state[k], ray[k], ANY);
   }
   traverse_together(lane);
   uint flags = loops_cut_off(LOOP_PROBE);
   EACH {
-    if (place[k] != NONE) {
+    if (slot[k] != NONE) {
 #ifdef PACKET_PRIMARY
-      hits[place[k]] = packet_of_hit(state[k].hit, flags | iteration_limit(state[k]));
+      hits[slot[k]] = packet_of_hit(state[k].hit, flags | iteration_limit(state[k]));
 #else
-      results[place[k]] = answer(state[k], ANY, flags);
+      results[slot[k]] = answer(state[k], ANY, flags);
 #endif
     }
   }

@@ -51,15 +51,15 @@ float FORMULA_NAME(ray_offset)(Implicit it, vec3 q, vec3 out_step, bool wanted) 
     float believed = MARCH_LIKELY * at.z;
     float first = 0.0f;
     float rise = 0.0f;
-    uint places = most > 1.0f && most < IMPLICIT_MOST_RAY_OFFSET ? 4u : 0u;
-    for (uint i = 0u; i < places; i++) {
+    uint samples = most > 1.0f && most < IMPLICIT_MOST_RAY_OFFSET ? 4u : 0u;
+    for (uint i = 0u; i < samples; i++) {
       float offset = most * (1.0f - float(i >> 1u) / float(IMPLICIT_STRAYS));
       offset = (i & 1u) == 0u ? offset : -offset;
       float f = FORMULA_NAME(bound)(it, q, out_step, offset, 0.0f).x;
       first = i == 0u ? f : first;
       rise = i == 1u ? 0.5f * (first - f) / most : rise;
       believed = i > 1u ? maximum(believed, 3.0f * abs(f - rise * offset)) : believed;
-      places = i == 3u && believed > MARCH_LIKELY * at.z ? 2u * IMPLICIT_STRAYS : places;
+      samples = i == 3u && believed > MARCH_LIKELY * at.z ? 2u * IMPLICIT_STRAYS : samples;
     }
     float needed = 2.0f * (abs(at.x) + minimum(believed, at.z)) / abs(at.y);
     factor = needed < 1.0f ? 1.0f : needed < IMPLICIT_MOST_RAY_OFFSET ? needed : IMPLICIT_MOST_RAY_OFFSET;

@@ -1,6 +1,6 @@
 // The point at which a texture is sampled: on the surface, and in space.
-#ifndef TEXTURES_PLACE_GLSL
-#define TEXTURES_PLACE_GLSL
+#ifndef TEXTURES_CONTEXT_GLSL
+#define TEXTURES_CONTEXT_GLSL
 #include "language.h"
 
 SHADER_BEGIN
@@ -14,14 +14,14 @@ struct TextureContext {
 };
 
 // For callers that sample no pattern in space.
-TextureContext place_of_uv(vec2 uv) {
-  TextureContext place;
-  place.uv = uv;
+TextureContext context_of_uv(vec2 uv) {
+  TextureContext point;
+  point.uv = uv;
 #if HAS_SECOND_UV
-  place.second_uv = uv;
+  point.second_uv = uv;
 #endif
-  place.p = vec3(0.0f, 0.0f, 0.0f);
-  return place;
+  point.p = vec3(0.0f, 0.0f, 0.0f);
+  return point;
 }
 
 SHADER_END
