@@ -92,9 +92,7 @@ function(eyeray_layer name)
   endif()
   target_compile_options(${name} PRIVATE ${options})
   eyeray_precompiled(${name} OPTIONS ${options})
-  if(NOT EYERAY_SANITIZE)  # there each file includes what it uses of ours
-    eyeray_in_batches(${name})
-  endif()
+  eyeray_in_batches(${name})
   set_property(GLOBAL APPEND PROPERTY EYERAY_LAYERS ${name})
 endfunction()
 

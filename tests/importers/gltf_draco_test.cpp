@@ -9,13 +9,13 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-Json& coding_of(GltfFile& file) {
+Json& draco_of(GltfFile& file) {
   return file.primitive()["extensions"]["KHR_draco_mesh_compression"];
 }
 
 // Puts other data in place of the primitive's.
 void replace_data(GltfFile& file, const std::string& data) {
-  coding_of(file)["bufferView"] = file.add_view(data);
+  draco_of(file)["bufferView"] = file.add_view(data);
 }
 
 std::string refusal_of_data(const std::string& data) {
@@ -278,7 +278,7 @@ TEST_CASE("draco: one attribute of a large mesh is not copied into accessors wit
   GltfFile file = draco_grid();
   replace_data(file, mesh.code({draco::MESH_EDGEBREAKER_ENCODING, 0}));
   file.primitive()["attributes"] = {{"POSITION", 0}};
-  coding_of(file)["attributes"] = {{"POSITION", 0}};
+  draco_of(file)["attributes"] = {{"POSITION", 0}};
   file.json["accessors"][0]["count"] = side * side;
   file.json["accessors"][3]["count"] = 6 * (side - 1) * (side - 1);
   CHECK(import_sound(file.glb(), "a.glb").meshes[0].triangles.size() == 2 * (side - 1) * (side - 1));
@@ -286,7 +286,7 @@ TEST_CASE("draco: one attribute of a large mesh is not copied into accessors wit
     const std::string name = "COPY_" + std::to_string(i);
     file.primitive()["attributes"][name] = file.json["accessors"].size();
     file.json["accessors"].push_back(Json(file.json["accessors"][0]));
-    coding_of(file)["attributes"][name] = 0;
+    draco_of(file)["attributes"][name] = 0;
   }
   CHECK(contains(refusal(file.glb(), "a.glb"),
                  "makes the number of elements larger than a file of this size may have"));

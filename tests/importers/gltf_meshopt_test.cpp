@@ -7,7 +7,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-Json& coding_of(GltfFile& file, size_t view) {
+Json& meshopt_of(GltfFile& file, size_t view) {
   return file.json["bufferViews"][view]["extensions"]["EXT_meshopt_compression"];
 }
 
@@ -85,7 +85,7 @@ TEST_CASE("meshopt: the filter OCTAHEDRAL, in 8 and 16 bits") {
     for (const char* bound : {"min", "max"}) file.json["accessors"][1].erase(bound);
     file.json["extensionsUsed"].push_back("KHR_mesh_quantization");
     check_grid(import_sound(file.gltf(), "a.gltf"), stride == 4 ? 2e-2 : 1e-3);
-    coding_of(file, 1).erase("filter");
+    meshopt_of(file, 1).erase("filter");
     const ImportedScene raw =
         import_bytes(file.gltf(), "a.gltf");  // without the filter its numbers are not normals
     CHECK(glm::length(raw.meshes[0].normals[1] - normal_at(1.0 / (grid_side - 1), 0)) > 0.1);
@@ -105,7 +105,7 @@ TEST_CASE("meshopt: the filter EXPONENTIAL") {
   GltfFile file = grid_file();
   code_view(file, 0, coded, {"ATTRIBUTES", 12, "EXPONENTIAL"});
   check_grid(import_sound(file.gltf(), "a.gltf"), 1e-3);
-  coding_of(file, 0)["filter"] = "NONE";
+  meshopt_of(file, 0)["filter"] = "NONE";
   CHECK(glm::length(import_bytes(file.gltf(), "a.gltf").meshes[0].positions[0]) > 1e3);
 }
 
@@ -177,7 +177,7 @@ TEST_CASE("meshopt: what is against the specification is refused, with its place
     const std::string& why = each.why;
     CAPTURE(why);
     GltfFile file = meshopt_grid();
-    coding_of(file, view).update(each.changes);
+    meshopt_of(file, view).update(each.changes);
     const std::string message = refusal(file.gltf(), "a.gltf");
     CAPTURE(message);
     CHECK(contains(message, why));
@@ -193,16 +193,16 @@ TEST_CASE("meshopt: data cut short at every byte, or of another version") {
   for (const auto& [mode, view] : {std::pair("TRIANGLES", size_t{0}), std::pair("TRIANGLES", size_t{3}),
                                    std::pair("INDICES", size_t{3})}) {
     GltfFile file = meshopt_grid(mode);
-    const size_t whole = coding_of(file, view)["byteLength"];
+    const size_t whole = meshopt_of(file, view)["byteLength"];
     for (size_t length = 0; length < whole; ++length) {
-      coding_of(file, view)["byteLength"] = length;
+      meshopt_of(file, view)["byteLength"] = length;
       const std::string why = refusal(file.glb(), "a.glb");
       CAPTURE(why);
       REQUIRE((contains(why, "cannot encode") || contains(why, "are damaged")));
     }
   }
   GltfFile file = meshopt_grid();
-  Json& coding = coding_of(file, 0);
+  Json& coding = meshopt_of(file, 0);
   std::string later = file.data().substr(coding["byteOffset"], coding["byteLength"]);
   later[0] = char(0xa1);
   coding["byteOffset"] = file.json["bufferViews"][size_t(file.add_view(later))]["byteOffset"];
@@ -215,7 +215,7 @@ TEST_CASE("meshopt: absurd counts take no memory, alone or many of them together
   // A coded byte stands for at most 64 bytes, apart from the bytes at the ends.
   for (const auto& [view, stride] : {std::pair(size_t{0}, 12), std::pair(size_t{3}, 2)}) {
     GltfFile file = meshopt_grid();
-    coding_of(file, view)["count"] = 999999999;
+    meshopt_of(file, view)["count"] = 999999999;
     file.json["bufferViews"][view]["byteLength"] = 999999999ll * stride;
     CHECK(contains(refusal(file.gltf(), "a.gltf"), "bytes, which cannot encode 999999999 elements"));
   }

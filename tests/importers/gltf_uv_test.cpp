@@ -26,11 +26,11 @@ GltfFile two_uv_file(const Json& material) {
   return file;
 }
 
-Json map(int set) {
+Json texture_of_set(int set) {
   return {{"index", 0}, {"texCoord", set}};
 }
 Json scaled(double scale) {
-  Json scaled = map(0);
+  Json scaled = texture_of_set(0);
   scaled["extensions"]["KHR_texture_transform"]["scale"] = {scale, scale};
   return scaled;
 }
@@ -38,7 +38,7 @@ Json scaled(double scale) {
 // A material whose base colour's picture reads set 0, and whose emission's picture reads as `emission`
 // states.
 Json glowing(const Json& emission) {
-  return {{"pbrMetallicRoughness", {{"baseColorTexture", map(0)}, {"metallicFactor", 0}}},
+  return {{"pbrMetallicRoughness", {{"baseColorTexture", texture_of_set(0)}, {"metallicFactor", 0}}},
           {"emissiveFactor", {1, 1, 1}},
           {"emissiveTexture", emission}};
 }
@@ -46,7 +46,7 @@ Json glowing(const Json& emission) {
 }  // namespace
 
 TEST_CASE("a picture on another set of uv, or on the same one otherwise transformed, is shown there") {
-  for (const Json& emission : {map(1), scaled(0.5)}) {
+  for (const Json& emission : {texture_of_set(1), scaled(0.5)}) {
     const ImportedScene scene = import_sound(two_uv_file(glowing(emission)).gltf(), "a.gltf");
     CHECK(scene.warnings.empty());
     CHECK(scene.meshes[0].uv == std::vector<Vec2>{{0, 1}, {1, 1}, {1, 0}, {0, 0}});
@@ -62,7 +62,7 @@ TEST_CASE("a picture on another set of uv, or on the same one otherwise transfor
     CHECK(at(here, there).diffuse == at(here, here).diffuse);
     CHECK(at(here, there).diffuse != at(there, there).diffuse);
   }
-  const ImportedScene alone = import_sound(two_uv_file(glowing(map(0))).gltf(), "a.gltf");
+  const ImportedScene alone = import_sound(two_uv_file(glowing(texture_of_set(0))).gltf(), "a.gltf");
   CHECK(alone.meshes[0].second_uv.empty());
 }
 
@@ -74,9 +74,9 @@ TEST_CASE("any picture may read the second uv, and a third is left out") {
         std::pair("/extensions/KHR_materials_clearcoat/clearcoatNormalTexture", "normal maps")}) {
     const auto& [pointer, left_out] = texture;
     CAPTURE(texture.first);
-    Json material = glowing(map(1));
+    Json material = glowing(texture_of_set(1));
     material["extensions"]["KHR_materials_clearcoat"]["clearcoatFactor"] = 1;
-    material[Json::json_pointer(pointer)] = map(1);
+    material[Json::json_pointer(pointer)] = texture_of_set(1);
     CHECK(import_sound(two_uv_file(material).gltf(), "a.gltf").warnings.empty());
     material[Json::json_pointer(pointer)] = scaled(3);
     const ImportedScene third = import_sound(two_uv_file(material).gltf(), "a.gltf");
@@ -86,8 +86,8 @@ TEST_CASE("any picture may read the second uv, and a third is left out") {
 }
 
 TEST_CASE("tangents are along the uv of the normal map") {
-  Json material = glowing(map(0));
-  material["normalTexture"] = map(1);
+  Json material = glowing(texture_of_set(0));
+  material["normalTexture"] = texture_of_set(1);
   GltfFile file = two_uv_file(material);
   const ImportedScene scene = import_sound(file.gltf(), "a.gltf");
   CHECK(scene.warnings.empty());

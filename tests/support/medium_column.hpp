@@ -1,4 +1,5 @@
-// Integrals along rays through a medium that has an extent, by Simpson's rule.
+// Integrals along rays through a medium that has an extent, by Simpson's rule, and the phase function of
+// media.
 #pragma once
 
 #include <algorithm>
@@ -7,6 +8,11 @@
 #include "host/scene/medium_extent.hpp"
 
 namespace eyeray::engine::test {
+
+// The share of scattered light per steradian at an angle to its old direction (Henyey and Greenstein 1941).
+inline double henyey_greenstein(double g, double cosine) {
+  return (1 - g * g) / (4 * M_PI * std::pow(1 + g * g - 2 * g * cosine, 1.5));
+}
 
 // ∫ f(t, density) dt over the part of the ray up to `end` that is in the medium's box.
 template <typename Function>

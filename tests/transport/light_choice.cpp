@@ -3,7 +3,7 @@
 
 #include "host/core/error.hpp"
 #include "host/scene/light_choice.hpp"
-#include "tests/support/scenes.hpp"
+#include "patch.hpp"
 
 #include "tests/support/doctest.hpp"
 
@@ -11,14 +11,6 @@ using namespace eyeray::engine;
 using namespace eyeray::engine::shapes;
 using namespace eyeray::engine::materials;
 using namespace eyeray::engine::test;
-
-namespace {
-
-int emissive(Scene& scene, double radiance) {
-  return add(scene, make_phong({.diffuse = gray(0), .emission = gray(radiance)}));
-}
-
-}  // namespace
 
 TEST_CASE("lights are chosen by power, and all shares are one together") {
   Scene scene = empty_scene();

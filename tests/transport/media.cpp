@@ -1,37 +1,13 @@
 // Media that scatter light, where the answer is known.
-#include "host/scene/integrator.hpp"
-#include "host/scene/sampler.hpp"
-#include "tests/support/estimate.hpp"
+#include "patch.hpp"
+#include "tests/support/medium_column.hpp"
 
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray::engine;
-using namespace eyeray::engine::shapes;
-using namespace eyeray::engine::materials;
 using namespace eyeray::engine::test;
-using executors::Backend;
 
 namespace {
-
-Scene patch(const Vec3& eye, const Vec3& target, int samples) {
-  Scene scene = one_pixel(eye, target);
-  scene.image = {.width = 8, .height = 8, .samples = samples, .pattern = SamplePattern::sobol};
-  scene.camera.projection = cameras::make_projection(PerspectiveCamera{.fov_degrees = 1e-3});
-  scene.render.integrator = IntegratorType::path;
-  return scene;
-}
-
-void check(const Scene& scene, double expected, double least_error) {
-  CAPTURE(expected);
-  for (const Backend backend : {Backend::twin, Backend::reference}) {
-    const Estimate found = estimate(scene, backend);
-    CAPTURE(int(backend));
-    CAPTURE(found.mean);
-    CAPTURE(found.error);
-    CHECK(found.error < greatest_error() * expected);
-    CHECK(std::abs(found.mean - expected) < 5 * found.error + least_error * expected);
-  }
-}
 
 // The integral of f by Simpson's rule.
 template <typename Function>
@@ -43,15 +19,10 @@ double integral(double from, double to, const Function& f) {
   return sum * (to - from) / (3 * steps);
 }
 
-double henyey_greenstein(double g, double cosine) {
-  return (1 - g * g) / (4 * M_PI * std::pow(1 + g * g - 2 * g * cosine, 1.5));
-}
-
 }  // namespace
 
 TEST_CASE("absorption around all: light is weakened to the eye, and from an area light") {
   Scene scene = patch({0.4, 0.9, 0.5}, {0, 0, 0}, 4);
-  scene.render.max_depth = 0;
   scene.medium.absorption = Vec3(0.3, 0, 0);
   add(scene, make_plane({0, 0, 0}, {0, 1, 0}), add(scene, make_phong({.diffuse = gray(0.8)})));
   add_point_light(scene, {0, 2, 0}, Vec3(3), Falloff::inverse_square);
@@ -60,7 +31,6 @@ TEST_CASE("absorption around all: light is weakened to the eye, and from an area
 
 TEST_CASE("an area light and a floor within an absorbing medium: their light too is weakened") {
   Scene scene = patch({0.4, 0.9, 0.5}, {0, 0, 0}, 4);
-  scene.render.max_depth = 0;
   add(scene, make_sphere({0, 0, 0}, 10), add(scene, make_dielectric({.absorption = Vec3(0.3)})));
   add(scene, make_disk({0, 0, 0}, {0, 1, 0}, 5), add(scene, make_phong({.diffuse = gray(0.8)})));
   add_point_light(scene, {0, 2, 0}, Vec3(3), Falloff::inverse_square);
@@ -100,7 +70,6 @@ TEST_CASE("light of a point that fog scatters once") {
     CAPTURE(g);
     const double scattering = 0.2, absorption = 0.1, ahead = 3;
     Scene scene = patch({0, 0, ahead}, {0, 0, 0}, 4096);
-    scene.render.max_depth = 0;
     scene.medium = {
         .absorption = Vec3(absorption), .scattering = Vec3(scattering, 0.1, 0.4), .anisotropy = g};
     add_point_light(scene, {0, 1, 0}, Vec3(2), Falloff::inverse_square);

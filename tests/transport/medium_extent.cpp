@@ -34,10 +34,6 @@ double to_infinity(const MediumExtent& extent, const Vec3& o, const Vec3& d) {
   return length_in(extent, {o, d}, 40, 400);
 }
 
-double henyey_greenstein(double g, double cosine) {
-  return (1 - g * g) / (4 * M_PI * std::pow(1 + g * g - 2 * g * cosine, 1.5));
-}
-
 }  // namespace
 
 TEST_CASE("a sun shines on a floor through what absorbs, weakened on its way and to the eye") {

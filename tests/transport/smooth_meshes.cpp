@@ -19,7 +19,7 @@ namespace {
 constexpr int width = 48;
 
 // The picture of [−1, 1]² by an orthographic camera at that height, row by row from the top.
-std::vector<double> picture(Scene& scene, Backend backend, double height = 5) {
+std::vector<double> picture_of(Scene& scene, Backend backend, double height = 5) {
   scene.image = {.width = width, .height = width};
   scene.camera.eye = {0, 0, height};
   scene.camera.projection = cameras::make_projection(OrthographicCamera{.size = 1});
@@ -53,7 +53,7 @@ TEST_CASE("a coarse smooth ball is lit as a round one: by Lambert's cosine, up t
         add_instance(scene, mesh, white, small);
         if (instances) add_instance(scene, mesh, white, translation({0, 0, -50}) * small);
         add_sun(scene, to_sun, Vec3(1));
-        const std::vector<double> colors = picture(scene, backend);
+        const std::vector<double> colors = picture_of(scene, backend);
         double apart = 0;
         int seen = 0, black = 0;
         for (int i = 0; i < width * width; ++i) {
@@ -87,6 +87,6 @@ TEST_CASE("wild normals do not let light through a wall a quarter of an edge awa
       const double off = 0.26 * std::sqrt(2.0);
       add(scene, shapes::make_box({-9, -9, off}, {9, 9, off + 0.01}), white);
       add_sun(scene, {0, 0.6, 1}, Vec3(1));
-      for (const double color : picture(scene, backend, 0.9 * off)) CHECK(color == 0);
+      for (const double color : picture_of(scene, backend, 0.9 * off)) CHECK(color == 0);
     }
 }

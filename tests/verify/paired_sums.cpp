@@ -14,7 +14,7 @@ using executors::Backend;
 namespace {
 
 // The Cornell box in 16 × 16 pixels; `white` is the `diffuse` of its white walls.
-Scene box(const std::string& white, uint32_t seed) {
+Scene cornell_box(const std::string& white, uint32_t seed) {
   std::string text = test::read_text("scenes/path/cornell_box.toml");
   const std::string own = "diffuse = [0.73, 0.71, 0.68]";
   REQUIRE(text.find(own) != std::string::npos);
@@ -44,8 +44,8 @@ compare::Frame traced(const Scene& scene, Backend backend) {
 int failing(int seeds, const std::string& white) {
   int count = 0;
   for (int seed = 1; seed <= seeds; ++seed)
-    count += compare::worst_paired_sum(traced(box(white, uint32_t(seed)), Backend::twin),
-                                       traced(box(usual, uint32_t(seed)), Backend::reference))
+    count += compare::worst_paired_sum(traced(cornell_box(white, uint32_t(seed)), Backend::twin),
+                                       traced(cornell_box(usual, uint32_t(seed)), Backend::reference))
                  .excess() > 1;
   return count;
 }
