@@ -32,7 +32,7 @@ std::timed_mutex& engine() {
   return known->mutex;
 }
 
-thread_local bool inside = false;
+thread_local bool within_call = false;
 
 v0::ErrorKind kind_of(ExitCode code) {
   switch (code) {
@@ -62,9 +62,9 @@ std::unique_lock<std::timed_mutex> enter(const std::atomic<bool>* stop) {
 
 }  // namespace
 
-InsideCall::InsideCall() : before_(std::exchange(inside, true)) {}
+InsideCall::InsideCall() : before_(std::exchange(within_call, true)) {}
 InsideCall::~InsideCall() {
-  inside = before_;
+  within_call = before_;
 }
 
 std::vector<v0::Diagnostic> to_public(const std::vector<Diagnostic>& diagnostics) {
@@ -78,7 +78,7 @@ std::vector<v0::Diagnostic> to_public(const std::vector<Diagnostic>& diagnostics
 void call_engine(const std::function<void()>& work, const std::atomic<bool>* stop) {
   try {
     speak_to_library();
-    if (inside)
+    if (within_call)
       throw Error(ExitCode::bad_input,
                   "eyeray was called from within `progress` and would wait for itself: call it after this "
                   "call has returned");

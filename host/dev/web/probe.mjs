@@ -42,7 +42,8 @@ export function show_probe(element, answer) {
     const item = make('details', undefined, ray.verdict ?? '');
     item.style.marginLeft = `${Math.min(depths[i], 12) * 0.75}em`;
     item.open = depths[i] < 2;
-    const shown = ray.ray === 'pixel' ? 'the pixel' : ray.light === undefined ? `${ray.ray} ray` : `shadow ray to light ${ray.light}`;
+    const kind = ray.ray === 'eye' ? 'camera' : ray.ray;
+    const shown = kind === 'pixel' ? 'the pixel' : ray.light === undefined ? `${kind} ray` : `shadow ray to light ${ray.light}`;
     item.append(make('summary', shown + (ray.hits ? ` → ${ray.hits}` : '')), ...ray.values.map(value => line(value, names)));
     if (ray.values.some(value => value.verdict === 'differs')) item.open = true;
     element.append(item);
