@@ -86,7 +86,7 @@ TEST_CASE("light of a point that fog scatters once") {
 // Chandrasekhar, Radiative Transfer, 1950: 1/H(μ) = √(1 − ϖ) + ½ϖ ∫ μ' H(μ') / (μ + μ') dμ'. If light comes
 // evenly from everywhere, the half space returns 1 − H(μ) √(1 − ϖ).
 TEST_CASE("half of space, filled with what scatters evenly, in light from everywhere") {
-  const double albedo = 0.8, mu = 0.6, root = std::sqrt(1 - albedo);
+  const double mu = 0.6, root = std::sqrt(1 - albedo);
   constexpr int steps = 400;
   std::vector<double> h(steps, 1.0);
   const auto one_over = [&](double at) {
