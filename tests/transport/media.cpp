@@ -85,7 +85,7 @@ TEST_CASE("light of a point that fog scatters once") {
 
 // Chandrasekhar, Radiative Transfer, 1950: 1/H(μ) = √(1 − ϖ) + ½ϖ ∫ μ' H(μ') / (μ + μ') dμ'. If light comes
 // evenly from everywhere, the half space returns 1 − H(μ) √(1 − ϖ).
-TEST_CASE("half of space, filled with what scatters evenly, in light from everywhere") {
+TEST_CASE("half of space, filled with an evenly scattering medium, in light from everywhere") {
   const double mu = 0.6, root = std::sqrt(1 - albedo);
   constexpr int steps = 400;
   std::vector<double> h(steps, 1.0);

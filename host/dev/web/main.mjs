@@ -100,7 +100,11 @@ function reset_camera() {
 const words = { starting: 'starting', load: 'loading', loading: 'loading', compile: 'compiling', render: 'rendering', done: 'done', failed: 'failed' };
 let probes = 0;
 let probed = null;  // the edit to which the shown rays belong
-const report_whether_stale = () => { $('stale').hidden = probed === null || probed === status.edit; };
+let drawn = null;  // the edit to which the shown picture belongs: a broken edit leaves the last good one
+const report_whether_stale = () => {
+  if (!status.stale) drawn = status.edit;
+  $('stale').hidden = probed === null || drawn === null || probed === drawn;
+};
 function tell() {
   const name = status.scene.split('/').pop();
   $('scene').textContent = name;

@@ -88,6 +88,12 @@ assert.match(await page.locator('#pixel').textContent(), /^\d+,\d+ {2}[\d.]+/);
 // Rays of a picture that has changed since are marked as such.
 const scene_file = `${folder}/scene.toml`, scene = readFileSync(scene_file, 'utf8');
 assert.ok(await page.locator('#stale').isHidden());
+writeFileSync(pixel, with_code('color = nonsense;'));
+await page.locator('#failure:not([hidden])').waitFor();
+assert.ok(await page.locator('#stale').isHidden(), 'the picture is that of the rays');
+await next('gpu', () => writeFileSync(pixel, good));
+await page.mouse.click(...middle);
+await page.locator('#probe details').first().waitFor();
 await next('gpu', () => writeFileSync(scene_file, scene.replace(/^radius = .*$/m, 'radius = 0.5')));
 assert.ok(await page.locator('#stale').isVisible());
 await next('gpu', () => writeFileSync(scene_file, scene));
