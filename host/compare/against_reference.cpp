@@ -185,7 +185,9 @@ class Judge {
 
     tally.worst = at(worst);
     tally.worst.excess = judgements[worst].excess;
-    tally.worst.seam = first_seam(tally.worst, tolerances_);
+    tally.worst.seam = first_seam(tally.worst, tolerances_,
+                                  judgements[worst].outcome == Outcome::unexplained &&
+                                      first_hits_[worst].outcome == Outcome::explained);
     return tally;
   }
 

@@ -85,15 +85,17 @@ double hit_excess(const FirstHit& value, const FirstHit& reference, const Tolera
                    relative_excess(value.uv, reference.uv, tolerances.uv)});
 }
 
-Seam first_seam(const WorstPixel& pixel, const Tolerances& tolerances) {
+Seam first_seam(const WorstPixel& pixel, const Tolerances& tolerances, bool hit_is_explained) {
   const FirstHit &value = pixel.value_hit, &reference = pixel.reference_hit;
-  if (value.primitive != reference.primitive) return Seam::primitive;
-  if (t_excess(value.t, reference, tolerances) > 1) return Seam::t;
-  if (position_excess(value.position, reference, tolerances) > 1) return Seam::position;
-  if (normal_excess(value.normal, reference.normal, tolerances.normal) > 1) return Seam::normal;
-  if (geometric_excess(value, reference, tolerances.normal) > 1) return Seam::geometric_normal;
-  if (relative_excess(value.uv, reference.uv, tolerances.uv) > 1) return Seam::uv;
-  if (value.material != reference.material) return Seam::material;
+  if (!hit_is_explained) {
+    if (value.primitive != reference.primitive) return Seam::primitive;
+    if (t_excess(value.t, reference, tolerances) > 1) return Seam::t;
+    if (position_excess(value.position, reference, tolerances) > 1) return Seam::position;
+    if (normal_excess(value.normal, reference.normal, tolerances.normal) > 1) return Seam::normal;
+    if (geometric_excess(value, reference, tolerances.normal) > 1) return Seam::geometric_normal;
+    if (relative_excess(value.uv, reference.uv, tolerances.uv) > 1) return Seam::uv;
+    if (value.material != reference.material) return Seam::material;
+  }
   if (color_excess(pixel.value, pixel.reference, tolerances.color) > 1) return Seam::color;
   return counts_excess(pixel.value_counts, pixel.reference_counts) > 1 ? Seam::counts : Seam::none;
 }

@@ -271,6 +271,18 @@ TEST_CASE("a missing light fails at the seam 'color'") {
   CHECK(comparison.colors.worst.seam == Seam::color);
 }
 
+TEST_CASE("a wrong colour fails at the seam 'color' where an explained first hit differs too") {
+  Frame gpu = honest_frame();
+  const FirstHit honest = picture_frame().first_hits[6 * picture_width + 88];
+  REQUIRE(gpu.first_hits[6 * picture_width + 88].primitive != honest.primitive);
+  gpu.color.pixel(88, 6)[1] = 9;
+  const ReferenceComparison comparison = compared(gpu);
+  CHECK_FALSE(comparison.colors.passes());
+  CHECK(comparison.first_hits.passes());
+  CHECK(comparison.colors.worst.pixel.x == 88);
+  CHECK(comparison.colors.worst.seam == Seam::color);
+}
+
 TEST_CASE("a difference just over the tolerance fails, just below passes") {
   for (const auto& [factor, passes] : {std::pair{0.5, true}, {5.0, false}}) {
     Frame gpu = picture_frame();
