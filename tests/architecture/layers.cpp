@@ -91,7 +91,7 @@ TEST_CASE("every folder under host/ is a layer, and includes only what it may se
   CHECK(seen > 300);
 }
 
-TEST_CASE("libraries stay in their layers, and out of headers that others see") {
+TEST_CASE("only permitted layers include a library, and only permitted ones in a header") {
   size_t seen = 0;
   for (const SourceFile& file : layer_files()) {
     for (const Include& include : includes(file)) {

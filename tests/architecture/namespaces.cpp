@@ -113,7 +113,7 @@ TEST_CASE("no two files define a type of one name in one namespace") {
   CHECK(defined.contains("eyeray::engine::bench::Batch"));
 }
 
-TEST_CASE("forward declarations do not reach where includes may not") {
+TEST_CASE("a forward declaration names only types of layers that the file may include") {
   // Types that a layer only declares, because a layer above it defines them: layer, type.
   const std::set<std::pair<std::string, std::string>> handed_down = {{"scene", "Packer"}};
 

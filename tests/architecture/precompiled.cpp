@@ -92,7 +92,7 @@ void add_all(const std::string& path, const std::map<std::string, Names>& direct
 
 }  // namespace
 
-TEST_CASE("a file includes those of the precompiled headers whose names it says") {
+TEST_CASE("a file includes each precompiled header whose names it uses") {
   std::map<std::string, SourceFile> files;
   for (const char* folder : {"host", "shaders", "tests"})
     for (SourceFile& file : source_files(folder)) files.emplace(file.path, std::move(file));
@@ -117,7 +117,7 @@ TEST_CASE("a file includes those of the precompiled headers whose names it says"
   CHECK(seen > 5000);
 }
 
-TEST_CASE("there is a name of every precompiled header") {
+TEST_CASE("the table of names covers every precompiled header") {
   Names named;
   for (const auto& [name, headers] : headers_of) named.insert(headers.begin(), headers.end());
   size_t seen = 0;

@@ -31,7 +31,7 @@ std::string find_code(const std::regex& pattern, const Filter& filter) {
 
 }  // namespace
 
-TEST_CASE("only entries and kernels/bindings.glsl are GLSL alone: version, extensions, layouts, main") {
+TEST_CASE("only entries and kernels/bindings.glsl hold pure GLSL: version, extensions, layouts, main") {
   const auto common = [](const SourceFile& file) {
     return !entry(file) && file.path != "shaders/kernels/bindings.glsl";
   };
@@ -43,7 +43,7 @@ TEST_CASE("only entries and kernels/bindings.glsl are GLSL alone: version, exten
   CHECK(find_code(std::regex(R"(\bvoid\s+main\b)"), entry) != "");
 }
 
-TEST_CASE("nothing is left to the driver's built-in functions but abs, floor, sqrt and the bit casts") {
+TEST_CASE("shaders call no built-in function of the driver but abs, floor, sqrt and bit casts") {
   const std::regex loose(
       R"(\b(radians|degrees|sin|cos|tan|asin|acos|atan|sinh|cosh|tanh|asinh|acosh|atanh|pow|exp|log|exp2|log2|inversesqrt|)"
       R"(sign|trunc|round|roundEven|ceil|fract|mod|modf|min|max|clamp|mix|step|smoothstep|isnan|isinf|fma|frexp|ldexp|)"
@@ -66,7 +66,7 @@ TEST_CASE("nothing is left to the driver's built-in functions but abs, floor, sq
   CHECK(find_code(std::regex(R"(\bsubgroup\w+\s*\()"), alone) == "");
 }
 
-TEST_CASE("neither double nor half, nor swizzles: what both languages read alike") {
+TEST_CASE("shaders use no double, half or swizzle, so both languages read them alike") {
   const auto pictures = [](const SourceFile& file) { return !entry(file) && file.name() != "language.h"; };
   CHECK(find_code(std::regex(R"(\b(double|dvec[234]|half|float16_t|precise|lowp|mediump|highp)\b)"),
                   pictures) == "");
@@ -75,7 +75,7 @@ TEST_CASE("neither double nor half, nor swizzles: what both languages read alike
   CHECK(find_code(std::regex(R"((^|[^\w.])(\d+\.\d*|\.\d+)(e[-+]?\d+)?(?![\w.]))"), pictures) == "");
 }
 
-TEST_CASE("a, b and c of records are read by one-line functions that name what they hold, and nowhere else") {
+TEST_CASE("only one-line functions that name their meaning read a, b and c of records") {
   const std::regex unnamed(R"(\b\w+\.[abc]\b)");
   const std::regex named(
       R"(^(INLINE )?\w+ \w+\((Primitive|Material|Texture|Light|Emitter) \w+\) \{ return [^;]*; \}\s*$)");

@@ -73,7 +73,7 @@ TEST_CASE("primary rays go block by block through the pixels' centres") {
   }
 }
 
-TEST_CASE("rays leave instanced groups where they leave copies; Embree is not asked about them") {
+TEST_CASE("rays leave instanced groups where they leave copies; Embree refuses such groups") {
   const auto grouped = [](const char* groups) {
     Scene scene = parse_scene(fmt::format(R"([render]
 groups = "{}"
@@ -178,7 +178,7 @@ TEST_CASE("rays leave surfaces outward, and shadow rays end at the light") {
   }
 }
 
-TEST_CASE("bounces are distributed as the cosine, and the same for the same seed") {
+TEST_CASE("bounces follow the cosine distribution, and the same seed gives the same bounces") {
   const std::vector<SurfacePosition> from = [] {
     std::vector<SurfacePosition> made;
     for (uint32_t i = 0; i < 100'000; ++i) made.push_back({i, Vec3(0.0), glm::normalize(Vec3(1, 2, 3))});

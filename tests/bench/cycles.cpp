@@ -57,7 +57,7 @@ std::string refused(const std::string& rest) {
 
 }  // namespace
 
-TEST_CASE("a scene for Cycles: size, depth, camera, light, materials and shapes, and nothing biased") {
+TEST_CASE("a Cycles script has size, depth, camera, lights, materials and shapes, and no biased setting") {
   const std::string text = script_of(R"(
 [[light]]
 type = "directional"
@@ -123,7 +123,7 @@ material = "m"
   CHECK(text.find("\nball = sphere()\n") == text.rfind("\nball = sphere()\n"));
 }
 
-TEST_CASE("a mesh for Cycles keeps its normals, and the environment its texels and its turn") {
+TEST_CASE("a mesh for Cycles keeps its normals, and the environment its texels and rotation") {
   Scene scene = parse_scene(cycles_stage + "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"m\"\n",
                             "scene.toml");
   CHECK(!cycles_environment(scene));
@@ -146,7 +146,7 @@ TEST_CASE("a mesh for Cycles keeps its normals, and the environment its texels a
   CHECK(picture.pixel(1, 0)[1] == float(scene.environment->texel(1, 0).y));
 }
 
-TEST_CASE("a scene that Blender cannot render alike is refused") {
+TEST_CASE("a scene that Blender cannot render identically is refused") {
   const std::string ball = "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"n\"\n";
   const auto with = [&](const std::string& material) {
     return refused("[[material]]\nname = \"n\"\n" + material + ball);

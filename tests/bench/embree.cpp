@@ -74,7 +74,7 @@ bool same(const QueryHit& a, const QueryHit& b) {
 
 }  // namespace
 
-TEST_CASE("every way of asking Embree gives the hits of float64, but for a few at edges") {
+TEST_CASE("every way of querying Embree gives the hits of float64, except a few at edges") {
   const Scene scene = mixed_scene();
   const Embree embree(scene);
   CHECK(embree.bytes() > 1000);
@@ -98,7 +98,7 @@ TEST_CASE("every way of asking Embree gives the hits of float64, but for a few a
   }
 }
 
-TEST_CASE("instances count their triangles one after the other, behind the shapes") {
+TEST_CASE("triangles of instances are numbered consecutively, after the shapes") {
   Scene scene = parse_scene(
       "[[material]]\nname = \"m\"\ntype = \"phong\"\n[[sphere]]\ncenter = [0, 9, 0]\nradius = 1\nmaterial = "
       "\"m\"\n",

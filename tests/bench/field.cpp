@@ -41,7 +41,7 @@ size_t count(const std::string& text, const std::string& word) {
 
 }  // namespace
 
-TEST_CASE("ratios are with the fastest of a kind") {
+TEST_CASE("ratios compare with the fastest contender of a kind") {
   const BatchReport batch = sample(0.08)[0].batches[0];
   CHECK(rate(batch, batch.timings[0]) == doctest::Approx(1e7));
   CHECK(times_as_fast(batch, batch.timings[1], ContenderKind::single) == doctest::Approx(1.25));
@@ -50,7 +50,7 @@ TEST_CASE("ratios are with the fastest of a kind") {
   CHECK(fastest({}, ContenderKind::ours) == nullptr);
 }
 
-TEST_CASE("the table has a row for each of ours and single rays, and one for the fastest packets") {
+TEST_CASE("the table has a row for each of our contenders and single rays, and one for the fastest packets") {
   const std::string text = to_text(sample(0.08));
   CHECK(count(text, "Embree packets of 16") == 2);
   CHECK(count(text, "packets of 8") == 0);
@@ -63,7 +63,7 @@ TEST_CASE("the table has a row for each of ours and single rays, and one for the
   }
 }
 
-TEST_CASE("a report survives JSON, and --compare says what changed") {
+TEST_CASE("a report survives JSON, and --compare lists the changes") {
   const TemporaryFolder folder;
   const std::string file = folder / "old.json";
   write_text(file, nlohmann::ordered_json{{"field", to_json(sample(0.1))}}.dump());
@@ -82,7 +82,7 @@ TEST_CASE("a report survives JSON, and --compare says what changed") {
   CHECK(changes({}, sample(1)).empty());
 }
 
-TEST_CASE("a file that is no report is refused in one line") {
+TEST_CASE("a file that is not a report is refused in one line") {
   const TemporaryFolder folder;
   const std::string file = folder / "old.json";
   const std::string good = nlohmann::ordered_json{{"field", to_json(sample(0.1))}}.dump();

@@ -52,7 +52,7 @@ PathReport sample_path_report() {
 
 }  // namespace
 
-TEST_CASE("slopes, and what an equal error costs") {
+TEST_CASE("a series has a slope, and a time to reach an equal error") {
   const PathReport report = sample_path_report();
   CHECK(report.series[0].slope() == doctest::Approx(-1.5));
   CHECK(report.series[1].slope() == doctest::Approx(-1));
@@ -64,7 +64,7 @@ TEST_CASE("slopes, and what an equal error costs") {
     CHECK(report.series[0].processor_until(8 * std::pow(samples, -1.5)) == doctest::Approx(0.25 * samples));
 }
 
-TEST_CASE("the error left after a time, and two renderers at an equal time") {
+TEST_CASE("errors after a given time, and of two renderers at an equal time, are interpolated") {
   const PathReport report = sample_path_report();
   // The error is 8 / samples^1.5 at 0.25 s a sample: at and between the levels, below the lowest and above
   // the highest.
@@ -77,7 +77,7 @@ TEST_CASE("the error left after a time, and two renderers at an equal time") {
   CHECK(equal.ratio == doctest::Approx(std::sqrt((8.0 / 32) / (8 * std::pow(64, -1.5)))));
 }
 
-TEST_CASE("a report of photons says what they are measured against, and how paths are at an equal time") {
+TEST_CASE("a report of photons states its reference, and the error of paths at an equal time") {
   PathReport report = sample_path_report();
   CHECK(to_text(report).find("path : sppm") == std::string::npos);
   CHECK_FALSE(to_json(report).contains("equal_time"));
@@ -91,7 +91,7 @@ TEST_CASE("a report of photons says what they are measured against, and how path
   CHECK(json.at("equal_time").at("rmse_of_path_over_sppm") == doctest::Approx(4));
 }
 
-TEST_CASE("a report of paths says rates, error, efficiency, slopes, and how it is beside others") {
+TEST_CASE("a report of paths states rates, error, efficiency, slopes and comparisons with other renderers") {
   const std::string text = to_text(sample_path_report());
   const auto row = [](const char* name, const char* a, const char* b, const char* c) {
     return fmt::format("  {:<26}{:>12}{:>12}{:>12}\n", name, a, b, c);
@@ -117,7 +117,7 @@ TEST_CASE("a report of paths says rates, error, efficiency, slopes, and how it i
       std::string::npos);
 }
 
-TEST_CASE("paths are read back from JSON, and compared where the last level is the same") {
+TEST_CASE("paths are read back from JSON, and compared if the last level is the same") {
   const TemporaryFolder folder;
   const std::string file = folder / "old.json";
   const nlohmann::ordered_json answer{{"paths", {to_json(sample_path_report())}}};
@@ -137,7 +137,7 @@ TEST_CASE("paths are read back from JSON, and compared where the last level is t
   CHECK(read_path_reports(file).empty());
 }
 
-TEST_CASE("Student's distribution, by tables; and Welch's test") {
+TEST_CASE("Student's distribution agrees with tables, and Welch's test with its formula") {
   CHECK(student_tails(12.706, 1) == doctest::Approx(0.05).epsilon(1e-3));
   CHECK(student_tails(2.776, 4) == doctest::Approx(0.05).epsilon(1e-3));
   CHECK(student_tails(5.598, 31) == doctest::Approx(3.9e-6).epsilon(0.02));

@@ -30,7 +30,7 @@ PictureReport sample_picture(double seconds) {
 
 }  // namespace
 
-TEST_CASE("a report of pictures says stages, memory, rays a second, and how they compare with POV-Ray") {
+TEST_CASE("a report of pictures states stages, memory, rays a second and the ratio to POV-Ray") {
   CHECK(to_text(sample_picture(0.5)) ==
         "scenes/a.toml: 640×480, 4 samples a pixel; median, least … greatest of 3 runs\n"
         "\n"
@@ -49,7 +49,7 @@ TEST_CASE("a report of pictures says stages, memory, rays a second, and how they
         "\n");
 }
 
-TEST_CASE("pictures are read back from JSON, and compared where size and samples are the same") {
+TEST_CASE("pictures are read back from JSON, and compared if size and samples are the same") {
   const TemporaryFolder folder;
   const std::string file = folder / "old.json";
   const nlohmann::ordered_json answer{{"bench", {to_json(sample_picture(0.5))}}};

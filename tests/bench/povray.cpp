@@ -19,7 +19,7 @@ bool has(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("a scene in POV-Ray's words: camera by its three vectors, light, material, shapes") {
+TEST_CASE("a scene for POV-Ray has the camera's three vectors, light, material and shapes") {
   Scene scene = parse_scene(R"([camera]
 eye = [0, 0, 5]
 target = [0, 0, 0]
@@ -80,7 +80,7 @@ material = "g"
   CHECK(has(text, "object { Mesh0 matrix <1,0,0,0,1,0,0,0,1,7,8,9> texture {M0} }"));
 }
 
-TEST_CASE("an instanced group is a union, wherever it stands") {
+TEST_CASE("an instanced group is one union for POV-Ray, and each instance refers to it") {
   const std::string text = povray_scene(parse_scene(R"([render]
 groups = "instanced"
 [[material]]
@@ -100,7 +100,7 @@ material = "m"
   CHECK(has(text, "object { Group0 matrix <2,0,0,0,2,0,0,0,2,0,0,0> }"));
 }
 
-TEST_CASE("shapes that are a plain one under a map, in POV-Ray's words") {
+TEST_CASE("shapes that are a transformed simple shape are written for POV-Ray with a matrix") {
   const std::string text = povray_scene(parse_scene(R"([camera]
 eye = [0, 0, 5]
 target = [0, 0, 0]
@@ -194,9 +194,7 @@ material = "m"
           "<1,0,0,0,1,0,0,0,1,0,0,0> texture {M0}}"));
 }
 
-TEST_CASE(
-    "a CSG object in POV-Ray's words: what it is made of, each part with its texture, less what is taken "
-    "away") {
+TEST_CASE("a CSG object for POV-Ray is its parts, each with its texture, minus the subtracted parts") {
   const std::string text = povray_scene(parse_scene(R"([camera]
 eye = [0, 0, 5]
 target = [0, 0, 0]

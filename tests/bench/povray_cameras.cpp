@@ -110,7 +110,7 @@ TEST_CASE("cameras see what POV-Ray's see") {
             .share < 0.5);
 }
 
-TEST_CASE("a lens blurs as POV-Ray's, as far as noise lets see") {
+TEST_CASE("a lens blurs as POV-Ray's does, within the noise") {
   if (!have_povray()) return;
   for (const char* fov : {"fov = 50", "fov = 25"}) {
     const std::string lens =

@@ -45,7 +45,7 @@ TEST_CASE("hits agree to a thousandth, and a miss with a miss alone") {
   CHECK(agree({0, -1}, {0, -1}));
 }
 
-TEST_CASE("medians, least and greatest") {
+TEST_CASE("a spread holds median, minimum and maximum") {
   CHECK(spread({3, 1, 2}).median == 2);
   CHECK(spread({4, 1, 2, 3}).median == 2.5);
   CHECK(spread({4, 1, 2}).min == 1);
@@ -87,7 +87,7 @@ TEST_CASE("a run builds, races all batches, and lists every contender") {
   CHECK(run_field("t", "terrain", dark, {.width = 8, .height = 8, .runs = 1}, {}).batches.size() == 2);
 }
 
-TEST_CASE("standard scenes have the sizes that their names say") {
+TEST_CASE("standard scenes have the sizes that their names state") {
   CHECK(find_standard_scene("terrain-1m")->make().primitive_count() == 999'698);
   CHECK(find_standard_scene("sphereflake-7k")->make().primitive_count() == 7'381 + 2);
   const Scene mesh = find_standard_scene("sphereflake-mesh")->make();

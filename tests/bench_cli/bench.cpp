@@ -109,7 +109,7 @@ TEST_CASE("rays are raced beside Embree, plotted by a script, and compared with 
   CHECK(run_bench({"-s", "70000x1"}).code == 2);
 }
 
-TEST_CASE("any scene is written out for POV-Ray, or it is said why not") {
+TEST_CASE("a scene is written for POV-Ray, or a message states why not") {
   const auto names_of = [](const char* scene, std::string& err) {
     const ProcessResult run = run_bench(
         {scene, "-n", "1", "-s", "32x24", "--no-rays", "--no-start", "--backends", "twin", "--json"});
@@ -128,7 +128,7 @@ TEST_CASE("any scene is written out for POV-Ray, or it is said why not") {
   CHECK((err.find("bilinear.toml: without POV-Ray: ") != std::string::npos) == povray);
 }
 
-TEST_CASE("a mesh from its file to a picture, beside POV-Ray and an older run" *
+TEST_CASE("a mesh is measured from file to picture, and compared with POV-Ray and an older run" *
           doctest::test_suite("long")) {
   const SceneFolder folder;
   const auto run = [&](std::vector<std::string> more) {
@@ -172,7 +172,7 @@ TEST_CASE("a mesh from its file to a picture, beside POV-Ray and an older run" *
   CHECK(run({"--compare", folder / "wrong.json"}).code == 2);
 }
 
-TEST_CASE("bench --paths cuts samples as render does") {
+TEST_CASE("bench --paths clamps samples as render does") {
   const ProcessResult result = run_bench({"scenes/path/cornell_box.toml", "--paths", "-n", "2", "-s", "8x8",
                                           "--spp", "4", "--clamp", "1e-6", "--json"});
   CAPTURE(result.err);
@@ -186,7 +186,7 @@ TEST_CASE("bench --paths cuts samples as render does") {
   CHECK(read_text(folder / "paths.svg").find("cornell_box") != std::string::npos);
 }
 
-TEST_CASE("a file that is no output of eyeray-bench is refused by the plot, in one line") {
+TEST_CASE("the plot refuses a file that is not output of eyeray-bench, in one line") {
   const TemporaryFolder folder;
   for (const char* const text : {"{", "[]", R"({"field": [], "paths": []})", R"({"field": [{}]})"}) {
     CAPTURE(text);
@@ -202,7 +202,7 @@ TEST_CASE("a file that is no output of eyeray-bench is refused by the plot, in o
   CHECK_FALSE(std::filesystem::exists(folder / "a.svg"));
 }
 
-TEST_CASE("bench as text, and a scene that is not there") {
+TEST_CASE("bench prints text, and refuses a missing scene") {
   const SceneFolder folder;
   const ProcessResult text = run_bench({folder.scene(), "-n", "1", "-s", "16x16", "--no-start"});
   CHECK(text.code == 0);
@@ -212,7 +212,7 @@ TEST_CASE("bench as text, and a scene that is not there") {
   CHECK(run_bench({folder / "nope.toml"}).code == 4);
 }
 
-TEST_CASE("frames and shards are measured as processes") {
+TEST_CASE("frames and shards are measured as whole processes") {
   const std::string scene = "scenes/animation.toml";
   const auto measure = [&](const char* what, std::initializer_list<const char*> ways) {
     const ProcessResult result = run_bench({scene, what, "3", "-s", "64x48", "--spp", "4", "-D",
@@ -231,7 +231,7 @@ TEST_CASE("frames and shards are measured as processes") {
   CHECK(run_bench({scene, scene, "--shards", "3"}).code == 2);
 }
 
-TEST_CASE("mistakes are said as eyeray says them, under its own name") {
+TEST_CASE("eyeray-bench reports mistakes as eyeray does, under its own name") {
   CHECK(run_bench({"--run", "3"}).err ==
         "eyeray-bench: error: unknown option '--run'; did you mean '--runs'? (see eyeray-bench --help)\n");
   const ProcessResult help = run_bench({"--help"});
@@ -274,7 +274,7 @@ TEST_CASE("each way to trace incoherent rays races by itself; an unknown one is 
         std::string::npos);
 }
 
-TEST_CASE("an edit of a formula shows the twin's pixels long before its kernel is there" *
+TEST_CASE("an edit of a formula shows the twin's pixels long before its kernel is compiled" *
           doctest::test_suite("long")) {
   const ProcessResult result = run_bench({"--dev", "-n", "2", "--json"});
   CAPTURE(result.err);

@@ -38,7 +38,7 @@ bool agrees(int64_t ours, int64_t theirs) {
 
 }  // namespace
 
-TEST_CASE("the classics send out the published numbers of rays" * doctest::test_suite("long")) {
+TEST_CASE("the classics trace the published numbers of rays" * doctest::test_suite("long")) {
   for (const Published& each : published) {
     if (!each.quick && !std::getenv("EYERAY_FULL_TESTS")) continue;
     CAPTURE(each.classic);

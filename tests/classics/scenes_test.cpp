@@ -38,7 +38,7 @@ Vec3 face_normal(const Mesh& mesh, const std::array<uint32_t, 3>& t) {
 
 }  // namespace
 
-TEST_CASE("the teapot's 32 patches are shapes whose corners and edges' middles are the mesh's") {
+TEST_CASE("the mesh's vertices lie on the teapot's 32 patches: corners and midpoints of edges") {
   const Scene scene = parse_scene(teapot_classic.scene(1) + teapot_bezier(), "teapot");
   CHECK(scene.shapes.size() == 2 + 32);
   const Mesh mesh = teapot_classic.mesh(2);
@@ -69,7 +69,7 @@ TEST_CASE("every classic is a scene without warnings, at its smallest and at its
   }
 }
 
-TEST_CASE("tetra has 4^n triangles that look outward") {
+TEST_CASE("tetra has 4^n triangles that face outward") {
   for (const auto& [size_factor, count] : std::map<int, size_t>{{1, 4}, {2, 16}, {3, 64}, {6, 4096}}) {
     const Mesh mesh = tetra_classic.mesh(size_factor);
     CHECK(mesh.triangles.size() == count);
@@ -89,7 +89,7 @@ TEST_CASE("tetra has 4^n triangles that look outward") {
   check_pixel(scene, {1, 1, 1}, {384.20, 345.93});
 }
 
-TEST_CASE("tree has 2^(n+1) - 1 branches, each shorter and thinner than the one it stands on") {
+TEST_CASE("tree has 2^(n+1) - 1 branches, each shorter and thinner than its parent") {
   for (const auto& [size_factor, count] : std::map<int, size_t>{{1, 3}, {2, 7}, {3, 15}, {11, 4095}}) {
     std::vector<Branch> all;
     for_each_branch(size_factor, [&](const Branch& branch) { all.push_back(branch); });
@@ -149,7 +149,7 @@ TEST_CASE("rings has 5n(n+1)(2n+1) rods, in closed rings of five") {
   check_pixel(scene, {-6, 18.291882, 6}, {108.47, 93.71});
 }
 
-TEST_CASE("gears has n^3 of them, whose sides join top and bottom to the last bit") {
+TEST_CASE("gears has n^3 gears, whose sides join top and bottom to the last bit") {
   for (const auto& [size_factor, count, glass] : {std::array{1, 1, 1}, {2, 8, 2}, {3, 27, 6}, {4, 64, 13}}) {
     std::vector<Gear> all;
     for_each_gear(size_factor, [&](const Gear& gear) { all.push_back(gear); });
@@ -210,7 +210,7 @@ TEST_CASE("mount's random numbers and heights are the package's") {
   CHECK(std::abs(*std::ranges::max_element(heights) - 0.9231396182) < 1e-10);
 }
 
-TEST_CASE("mount has 2 * 4^n triangles that look up, and four balls") {
+TEST_CASE("mount has 2 * 4^n triangles that face up, and four balls") {
   for (const auto& [size_factor, count] : std::map<int, size_t>{{1, 8}, {2, 32}, {3, 128}, {6, 8192}}) {
     const Mesh mesh = mount_classic.mesh(size_factor);
     CHECK(mesh.triangles.size() == count);
@@ -245,7 +245,7 @@ TEST_CASE("mount has 2 * 4^n triangles that look up, and four balls") {
   }
 }
 
-TEST_CASE("teapot has 64n^2 - 8n triangles, from n = 6 on with all normals on their side") {
+TEST_CASE("teapot has 64n^2 - 8n triangles; from n = 6 on, all normals are on their side") {
   for (const auto& [size_factor, count] :
        std::map<int, size_t>{{1, 56}, {2, 240}, {3, 552}, {4, 992}, {5, 1560}, {6, 2256}, {12, 9120}}) {
     const Mesh mesh = teapot_classic.mesh(size_factor);

@@ -29,7 +29,7 @@ class MovingFolder : public SceneFolder {
 
 }  // namespace
 
-TEST_CASE("--frames renders each frame as -D animation.frame does, to files of their numbers") {
+TEST_CASE("--frames renders each frame as -D animation.frame does, to files named by number") {
   const MovingFolder folder;
   const ProcessResult result = run_eyeray(
       {"render", folder.scene(), "--frames", "0:8:4", "-o", folder / "f%03d.pfm", "--json", "--quiet"});
@@ -47,7 +47,7 @@ TEST_CASE("--frames renders each frame as -D animation.frame does, to files of t
   CHECK(read_text(folder / "one.pfm") != read_text(folder / "f008.pfm"));
 }
 
-TEST_CASE("frames that are there are kept, but for --overwrite") {
+TEST_CASE("existing frames are kept, unless --overwrite is given") {
   const MovingFolder folder;
   write_text(folder / "f1.png", "mine");
   const std::vector<std::string> command = {"render", folder.scene(), "--frames",
@@ -62,7 +62,7 @@ TEST_CASE("frames that are there are kept, but for --overwrite") {
   CHECK(read_text(folder / "f1.png").substr(1, 3) == "PNG");
 }
 
-TEST_CASE("a share of frames is every N-th of them, whole") {
+TEST_CASE("a shard of frames is every N-th frame, whole") {
   const MovingFolder folder;
   const auto render = [&](const char* shard) {
     return run_eyeray({"render", folder.scene(), "--frames", "1:5", "--shard", shard, "-o", folder / "%d.pfm",
@@ -76,7 +76,7 @@ TEST_CASE("a share of frames is every N-th of them, whole") {
   CHECK(folder.names() == std::set<std::string>{"scene.toml", "1.pfm", "2.pfm", "3.pfm", "4.pfm", "5.pfm"});
 }
 
-TEST_CASE("--frames films a glTF file that moves, alone") {
+TEST_CASE("--frames films a glTF file by itself, if the file is animated") {
   const TemporaryFolder folder;
   const auto film = [&](const char* file) {
     return run_eyeray(
@@ -119,7 +119,7 @@ TEST_CASE("errors in frames are reported before anything is rendered") {
   CHECK(says(error({"--frames", "0:1"}), "no [[track]]"));
 }
 
-TEST_CASE("--video gives ffmpeg the frames in order, and its file appears when it is whole") {
+TEST_CASE("--video gives ffmpeg the frames in order, and the video appears only when complete") {
   const MovingFolder folder;
   // A stand-in for ffmpeg: copies the list of frames to `list`, and writes the file that its last argument
   // names. It fails if BROKEN is set.

@@ -55,7 +55,7 @@ material = "lamp"
 
 }  // namespace
 
-TEST_CASE("albedo and normal for denoisers: the same of gpu and twin, and of the reference but at edges") {
+TEST_CASE("albedo and normal for denoisers are equal by gpu and twin, and by the reference except at edges") {
   const SceneFolder folder;
   for (const std::string scene : {"materials", "wax"}) {
     CAPTURE(scene);
@@ -81,7 +81,7 @@ TEST_CASE("albedo and normal for denoisers: the same of gpu and twin, and of the
   }
 }
 
-TEST_CASE("they are layers of an .exr as denoisers name them, and of paths alone") {
+TEST_CASE("albedo and normal are .exr layers with the denoisers' names, and only paths have them") {
   const SceneFolder folder;
   const std::string file = folder / "box.exr";
   REQUIRE(run_eyeray({"render", "scenes/path/cornell_box.toml", "-s", "8x8", "--spp", "1", "--backend",
@@ -99,7 +99,7 @@ TEST_CASE("they are layers of an .exr as denoisers name them, and of paths alone
         "or the AOV normal, which every integrator has\n");
 }
 
-TEST_CASE("samples that stand out are counted; --clamp cuts them, and says that the picture is biased") {
+TEST_CASE("fireflies are counted; --clamp clamps them, and warns that the picture is biased") {
   const SceneFolder folder;
   write_text(folder.scene(), sparkling);
   const auto render = [&](std::vector<std::string> more) {

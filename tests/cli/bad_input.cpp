@@ -21,7 +21,7 @@ struct BadScene {
 
 }  // namespace
 
-TEST_CASE("a scene that cannot be read") {
+TEST_CASE("a scene that cannot be read is reported with the reason") {
   const SceneFolder folder;
   const ProcessResult missing = run_eyeray({"render", folder / "nope.toml", "-o", folder / "a.png"});
   CHECK(missing.code == 4);
@@ -39,7 +39,7 @@ TEST_CASE("a scene that cannot be read") {
   CHECK(folder.names() == only_the_scene);
 }
 
-TEST_CASE("a function without a Lipschitz constant that has no bounds") {
+TEST_CASE("a function without a Lipschitz constant or computable intervals is refused") {
   const SceneFolder folder;
   replace_in_file(folder.scene(), "[[sphere]]", R"([[implicit]]
 code = """
@@ -64,7 +64,7 @@ material = "matte"
   CHECK(run_eyeray({"check", folder.scene()}).code == 0);
 }
 
-TEST_CASE("what a scene may not hold") {
+TEST_CASE("invalid contents of a scene are reported at their line") {
   const BadScene cases[] = {
       {"[camera]", "[camera", {":5:8: error: "}},
       {"radius = 1", "radius = 1\nradios = 2", {":27:1: error: ", "did you mean `radius`"}},
@@ -100,7 +100,7 @@ TEST_CASE("what a scene may not hold") {
   }
 }
 
-TEST_CASE("absurd sizes on the command line") {
+TEST_CASE("absurd sizes on the command line are refused") {
   const SceneFolder folder;
   for (const std::string size : {"0x48", "-4x48", "65537x1", "31623x31623"}) {
     CAPTURE(size);
@@ -130,7 +130,7 @@ TEST_CASE("an output that cannot be written is refused before rendering") {
   CHECK(folder.names() == std::set<std::string>{"scene.toml", "folder.png"});
 }
 
-TEST_CASE("a render does not overwrite files that it reads, by whatever name") {
+TEST_CASE("a render never overwrites a file that it reads, whatever name the output has") {
   const SceneFolder folder;
   const auto path = [&](const std::string& name) { return std::filesystem::path(folder / name); };
   std::filesystem::create_directory(path("art"));
@@ -177,7 +177,7 @@ TEST_CASE("a render does not overwrite files that it reads, by whatever name") {
   CHECK(compared.err.find("--diff would overwrite it") != std::string::npos);
 }
 
-TEST_CASE("a scene out of a file that says it is empty") {
+TEST_CASE("a scene file that reports size 0 is still read") {
   // A process's environment is a file of /proc, of size 0 and with text in it.
   const ProcessResult result = run_eyeray({"check", "/proc/self/environ", "--json"}, {{"A", "\xff"}});
   CAPTURE(result.err);
@@ -186,7 +186,7 @@ TEST_CASE("a scene out of a file that says it is empty") {
         std::string::npos);
 }
 
-TEST_CASE("without a Vulkan driver or loader nothing is rendered, and what to install is said") {
+TEST_CASE("without a Vulkan driver or loader nothing is rendered, and the message names the remedy") {
   const SceneFolder folder;
   const Environment no_driver{{"VK_DRIVER_FILES", "/nonexistent.json"},
                               {"VK_ICD_FILENAMES", "/nonexistent.json"}};
@@ -228,7 +228,7 @@ TEST_CASE("a shader that does not compile is shown at its line") {
   CHECK(nowhere.err.find("no such folder") != std::string::npos);
 }
 
-TEST_CASE("a shader of --shaders in a place where none is read is reported, with its path") {
+TEST_CASE("a shader of --shaders in a folder where none is read is reported, with its path") {
   const SceneFolder folder;
   const std::string shaders = folder / "shaders";
   lay_shader(shaders, "sphere.glsl", "as folders were before shaders lay in folders\n");
@@ -269,7 +269,7 @@ TEST_CASE("a user's kernel without push constants runs; one with other push cons
   CHECK(unknown.err.find("kernel 'kernels/render.comp.glsl' reads binding 99") != std::string::npos);
 }
 
-TEST_CASE("a shader that loops for ever is given up after --timeout") {
+TEST_CASE("a shader that loops for ever is abandoned after --timeout") {
   const SceneFolder folder;
   lay_endless_shader(folder / "shaders");
   const ProcessResult result = run_eyeray({"render", folder.scene(), "-s", "256x256", "-o", folder / "a.png",

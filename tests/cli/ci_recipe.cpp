@@ -24,7 +24,7 @@ std::string step() {
 
 }  // namespace
 
-TEST_CASE("the CI recipe verifies on lavapipe, and leaves a report whatever comes of it") {
+TEST_CASE("the CI recipe verifies on lavapipe, and leaves a report whatever the result") {
   const SceneFolder folder;
   const std::string here = std::filesystem::current_path();
   const auto run = [&](const std::string& options) {
@@ -53,7 +53,7 @@ TEST_CASE("the CI recipe verifies on lavapipe, and leaves a report whatever come
   CHECK(std::filesystem::exists(folder / "report/kept/gpu-causes.png"));
 }
 
-TEST_CASE("the CI recipe runs an archive that is given, on the driver in it, and builds nothing") {
+TEST_CASE("the CI recipe runs a given archive on the archive's driver, and builds nothing") {
   const SceneFolder folder;
   const std::string archive = folder / "eyeray-0.1.0";
   for (const char* name : {"bin", "share/vulkan/icd.d"})

@@ -30,7 +30,7 @@ TEST_CASE("--stats counts rays by kind, in words and in JSON") {
   CHECK(read_text(folder / "a.png") == read_text(folder / "b.png"));
 }
 
-TEST_CASE("--classic sends a ray through each corner, in a crop and in bands too") {
+TEST_CASE("--classic shoots a ray through each pixel corner, also in a crop and in bands") {
   const SceneFolder folder;
   const auto render = [&](const std::string& name, std::vector<std::string> more) {
     std::vector<std::string> arguments{"render",    folder.scene(), "-o",     folder / name,

@@ -7,7 +7,7 @@
 using namespace eyeray::engine;
 using namespace eyeray::engine::test;
 
-TEST_CASE("alpha is compared; grey is the same as equal red, green and blue") {
+TEST_CASE("alpha is compared; grey equals a pixel of the same red, green and blue") {
   const TemporaryFolder folder;
   const std::string transparent = "tests/image/pictures/rgba_interlaced.png";
   image::write_image(folder / "opaque.png", image::read_image(transparent));

@@ -15,7 +15,7 @@ using namespace eyeray::engine;
 using namespace eyeray::engine::image;
 using namespace eyeray::engine::test;
 
-TEST_CASE("dev renders on every save, and outlives what it renders") {
+TEST_CASE("dev renders on every save, and survives faulty scenes, faulty shaders and dead workers") {
   const SceneFolder folder;
   const std::string shaders = folder / "shaders";
   REQUIRE(run_eyeray({"shaders", "--export", shaders}).code == 0);
@@ -80,7 +80,7 @@ TEST_CASE("dev renders on every save, and outlives what it renders") {
   CHECK(folder.names() == std::set<std::string>{"scene.toml", "scene.toml~", "shaders", "a.pfm"});
 }
 
-TEST_CASE("dev stops a shader that never ends, and renders again once it is mended") {
+TEST_CASE("dev stops a shader that never ends, and renders again after the fix") {
   const SceneFolder folder;
   const std::string pixel = folder / "shaders/kernels/pixel.glsl";
   replace_in_file(folder.scene(), "width = 64\nheight = 48", "width = 256\nheight = 256");
@@ -103,7 +103,7 @@ TEST_CASE("dev stops a shader that never ends, and renders again once it is mend
   CHECK(wait_until_ended(worker));
 }
 
-TEST_CASE("dev --once renders, or says what is wrong as editors and workflows read it") {
+TEST_CASE("dev --once renders, or reports errors in the formats of editors and workflows") {
   const SceneFolder folder;
   const std::string shaders = folder / "shaders", pixel = shaders + "/kernels/pixel.glsl";
   const auto once = [&](std::vector<std::string> options) {
@@ -133,7 +133,7 @@ TEST_CASE("dev --once renders, or says what is wrong as editors and workflows re
   CHECK(reported.at("diagnostics").at(0).at("column").get<int>() > 1);
 }
 
-TEST_CASE("the page of dev does what the manual says, in a browser" * doctest::test_suite("long")) {
+TEST_CASE("dev's page works in a browser as the manual states" * doctest::test_suite("long")) {
   const SceneFolder folder;
   REQUIRE(run_eyeray({"shaders", "--export", folder / "shaders"}).code == 0);
   Dev dev(folder, "60");
@@ -176,11 +176,11 @@ TEST_CASE("dev outlives hostile shaders, and keeps the last good picture") {
                    good, "  for (int i = 0; i < 1000000000; ++i) color.x += sin(color.x + float(i));\n"));
     REQUIRE(dev.says("pixel.glsl changed"));
   }
-  SUBCASE("no number") {
+  SUBCASE("NaN as a colour") {
     write_text(pixel, with_pixel_code(good, "  color = vec3(sqrt(-1.0 - color.x * color.x));\n"));
     REQUIRE(dev.says("rendered "));
   }
-  SUBCASE("an error in what is included") {
+  SUBCASE("an error in an included file") {
     write_text(shaders + "/kernels/tile.glsl", "nonsense\n" + read_text(shaders + "/kernels/tile.glsl"));
     REQUIRE(dev.says("tile.glsl:1:"));
     CHECK(read_text(folder / "a.pfm") == picture);
@@ -216,7 +216,7 @@ TEST_CASE("dev outlives hostile shaders, and keeps the last good picture") {
   back_to_good();
 }
 
-TEST_CASE("dev says in a sentence that its port is in use, and Ctrl-C ends it as it starts") {
+TEST_CASE("dev reports in one sentence that its port is in use, and Ctrl-C ends it during start-up") {
   const SceneFolder folder;
   REQUIRE(run_eyeray({"shaders", "--export", folder / "shaders"}).code == 0);
   const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
@@ -237,7 +237,7 @@ TEST_CASE("dev says in a sentence that its port is in use, and Ctrl-C ends it as
   ::close(socket);
 }
 
-TEST_CASE("dev says at once what no save can mend") {
+TEST_CASE("dev reports an error that no save can fix, and ends at once") {
   const SceneFolder folder;
   CHECK(run_eyeray({"dev", folder / "nope.toml"}).code == 4);
   CHECK(run_eyeray({"dev", folder.scene(), "-o", folder / "a.gif"}).code == 2);

@@ -35,7 +35,7 @@ class LongRender : public Process {
 
 }  // namespace
 
-TEST_CASE("a standard error that takes nothing costs nothing") {
+TEST_CASE("a standard error that accepts no text changes neither picture nor exit code") {
   const SceneFolder folder;
   // A warning is the first line printed.
   write_text(folder.scene(), std::string(small_scene) + "[[material]]\nname = \"spare\"\ntype = \"phong\"\n");
@@ -50,7 +50,7 @@ TEST_CASE("a standard error that takes nothing costs nothing") {
   CHECK(run_line(folder, "$EYERAY render nowhere.toml 2>&-").code == 4);
 }
 
-TEST_CASE("a reader of standard output may go, and the exit code is that of the work") {
+TEST_CASE("a reader may close standard output; the exit code stays that of the work") {
   const SceneFolder folder;
   REQUIRE(run_line(folder,
                    "$EYERAY render $SCENE -o a.pfm && $EYERAY render $SCENE -o b.pfm -D "
@@ -64,7 +64,7 @@ TEST_CASE("a reader of standard output may go, and the exit code is that of the 
   }
 }
 
-TEST_CASE("a limit on the size of files is an error of the file, and leaves nothing") {
+TEST_CASE("exceeding the file size limit is a file error, and leaves no file") {
   const SceneFolder folder;
   const ProcessResult result = run_line(folder, "ulimit -f 1; $EYERAY render $SCENE -o a.pfm");
   CHECK(result.code == 4);
@@ -99,7 +99,7 @@ TEST_CASE("each signal that ends a render keeps its checkpoint, and shows in the
   }
 }
 
-TEST_CASE("a pixel whose rays have no end ends by one signal, and keeps the checkpoint") {
+TEST_CASE("one signal ends a pixel whose rays never end, and the checkpoint is kept") {
   // The picture has two rows, and each is a band. The second shows four walls of glass: each ray splits at
   // each face, up to depth 64.
   std::string scene =
@@ -140,7 +140,7 @@ TEST_CASE("a device that fails while it works leaves a message, and the checkpoi
   CHECK(folder.names() == std::set<std::string>{"scene.toml", "work"});
 }
 
-TEST_CASE("a driver that does not return is left where it is, by a signal or --timeout" *
+TEST_CASE("a signal or --timeout ends eyeray even if the driver does not return" *
           doctest::test_suite("long")) {
   const SceneFolder folder;
   // Calls from opening the driver to a dispatch amid the picture.
@@ -167,7 +167,7 @@ TEST_CASE("a driver that does not return is left where it is, by a signal or --t
   CHECK(folder.names() == std::set<std::string>{"scene.toml"});
 }
 
-TEST_CASE("a pipeline cache that fails costs no picture") {
+TEST_CASE("a failing pipeline cache does not prevent the picture") {
   const SceneFolder folder;
   for (const std::string call : {"vkCreatePipelineCache 1 -1", "vkGetPipelineCacheData 1 -3"}) {
     const ProcessResult result =
@@ -178,7 +178,7 @@ TEST_CASE("a pipeline cache that fails costs no picture") {
   }
 }
 
-TEST_CASE("checking a scene holds its images once") {
+TEST_CASE("checking a scene holds each image in memory only once") {
   const SceneFolder folder;
   std::filesystem::copy_file("tests/image/pictures/one_bit_4096.png", folder / "big.png");
   std::ofstream(folder / "big.toml") << "[camera]\neye = [0, 0, 5]\ntarget = [0, 0, 0]\n"
@@ -193,7 +193,7 @@ TEST_CASE("checking a scene holds its images once") {
   CHECK(result.out.find("6711") != std::string::npos);  // the image's bytes, as part of the scene's
 }
 
-TEST_CASE("a limit on memory is a message and exit code 3") {
+TEST_CASE("exceeding a memory limit gives a message and exit code 3") {
   const SceneFolder folder;
   // Less memory than drivers need, and less than a picture's sums need.
   for (const std::string options : {"", "--backend twin -s 16000x8000 --band-memory 8192"}) {

@@ -37,8 +37,7 @@ class Shaders : public SceneFolder {
 
 }  // namespace
 
-TEST_CASE(
-    "a loop without an end is an error that names it, however it comes about and however rays are traced") {
+TEST_CASE("an error names an endless loop, whatever its form and however rays are traced") {
   Shaders shaders;
   for (const std::string loop :
        {// Optimisers see that this one never ends, and remove it with the code after it.
@@ -60,7 +59,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("every command that renders says so") {
+TEST_CASE("every command that renders reports the endless loop") {
   Shaders shaders;
   shaders.insert("  while (true) {}\n");
   for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
@@ -80,7 +79,7 @@ TEST_CASE("every command that renders says so") {
   CHECK_FALSE(shaders.names().contains("a.png"));
 }
 
-TEST_CASE("the twin of a user's shaders stops there, too") {
+TEST_CASE("the twin of a user's shaders stops at an endless loop, too") {
   Shaders shaders;
   for (const std::string loop :
        {"while (true) {}", "for (float w = 0.0f; w < 1.0f; w += 0.0f * ray.d.x) t += 0.001f;"}) {
@@ -105,7 +104,7 @@ TEST_CASE("the twin of a user's shaders stops there, too") {
   CHECK_FALSE(shaders.names().contains("a.png"));
 }
 
-TEST_CASE("counted loops that end change no bit, and mistakes are shown as they were written") {
+TEST_CASE("counting the iterations of a finite loop changes no bit, and mistakes are shown as written") {
   Shaders shaders;
   for (const std::string backend : {"gpu", "twin"}) {
     CAPTURE(backend);

@@ -34,7 +34,7 @@ TEST_CASE("a generated sphereflake is a scene, the same every time") {
   CHECK(folder.names() == std::set<std::string>{"balls.toml"});
 }
 
-TEST_CASE("meshes lie beside their scene, as large as they say") {
+TEST_CASE("generated meshes lie beside their scene, and have the reported size") {
   const TemporaryFolder folder;
   const ProcessResult flake = run_eyeray({"generate", "sphereflake", "-o", folder / "flake.toml",
                                           "--size-factor", "2", "--triangles", "10000", "--json"});
@@ -101,7 +101,7 @@ TEST_CASE("a scene that cannot be generated is refused in one line, and leaves n
   CHECK(run_eyeray({"generate", "sphereflake", "-o", scene, "--size-factor", "1", "--force"}).code == 0);
 }
 
-TEST_CASE("without saying what, generate shows its help") {
+TEST_CASE("generate without a subcommand shows its help") {
   const ProcessResult result = run_eyeray({"generate"});
   CHECK(result.code == 2);
   CHECK(result.out == "");

@@ -9,7 +9,7 @@
 using namespace eyeray::engine;
 using namespace eyeray::engine::test;
 
-TEST_CASE("a golden picture is made on request, compared with, and replaced where the scene's differs") {
+TEST_CASE("a golden picture is made on request, compared, and replaced if the scene's picture differs") {
   const SceneFolder folder;
   const std::string golden = folder / "golden/ball.pfm";
   const auto verify = [&](std::vector<std::string> options) {
@@ -90,7 +90,7 @@ TEST_CASE("a picture that fails, or is black, becomes no golden picture") {
   CHECK(read_text(golden) == "PF\n16 12\n");
 }
 
-TEST_CASE("several scenes have a folder of golden pictures") {
+TEST_CASE("several scenes share a folder of golden pictures") {
   const SceneFolder folder;
   write_text(folder / "b.toml", small_scene);
   const auto verify = [&](const std::string& against, std::vector<std::string> options) {

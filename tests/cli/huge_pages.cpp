@@ -19,7 +19,7 @@ long page_faults(const SceneFolder& pictures, const Environment& environment) {
 
 }  // namespace
 
-TEST_CASE("eyeray asks for huge pages, unless the user has a word with glibc") {
+TEST_CASE("eyeray requests huge pages, unless the user sets GLIBC_TUNABLES") {
   const SceneFolder pictures;
   write_text(pictures / "picture.pfm", "PF\n1024 1365\n-1\n" + std::string(1024 * 1365 * 12, '\0'));
   const long usual = page_faults(pictures, {}), plain = page_faults(pictures, {{"GLIBC_TUNABLES", ""}});

@@ -31,7 +31,7 @@ const std::string endless_at_0 =
 
 }  // namespace
 
-TEST_CASE("GLSL that does not compile is reported at its place in the user's file, by every backend") {
+TEST_CASE("every backend reports GLSL that does not compile at its line of the user's file") {
   const FormulaFolder folder("float f(vec3 p) {\n  float r = missing * 2.0;\n  return length(p) - r;\n}\n");
   for (const std::string backend : {"gpu", "twin", "reference"}) {
     const ProcessResult result =
@@ -51,7 +51,7 @@ TEST_CASE("formulas need no other program, on any backend") {
             .code == 0);
 }
 
-TEST_CASE("--no-formulas refuses every function that a scene brings, and lets those that are ready") {
+TEST_CASE("--no-formulas refuses every function that a scene brings, and accepts ready formulas") {
   const FormulaFolder folder(ball);
   for (const std::string command : {"check", "render", "verify"}) {
     std::vector<std::string> words{command, folder.scene(), "--no-formulas"};
@@ -65,7 +65,7 @@ TEST_CASE("--no-formulas refuses every function that a scene brings, and lets th
   CHECK(run_eyeray({"check", folder.scene(), "--no-formulas"}).code == 0);
 }
 
-TEST_CASE("a function that does not end is a time-out, whoever runs it") {
+TEST_CASE("a function that does not end times out in every backend") {
   const FormulaFolder anywhere("float f(vec3 p) {\n  while (p.x < 1e9) p.y += 1.0;\n  return p.y;\n}\n");
   CHECK(run_eyeray({"check", anywhere.scene()}).code == 5);
   const FormulaFolder folder(endless_at_0);
@@ -106,7 +106,7 @@ TEST_CASE("errors of a color's function are reported like a surface's: compilati
   CHECK(refused.err.find("error: `file` has a function, which --no-formulas refuses") != std::string::npos);
 }
 
-TEST_CASE("all functions of a scene together have a size that a kernel takes") {
+TEST_CASE("all functions of a scene together must fit into a kernel") {
   const SceneFolder folder;
   std::string text = "float g0(float x) { return x * x + shift; }\n";
   for (int i = 1; i <= 10; ++i)
@@ -129,7 +129,7 @@ TEST_CASE("all functions of a scene together have a size that a kernel takes") {
   CHECK(result.err.find("instructions; at most 32768") != std::string::npos);
 }
 
-TEST_CASE("a function that is not a number is no surface, and no NaN in the picture") {
+TEST_CASE("a function that returns NaN has no surface, and puts no NaN into the picture") {
   const FormulaFolder folder("float f(vec3 p) { return sqrt(-1.0 - p.x * p.x); }\n");
   for (const std::string backend : {"gpu", "twin", "reference"}) {
     const ProcessResult result = run_eyeray(
@@ -141,10 +141,7 @@ TEST_CASE("a function that is not a number is no surface, and no NaN in the pict
   CHECK(run_eyeray({"compare", folder / "gpu.pfm", folder / "reference.pfm"}).code == 0);
 }
 
-TEST_CASE(
-    "a part of a CSG object that is crossed more often than is counted reaches the limit, and the picture "
-    "says "
-    "where") {
+TEST_CASE("a CSG part with more crossings than are counted reaches the limit, and an AOV shows its pixels") {
   // Thousands of sheets in front of the ball that they are cut to, with a Lipschitz constant and without.
   for (const std::string lipschitz : {"lipschitz = 6000", ""}) {
     CAPTURE(lipschitz);
@@ -163,7 +160,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("samples that disprove a Lipschitz constant are a warning with the place") {
+TEST_CASE("samples that disprove a Lipschitz constant give a warning with the position") {
   const FormulaFolder folder("float f(vec3 p) { return 3.0 * (distance(p, vec3(0.0, 1.0, 0.0)) - 0.9); }\n");
   const ProcessResult result = run_eyeray({"check", folder.scene()});
   CHECK(result.code == 0);
@@ -178,7 +175,7 @@ TEST_CASE("samples that disprove a Lipschitz constant are a warning with the pla
             .err.find("warning: `lipschitz` is 0.5, but the function's slope is 1.") != std::string::npos);
 }
 
-TEST_CASE("a formula in an instanced group, and one in a CSG object, is checked and run as any other" *
+TEST_CASE("a formula in an instanced group or a CSG object is checked and run as any other" *
           doctest::test_suite("long")) {
   const std::string group =
       "[[group]]\nbatch = { transform = [[], [{ translate = [3, 0, 0] }]] }\n[[group.implicit]]";

@@ -21,7 +21,7 @@ bool same_bits(const Image& a, const Image& b) {
 
 }  // namespace
 
-TEST_CASE("an .exr holds the picture and every AOV, bit by bit what their own files hold") {
+TEST_CASE("an .exr holds the picture and every AOV with the bits of their separate files") {
   const SceneFolder folder;
   const ProcessResult result = run_eyeray({"render", folder.scene(), "--aov", "all", "-o", folder / "a.exr"});
   CAPTURE(result.err);
@@ -46,7 +46,7 @@ TEST_CASE("an .exr holds the picture and every AOV, bit by bit what their own fi
   CHECK(run_eyeray({"compare", "--layer", "normal", folder / "a.exr", folder / "a.position.pfm"}).code == 1);
 }
 
-TEST_CASE("the first of several outputs has the AOVs, and --half halves the picture alone") {
+TEST_CASE("the first of several outputs has the AOVs, and --half affects only the picture") {
   const SceneFolder folder;
   const ProcessResult result = run_eyeray({"render", folder.scene(), "--aov", "depth", "--half", "-o",
                                            folder / "a.exr", "-o", folder / "b.exr", "-o", folder / "c.pfm"});
@@ -59,7 +59,7 @@ TEST_CASE("the first of several outputs has the AOVs, and --half halves the pict
   CHECK(*read_image(folder / "a.exr", "depth").pixel(32, 24) == doctest::Approx(3).epsilon(1e-3));
 }
 
-TEST_CASE("compare says what is wrong with an .exr, and which layers there are") {
+TEST_CASE("compare names the fault of an .exr, and lists its layers") {
   const SceneFolder folder;
   REQUIRE(run_eyeray({"render", folder.scene(), "--aov", "depth,uv", "-o", folder / "a.exr"}).code == 0);
   const auto refusal = [&](std::vector<std::string> arguments) {
@@ -78,7 +78,7 @@ TEST_CASE("compare says what is wrong with an .exr, and which layers there are")
   CHECK(refusal({"none.exr", a}).find("cannot read none.exr: ") != std::string::npos);
 }
 
-TEST_CASE("interrupted at any time, an .exr is whole or not there") {
+TEST_CASE("interrupted at any time, an .exr is whole or absent") {
   const SceneFolder folder;
   for (const int stop : {30, 80, 150, 300, 500, 800}) {
     const ProcessResult result = run_eyeray({"render", folder.scene(), "-s", "900x600", "--spp", "4",

@@ -94,7 +94,7 @@ TEST_CASE("interrupted at any time and resumed, all files are those of an uninte
   }
 }
 
-TEST_CASE("the GPU resumes as well, and says in JSON what it had") {
+TEST_CASE("the GPU resumes too, and JSON states the resumed samples and rays") {
   const SceneFolder folder;
   const Arguments whole{"render", folder.scene(), "-s", "300x200", "--spp", "16", "-o", folder / "whole.pfm"};
   REQUIRE(run_eyeray(whole).code == 0);
@@ -181,7 +181,7 @@ TEST_CASE("another scene, size, sampling or backend does not resume, and gets th
   CHECK(run_eyeray(with(command, {"--resume", checkpoint})).code == 0);
 }
 
-TEST_CASE("a file that is no checkpoint is an error of that file") {
+TEST_CASE("a file that is not a checkpoint is reported as an error of that file") {
   const SceneFolder folder;
   const auto refusal = [&](const std::string& file) {
     const ProcessResult result =
@@ -205,7 +205,7 @@ TEST_CASE("a file that is no checkpoint is an error of that file") {
   CHECK(folder.names() == std::set<std::string>{"scene.toml", "empty"});
 }
 
-TEST_CASE("Ctrl-C in a picture of several bands keeps nothing, and says what would have") {
+TEST_CASE("Ctrl-C in a picture of several bands keeps nothing, and names the option that would have") {
   const SceneFolder folder;
   Arguments command = long_render(folder, "a", "1");
   command.emplace_back("--quiet");

@@ -56,7 +56,7 @@ const std::vector<std::string> commands = {"render", "verify",     "compare",   
 
 }  // namespace
 
-TEST_CASE("each command has a man page, in which every option of its --help stands") {
+TEST_CASE("each command has a man page, which lists every option of its --help") {
   const TemporaryFolder folder;
   REQUIRE(run_eyeray({"manual", folder / "man1"}).code == 0);
   for (const std::string& command : commands) {
@@ -124,7 +124,7 @@ TEST_CASE("bash completes commands, options and the values that they list") {
   }
 }
 
-TEST_CASE("fish completes the same, and zsh reads its own") {
+TEST_CASE("fish completes commands, options and values, and zsh accepts its completion file") {
   const TemporaryFolder folder;
   const std::string fish = folder / "eyeray.fish", zsh = folder / "_eyeray";
   write_text(fish, run_eyeray({"completion", "fish"}).out);
@@ -156,7 +156,7 @@ TEST_CASE("fish completes the same, and zsh reads its own") {
   }
 }
 
-TEST_CASE("a shell that is none of these is refused") {
+TEST_CASE("completion refuses a shell other than bash, fish and zsh") {
   const ProcessResult refused = run_eyeray({"completion", "tcsh"});
   CHECK(refused.code == 2);
   CHECK(refused.err.find("tcsh") != std::string::npos);

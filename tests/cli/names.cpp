@@ -37,7 +37,7 @@ std::string code(const Image& picture, int x, int y) {
 
 }  // namespace
 
-TEST_CASE("beside the pictures of ids lies what they stand for") {
+TEST_CASE("a legend of the ids lies beside each picture of ids") {
   const NamedScene folder;
   const ProcessResult result = run_eyeray({"render", folder.scene(), "-o", folder / "a.png", "--aov",
                                            "primitive,material,depth", "--json", "--quiet"});
@@ -86,7 +86,7 @@ TEST_CASE("beside the pictures of ids lies what they stand for") {
   CHECK(materials.at("ids")[0].at("pixels") == pixels[0] + pixels[1] + pixels[2]);
 }
 
-TEST_CASE("verify says by name what differing pixels hit") {
+TEST_CASE("verify names the objects that differing pixels hit") {
   const NamedScene folder;
   const ProcessResult result =
       run_eyeray({"verify", folder.scene(), "--crop", "30,22,4,4", "--backends", "gpu", "--quiet",

@@ -253,15 +253,15 @@ void check_cases(const std::vector<std::string>& texts) {
 
 }  // namespace
 
-TEST_CASE("no text that a command shows is a command itself") {
+TEST_CASE("no text that eyeray shows acts as a command") {
   check_cases({"##[a]\n::error::b", "\x1b[2J\"'", "\xff</x>"});
 }
 
-TEST_CASE("none of forty texts that a command shows is a command itself" * doctest::test_suite("long")) {
+TEST_CASE("none of forty texts that eyeray shows acts as a command" * doctest::test_suite("long")) {
   check_cases(nasty_strings);
 }
 
-TEST_CASE("an error of dev is one command of GitHub's workflows, whatever the scene is called" *
+TEST_CASE("an error of dev is one command of GitHub's workflows, whatever the scene's name" *
           doctest::test_suite("long")) {
   for (const std::string& text : nasty_strings) {
     if (text.find('\0') != std::string::npos) continue;
@@ -282,7 +282,7 @@ TEST_CASE("an error of dev is one command of GitHub's workflows, whatever the sc
   }
 }
 
-TEST_CASE("generate writes a scene that names its mesh, whatever that is called" *
+TEST_CASE("generate writes a scene that names its mesh, whatever the mesh's name" *
           doctest::test_suite("long")) {
   for (const std::string& text : nasty_strings) {
     if (text.find('\0') != std::string::npos) continue;

@@ -47,7 +47,7 @@ TEST_CASE("a new project passes the commands of its README") {
   CHECK(broken.err.find("shapes/column.glsl:3:") != std::string::npos);
 }
 
-TEST_CASE("a project is written whole or not at all, and over nothing") {
+TEST_CASE("a project is written whole or not at all, and overwrites nothing") {
   const TemporaryFolder folder;
   write_text(folder / "scene.toml", "mine");
   const ProcessResult refused = run_eyeray({"new", folder.path()});

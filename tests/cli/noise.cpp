@@ -11,8 +11,7 @@ using namespace eyeray::engine;
 using namespace eyeray::engine::image;
 using namespace eyeray::engine::test;
 
-TEST_CASE(
-    "--noise gives each pixel as many samples as it needs, the same by every executor that has its bits") {
+TEST_CASE("--noise gives each pixel the samples that it needs, equal in all executors with equal bits") {
   const SceneFolder folder;
   std::string pictures[2];
   for (const std::string backend : {"gpu", "twin"}) {

@@ -85,7 +85,7 @@ TEST_CASE("the page of a report shows the golden picture as it was compared") {
   CHECK(std::filesystem::exists(folder / "report/kept/golden-difference.png"));
 }
 
-TEST_CASE("nothing that a scene is called ends the page's data") {
+TEST_CASE("no name of a scene ends the page's data") {
   const SceneFolder folder;
   const std::string name = folder / "</script><b>.toml";
   std::filesystem::create_directories(std::filesystem::path(name).parent_path());
@@ -122,7 +122,7 @@ TEST_CASE("a browser shows the page, and the view that its link names" * doctest
     CHECK(linked.find(pressed(button)) != std::string::npos);
 }
 
-TEST_CASE("the page's keys, slider, split, zoom and read-out do what the manual says" *
+TEST_CASE("the page's keys, slider, split, zoom and read-out work as the manual states" *
           doctest::test_suite("long")) {
   const SceneFolder folder;
   const std::string golden = folder / "golden.pfm";

@@ -28,7 +28,7 @@ double luminance(const Image& image, size_t pixel) {
 
 }  // namespace
 
-TEST_CASE("killed in the midst of its samples and resumed, a picture by photons is the uninterrupted one") {
+TEST_CASE("a photon picture killed amid its samples and resumed equals the uninterrupted one") {
   const TemporaryFolder folder;
   for (const std::string backend : {"gpu", "twin"}) {
     CAPTURE(backend);
@@ -59,7 +59,7 @@ TEST_CASE("killed in the midst of its samples and resumed, a picture by photons 
   }
 }
 
-TEST_CASE("--noise stops photons where a pixel is as good as it says, beside a long picture") {
+TEST_CASE("--noise stops photons at pixels with the wanted error, measured against a long picture") {
   const TemporaryFolder folder;
   const std::vector<std::string> command{"render",    box,    "-s",      "16x16", "-D", "render.photons=1024",
                                          "--backend", "twin", "--quiet", "--json"};
@@ -105,7 +105,7 @@ TEST_CASE("AOVs of the first hit, and denoisers' AOVs, are as in paths") {
   CHECK(read_text(folder / "sppm.rays.pfm") != read_text(folder / "path.rays.pfm"));
 }
 
-TEST_CASE("more photons than a device has room for: an error with the numbers, and no picture") {
+TEST_CASE("more photons than a device has room for give an error with the numbers, and no picture") {
   const SceneFolder folder;
   const auto refusal = [&](const std::string& photons, const std::vector<std::string>& more) {
     const ProcessResult result =

@@ -65,11 +65,11 @@ void expect_agreement(const std::string& scene, int pixels) {
 
 }  // namespace
 
-TEST_CASE("probe shows every ray of a pixel by three executors, and nothing differs where all is well") {
+TEST_CASE("probe shows every ray of a pixel by three executors, and no difference in a correct render") {
   expect_agreement("scenes/whitted.toml", 2);
 }
 
-TEST_CASE("… in every kind of scene" * doctest::test_suite("long")) {
+TEST_CASE("probe shows every ray and no difference in every kind of scene" * doctest::test_suite("long")) {
   for (const char* scene :
        {"scenes/cornell.toml", "scenes/inside_glass.toml", "scenes/meshes.toml", "scenes/textures.toml",
         "scenes/alpha.toml", "scenes/group_instances.toml", "scenes/orthographic.toml",
@@ -78,7 +78,7 @@ TEST_CASE("… in every kind of scene" * doctest::test_suite("long")) {
     expect_agreement(scene, 4);
 }
 
-TEST_CASE("the text has a line a value and a column an executor, the verdict first") {
+TEST_CASE("probe's text starts with the verdict, then has a line a value and a column an executor") {
   const SceneFolder folder;
   const ProcessResult result = run_eyeray({"probe", folder.scene(), "32,24"});
   CAPTURE(result.out);
@@ -108,7 +108,7 @@ TEST_CASE("the sample that differs, or the requested one, is shown among several
         value(probe({folder.scene(), "32,24", "--spp", "4"}).json.at("rays")[1], "direction", "gpu"));
 }
 
-TEST_CASE("a PROBE in a user's shader is a line, and what the shader breaks is found at it") {
+TEST_CASE("a PROBE in a user's shader prints a line, and probe finds the shader's first difference") {
   const TemporaryFolder folder;
   const std::string shader = folder / "bsdf/fresnel.glsl";
   const std::string whole = "return 0.5f * (parallel * parallel + crossed * crossed);";

@@ -24,7 +24,7 @@ bool has(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("the report says how many pixels are equal, and what was not drawn") {
+TEST_CASE("the report of --raster counts equal pixels, and lists the shapes that are not drawn") {
   const ProcessResult result = verify({"scenes/shapes/csg.toml", "-s", "96x72", "--validate", "sync"});
   CAPTURE(result.out);
   CAPTURE(result.err);
@@ -35,7 +35,7 @@ TEST_CASE("the report says how many pixels are equal, and what was not drawn") {
   CHECK(has(result.out, " behind shapes that are not drawn\n"));
 }
 
-TEST_CASE("a pixel that gate R fails is looked at with --raster, and JUnit's XML has the gate") {
+TEST_CASE("the command that examines a pixel failed by gate R has --raster, and JUnit's XML has the gate") {
   const TemporaryFolder folder;
   const std::string shaders = lay_fault(folder, "position");
   const ProcessResult result = run_eyeray(
@@ -50,7 +50,7 @@ TEST_CASE("a pixel that gate R fails is looked at with --raster, and JUnit's XML
   CHECK(has(read_text(folder / "page/index.html"), "gate R FAILED gpu = the rasteriser"));
 }
 
-TEST_CASE("a camera that no projection matrix describes is one sentence and exit code 2") {
+TEST_CASE("a camera that no projection matrix describes gives one sentence and exit code 2") {
   for (const char* camera : {"fisheye", "panorama", "cylindrical", "thin_lens", "formula"}) {
     CAPTURE(camera);
     const ProcessResult result = verify({fmt::format("scenes/cameras/{}.toml", camera), "-s", "8x6"});
@@ -60,7 +60,7 @@ TEST_CASE("a camera that no projection matrix describes is one sentence and exit
   }
 }
 
-TEST_CASE("a device that does not draw, or has no memory for it, is one sentence and exit code 3") {
+TEST_CASE("a device that cannot draw, or lacks the memory, gives one sentence and exit code 3") {
   const std::vector<std::string> scene = {"scenes/whitted.toml", "-s", "8x6"};
   const ProcessResult no_queue =
       verify(scene, {{"EYERAY_VULKAN_LOADER", FAILING_VULKAN}, {"EYERAY_NO_GRAPHICS", "1"}});

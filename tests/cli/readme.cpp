@@ -8,7 +8,7 @@
 using namespace eyeray::engine;
 using namespace eyeray::engine::test;
 
-TEST_CASE("the report in README.md has the counts of today") {
+TEST_CASE("the report in README.md has today's counts") {
   const ProcessResult result = run_eyeray({"verify", "scenes/whitted.toml"});
   CHECK(result.code == 0);
   const std::string readme = read_text("README.md");

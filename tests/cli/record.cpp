@@ -7,7 +7,7 @@
 using namespace eyeray::engine;
 using namespace eyeray::engine::test;
 
-TEST_CASE("verify records what a healthy scene needs, and nothing of one that fails") {
+TEST_CASE("verify records the needs of a healthy scene, and nothing for a failing scene") {
   const SceneFolder folder;
   const std::string before = read_text(folder.scene());
   const auto verify = [&](std::vector<std::string> options) {

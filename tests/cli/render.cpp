@@ -14,7 +14,7 @@ using namespace eyeray::engine;
 using namespace eyeray::engine::image;
 using namespace eyeray::engine::test;
 
-TEST_CASE("render writes what was asked for, and says so on standard error") {
+TEST_CASE("render writes the requested files, and lists them on standard error") {
   const SceneFolder folder;
   const ProcessResult result =
       run_eyeray({"render", folder.scene(), "-o", folder / "a.png", "-o", folder / "a.pfm"});
@@ -34,7 +34,7 @@ TEST_CASE("render writes what was asked for, and says so on standard error") {
   CHECK(image.pixel(32, 24)[0] > image.pixel(32, 24)[2]);
 }
 
-TEST_CASE("the summary's rays, seconds and rate divide") {
+TEST_CASE("the summary's rays divided by its seconds give its rate") {
   const SceneFolder folder;
   const ProcessResult result =
       run_eyeray({"render", folder.scene(), "-s", "320x240", "--spp", "4", "-o", folder / "a.png"});
@@ -59,7 +59,7 @@ TEST_CASE("the default output is the scene's name, in the current folder") {
   CHECK(folder.names() == std::set<std::string>{"scene.toml", "scene.png"});
 }
 
-TEST_CASE("the options lay values over the scene") {
+TEST_CASE("options override values of the scene") {
   const SceneFolder folder;
   const ProcessResult result =
       run_eyeray({"render", folder.scene(), "-s", "20x10", "--spp", "4", "--crop", "2,1,6,5", "-D",
@@ -120,8 +120,7 @@ TEST_CASE("AOVs hold the hits of the camera rays") {
 }
 
 TEST_CASE(
-    "at iteration limits a warning counts the pixels, and an AOV shows them: all that are wrong, also in "
-    "shadow" *
+    "at iteration limits a warning counts the pixels, and an AOV shows every wrong one, also in shadow" *
     doctest::test_suite("long")) {
   const SceneFolder folder;
   const auto render = [&](const std::string& name, std::vector<std::string> options) {
@@ -192,7 +191,7 @@ TEST_CASE("check prints the numbers that follow from a scene") {
   CHECK(json.at("lights").at("point") == 1);
 }
 
-TEST_CASE("check prints the box around the shapes, and how many have no end") {
+TEST_CASE("check prints the bounding box of the shapes, and the number of unbounded shapes") {
   const SceneFolder folder;
   const auto bounds = [&](const std::string& shapes) {
     const std::string scene = folder / "shapes.toml";
@@ -218,7 +217,7 @@ TEST_CASE("check prints the box around the shapes, and how many have no end") {
                                 json{{"min", nullptr}, {"max", nullptr}, {"unbounded_shapes", 0}}));
 }
 
-TEST_CASE("check prints of each kind of camera what is sharp") {
+TEST_CASE("check prints the focus of each kind of camera") {
   const std::string everything = "  focus      everything is sharp: the camera has no aperture\n";
   for (const char* scene : {"scenes/whitted.toml", "scenes/orthographic.toml", "scenes/cameras/fisheye.toml",
                             "scenes/cameras/panorama.toml", "scenes/cameras/cylindrical.toml"}) {
@@ -245,7 +244,7 @@ TEST_CASE("check --schema is JSON, --manual is Markdown") {
   CHECK(run_eyeray({"check", "--manual"}).out.starts_with("#"));
 }
 
-TEST_CASE("devices lists what --device takes") {
+TEST_CASE("devices lists the values that --device takes") {
   const ProcessResult text = run_eyeray({"devices"});
   CHECK(text.code == 0);
   CHECK(text.out.starts_with("0  "));

@@ -104,7 +104,7 @@ TEST_CASE("killed at random a hundred times, too" * doctest::test_suite("long"))
   kill_and_repeat(100);
 }
 
-TEST_CASE("a full disk is reported, and leaves nothing that looks like a part or a picture") {
+TEST_CASE("a full disk is reported, and leaves no file that looks like a part or a picture") {
   const SceneFolder folder;
   const Words picture{"render", folder.scene(), "-s", "160x90", "--quiet", "--backend", "twin"};
   const std::set<std::string> before{"scene.toml"};
@@ -153,7 +153,7 @@ TEST_CASE("a folder that disappears during the render is reported") {
   CHECK_FALSE(std::filesystem::exists(folder / "elsewhere/1.eyeray"));
 }
 
-TEST_CASE("clocks that are apart are nothing to parts and checkpoints") {
+TEST_CASE("clocks that differ do not affect parts and checkpoints") {
   const SceneFolder folder;
   const Words picture = long_picture(folder);
   REQUIRE(run_eyeray(picture + Words{"-o", folder / "whole.pfm"}).code == 0);

@@ -85,7 +85,7 @@ TEST_CASE("parts make the picture of one machine: photons") {
   check_shards("scenes/sppm/box.toml", options, {".pfm", ".hdr"}, {"--aov", "rays,noise,depth"}, 3);
 }
 
-TEST_CASE("the reference's parts, too, and what merge says is what one machine says") {
+TEST_CASE("the reference's parts make the same picture, and merge reports as one machine does") {
   const SceneFolder folder;
   const Words picture = Words{"render", folder.scene(), "--backend", "reference", "--spp", "4", "--json"};
   const ProcessResult whole = run_eyeray(picture + Words{"-o", folder / "whole.pfm", "--stats"});
@@ -103,7 +103,7 @@ TEST_CASE("the reference's parts, too, and what merge says is what one machine s
   CHECK((read_text(folder / "whole.pfm") == read_text(folder / "merged.pfm")));
 }
 
-TEST_CASE("a set that makes no picture is refused, and names what is wrong") {
+TEST_CASE("parts that do not make a picture are refused, and the message names the fault") {
   const SceneFolder folder;
   const Words twin{"--backend", "twin"};
   const Words picture = picture_of(folder.scene(), twin);
@@ -170,7 +170,7 @@ TEST_CASE("a picture that cannot be sharded is refused before it is rendered") {
   }
 }
 
-TEST_CASE("a suite's shares report as the suite does") {
+TEST_CASE("a suite's shards report as the whole suite does") {
   const SceneFolder folder;
   Words scenes;
   for (const int i : {1, 2, 3, 4, 5}) {

@@ -9,7 +9,7 @@
 using namespace eyeray::engine;
 using namespace eyeray::engine::test;
 
-TEST_CASE("verify takes a folder: every scene in it and below, and no part of another") {
+TEST_CASE("verify takes every scene in a folder and below, except included parts") {
   const SceneFolder folder;
   std::filesystem::create_directories(folder / "sub/parts");
   write_text(folder / "sub/parts/ball.toml", small_scene);

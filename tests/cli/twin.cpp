@@ -50,7 +50,7 @@ bool contains(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("the twin of a user's shaders has the bits of the device, and verify asks for it") {
+TEST_CASE("the twin of a user's shaders has the device's bits, and verify suggests to compile it") {
   const Users users;
   REQUIRE(run_eyeray({"render", users.scene(), "--backend", "twin", "-o", users / "own.pfm"}).code == 0);
   REQUIRE(users.render("twin", "same.pfm").code == 0);
@@ -79,7 +79,7 @@ TEST_CASE("the twin of a user's shaders has the bits of the device, and verify a
   CHECK(compiled.find("gate A: gpu and twin: ") == std::string::npos);
 }
 
-TEST_CASE("errors of a user's shaders as C++ are reported as compilers do, and so are missing tools") {
+TEST_CASE("C++ errors in a user's shaders are reported as compilers do, and missing tools too") {
   const Users users;
   const int line = users.change_sphere("  vec3 turned = f.zyx;\n");
   for (const char* const command : {"render", "dev"}) {
@@ -100,7 +100,7 @@ TEST_CASE("errors of a user's shaders as C++ are reported as compilers do, and s
                  "warning: this is the twin of eyeray's own shaders: to compile those of " + users.shaders));
 }
 
-TEST_CASE("the twin of eyeray's own shaders is compiled, too") {
+TEST_CASE("the twin of eyeray's own shaders can be compiled, too") {
   const Users users;
   const auto render = [&](const std::string& picture, const std::vector<std::string>& more) {
     std::vector<std::string> words{"render", users.scene(), "--backend", "twin", "-o", users / picture};

@@ -40,7 +40,7 @@ std::string build_fact(const std::string& name, const std::string& source,
 
 }  // namespace
 
-TEST_CASE("docs/command-line.md says what each AOV holds") {
+TEST_CASE("docs/command-line.md describes each AOV") {
   const std::string document = read_text("docs/command-line.md");
   const std::string help = run_eyeray({"render", "--help"}).out;
   const std::string refusal = run_eyeray({"render", "none.toml", "--aov", "none"}).err;
@@ -55,7 +55,7 @@ TEST_CASE("docs/command-line.md says what each AOV holds") {
   CHECK(names >= 8);
 }
 
-TEST_CASE("a wrong command line is one line that says what was meant, and code 2") {
+TEST_CASE("a wrong command line gives one line with a suggestion, and code 2") {
   const SceneFolder folder;
   const std::string scene = folder.scene();
   const Mistake mistakes[] = {
@@ -140,7 +140,7 @@ TEST_CASE("a wrong command line is one line that says what was meant, and code 2
   CHECK(folder.names() == std::set<std::string>{"scene.toml"});
 }
 
-TEST_CASE("who still types eyeray bench learns its new name") {
+TEST_CASE("the error of `eyeray bench` names the new program, eyeray-bench") {
   for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
            {"bench"}, {"bench", "scenes/whitted.toml", "-n", "3", "--plot", "a.svg"}, {"bench", "--help"}}) {
     const ProcessResult result = run_eyeray(words);
@@ -151,7 +151,7 @@ TEST_CASE("who still types eyeray bench learns its new name") {
   }
 }
 
-TEST_CASE("without a command the help is shown, as words") {
+TEST_CASE("without a command the help is printed as text") {
   const ProcessResult result = run_eyeray({});
   CHECK(result.code == 2);
   CHECK(result.out == "");
@@ -196,7 +196,7 @@ TEST_CASE("help is as wide as the terminal, and 110 columns elsewhere") {
   CHECK(narrow <= 80);
 }
 
-TEST_CASE("the help of an option that lays a value over the scene follows from the key's row") {
+TEST_CASE("the help of an option that overrides a key is made from the key's row") {
   const std::string help = std::regex_replace(run_eyeray({"check", "--help"}).out, std::regex("\\s+"), " ");
   for (const std::string text :
        {"--integrator NAME Integrator (docs/scene-reference.md): raycast, whitted, path or sppm.",
@@ -207,7 +207,7 @@ TEST_CASE("the help of an option that lays a value over the scene follows from t
   }
 }
 
-TEST_CASE("a value that an option lays over the scene is reported as it was written") {
+TEST_CASE("a wrong value of an option that overrides a key is reported as written") {
   const SceneFolder folder;
   for (const std::string written : {"-s 0x48", "--spp 0", "--exposure high", "--integrator whited",
                                     "--max-depth -1", "--seed -1", "--triangle no"}) {
@@ -222,7 +222,7 @@ TEST_CASE("a value that an option lays over the scene is reported as it was writ
             .err.starts_with("-D image.width=0: error: "));
 }
 
-TEST_CASE("the version is printed, with the commit where there was one") {
+TEST_CASE("the version is printed, with the commit if there was one") {
   const ProcessResult result = run_eyeray({"--version"});
   CHECK(result.code == 0);
   CHECK(std::regex_match(result.out, std::regex(R"(eyeray 0\.\d+\.\d+( \(commit [0-9a-f]{12}\))?\n)")));
@@ -245,7 +245,7 @@ TEST_CASE("the commit is that of the sources' own clone, and there is none witho
   CHECK(facts_of(inside) == "");  // as of a source package that was unpacked in another project's clone
 }
 
-TEST_CASE("parts know the program by its sources and its compiler, not by the commit or where it was built") {
+TEST_CASE("parts identify the program by sources and compiler, not by commit or build folder") {
   const TemporaryFolder folder;
   const auto tree = [&](const std::string& name) {
     const std::filesystem::path root = folder / name;
@@ -299,7 +299,7 @@ TEST_CASE("under --json a failure is JSON on standard output too") {
   CHECK(result.err.ends_with("2 errors\n"));
 }
 
-TEST_CASE("a reader that goes away is no error, a full disk is") {
+TEST_CASE("a reader that closes its pipe is no error, but a full disk is") {
   const std::string binary = eyeray_binary();
   const ProcessResult pipe =
       run_process({"sh", "-c", "(" + binary + " shaders --print math/math.glsl; echo $? >&2) | true"});
@@ -317,7 +317,7 @@ TEST_CASE("a reader that goes away is no error, a full disk is") {
   }
 }
 
-TEST_CASE("a folder that cannot be made is named, with the reason, and code 4") {
+TEST_CASE("a folder that cannot be made is reported with name, reason and code 4") {
   const SceneFolder folder;
   const std::string below = folder.scene() + "/below";
   for (const std::vector<std::string>& words :

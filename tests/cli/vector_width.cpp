@@ -51,7 +51,7 @@ size_t count_files(const std::filesystem::path& folder) {
 
 }  // namespace
 
-TEST_CASE("big pictures have vectors of 512 bits on Mesa 22, where the processor has, or as the user says") {
+TEST_CASE("big pictures use 512-bit vectors on Mesa 22 if the processor can, unless the user chooses") {
   const Pictures pictures;
   const int usual = pictures.bits("64x48");
   CHECK(usual <= 256);
@@ -60,7 +60,7 @@ TEST_CASE("big pictures have vectors of 512 bits on Mesa 22, where the processor
   CHECK(pictures.bits("1024x1024", {{"LP_NATIVE_VECTOR_WIDTH", "256"}}) == 256);
 }
 
-TEST_CASE("code compiled for vectors of one width is kept apart from that for another") {
+TEST_CASE("compiled code is cached separately for each vector width") {
   const Pictures pictures;
   const std::filesystem::path mesa = pictures / "mesa";
   std::string first;

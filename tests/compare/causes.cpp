@@ -21,7 +21,7 @@ std::vector<PixelOutcome> outcomes_of(const Frame& value) {
 
 }  // namespace
 
-TEST_CASE("each pixel has the worst outcome of all that is compared") {
+TEST_CASE("each pixel has the worst outcome of all compared values") {
   Frame value = picture_frame(Vec2(5e-5));
   value.color.pixel(50, 30)[0] += 0.25f;
   value.first_hits[40 * picture_width + 50].uv.x += 0.5;
@@ -36,7 +36,7 @@ TEST_CASE("each pixel has the worst outcome of all that is compared") {
   CHECK(at(6, 60).cause == Cause::shadow_edge);
 }
 
-TEST_CASE("the picture of causes has a colour for each, and the legend says which") {
+TEST_CASE("the picture of causes has a colour for each cause, and the legend names it") {
   Frame value = picture_frame(Vec2(5e-5));
   value.color.pixel(50, 30)[0] += 0.25f;
   const std::vector<PixelOutcome> outcomes = outcomes_of(value);

@@ -40,7 +40,7 @@ TEST_CASE("a cause is the first thing along the ray that changes") {
   CHECK(cause_of([](Neighbour& n) { n.direct = false; }) == Cause::refraction_branch);
 }
 
-TEST_CASE("changes by float32's rounding of rays' origins are explained as that, and not otherwise") {
+TEST_CASE("changes by float32's rounding of ray origins have that cause and no other") {
   const auto neighbourhood = [](double near, double far) {
     return Neighbourhood(
         [=](int, int, const Vec2&, rounding::Coincidence) {
@@ -95,7 +95,7 @@ TEST_CASE("a first hit differs at a silhouette, a crease, a seam of uv, or a gra
   CHECK(cause([](FirstHit& hit) { hit.t += 1; }) == Cause::grazing);
 }
 
-TEST_CASE("the neighbourhood is 64 offsets of 0.001 to 0.004 pixels, all around, and the pixel itself") {
+TEST_CASE("the neighbourhood is the pixel and 64 offsets of 0.001 to 0.004 pixels all around") {
   std::vector<Vec2> shifts;
   int coincident = 0;
   const Reference reference = [&](int x, int y, const Vec2& shift, rounding::Coincidence coincidence) {
@@ -147,7 +147,7 @@ TEST_CASE("a jump within a rounding error of the camera ray is undecidable") {
   CHECK(cause(1.5e-3, 1) == Cause::silhouette);
 }
 
-TEST_CASE("the hit of a ray that a rounding error turns is undecidable") {
+TEST_CASE("a hit that changes when a rounding error turns the ray is undecidable") {
   const auto neighbourhood = [](double rounding) {
     return Neighbourhood(
         [=](int, int, const Vec2& shift, rounding::Coincidence coincidence) {
@@ -166,7 +166,7 @@ TEST_CASE("the hit of a ray that a rounding error turns is undecidable") {
   CHECK_FALSE(neighbourhood(0).explains(Vec3(0.7), {}));
 }
 
-TEST_CASE("an edge along the centres of a row of pixels takes up nothing of what may be explained") {
+TEST_CASE("an edge along a row's pixel centres does not count towards the cap on explained pixels") {
   const auto colors = [](double rounding) {
     const Reference picture = [=](int, int y, const Vec2& shift, rounding::Coincidence) {
       Neighbour neighbour;
@@ -186,7 +186,7 @@ TEST_CASE("an edge along the centres of a row of pixels takes up nothing of what
   CHECK_FALSE(shadow.passes());
 }
 
-TEST_CASE("the second look finds features narrower than the ring of the first") {
+TEST_CASE("the finer neighbourhood finds features narrower than the first one's ring") {
   const Reference reference = [](int, int, const Vec2& shift, rounding::Coincidence) {
     Neighbour neighbour;
     const double r = glm::length(shift);
@@ -199,7 +199,7 @@ TEST_CASE("the second look finds features narrower than the ring of the first") 
   CHECK_FALSE(Neighbourhood(reference, {0, 0}, 256, true).explains(Vec3(0.8), {}));
 }
 
-TEST_CASE("explained values lie between the neighbours, a tolerance more at each end") {
+TEST_CASE("explained values lie between the neighbours, extended by a tolerance at each end") {
   const Reference reference = [](int, int, const Vec2& shift, rounding::Coincidence) {
     Neighbour neighbour;
     neighbour.samples[0].color = Vec3(shift.x > 0.002 ? 0.7 : 0.2, 10, 0);

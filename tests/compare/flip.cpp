@@ -42,7 +42,7 @@ double mean(const std::vector<double>& values) {
 
 }  // namespace
 
-TEST_CASE("FLIP is the papers', at every pixel") {
+TEST_CASE("FLIP equals the papers' values at every pixel") {
   const Image a = scene(1, 1), b = scene(2, 0.9);
   const std::vector<double> map = flip_map(a, b),
                             expected = book::ldr_flip(book::picture_of(a), book::picture_of(b));
@@ -53,7 +53,7 @@ TEST_CASE("FLIP is the papers', at every pixel") {
   CHECK(std::abs(flip(a, b).mean - mean(expected)) < 1e-6);
 }
 
-TEST_CASE("HDR-FLIP is the papers': its exposures, and its errors at every pixel") {
+TEST_CASE("HDR-FLIP equals the papers' exposures, and their errors at every pixel") {
   for (const double brightest : {1.0, 40.0, 3e5}) {
     CAPTURE(brightest);
     const Image a = scene(1, 1.3 * brightest), b = scene(2, brightest);
@@ -80,7 +80,7 @@ TEST_CASE("HDR-FLIP is the papers': its exposures, and its errors at every pixel
   }
 }
 
-TEST_CASE("the exposures of equal, black and half black pictures, and none of what is not finite") {
+TEST_CASE("equal, black and half black pictures have exposures, non-finite pictures have none") {
   const Image grey = [] {
     Image image(4, 4, 1);
     for (float& value : image.samples()) value = 2;

@@ -37,7 +37,7 @@ double lightness(double y) {
 
 }  // namespace
 
-TEST_CASE("a picture is at no distance from itself") {
+TEST_CASE("a picture has no difference from itself in any metric") {
   const Image image = noise(40, 30, 1);
   const Metrics m = measure(image, image);
   CHECK(m.rmse == 0);
@@ -48,7 +48,7 @@ TEST_CASE("a picture is at no distance from itself") {
   CHECK(m.flip.mean == 0);
 }
 
-TEST_CASE("one pixel's difference, in numbers worked out by hand") {
+TEST_CASE("one pixel's difference gives the numbers worked out by hand") {
   const Image a = constant(20, 10, Vec3(0.5));
   Image b = a;
   b.pixel(13, 7)[1] += 0.25f;
@@ -82,7 +82,7 @@ TEST_CASE("one pixel's difference, in numbers worked out by hand") {
   CHECK(*log_difference(a, b).pixel(0, 0) == -8.0f);
 }
 
-TEST_CASE("a value that is not finite is infinitely far") {
+TEST_CASE("a value that is not finite has an infinite difference") {
   const Image a = constant(5, 5, Vec3(0.5));
   Image b = a;
   b.pixel(2, 3)[0] = std::numeric_limits<float>::quiet_NaN();

@@ -41,7 +41,7 @@ bool contains(const std::string& text, const std::string& words) {
 
 }  // namespace
 
-TEST_CASE("a passing report says so first, and counts") {
+TEST_CASE("a passing report states the verdict first, then the counts") {
   const Report report = report_on(picture_frame(Vec2(5e-5)));
   const std::string text = to_text(report);
   CAPTURE(text);
@@ -53,7 +53,7 @@ TEST_CASE("a passing report says so first, and counts") {
   CHECK_FALSE(contains(text, "look closer"));
 }
 
-TEST_CASE("hit objects are named in the words of the scene, where they are known") {
+TEST_CASE("hit objects have the names of the scene, if it has names") {
   Frame value = picture_frame();
   FirstHit& hit = value.first_hits[size_t(30 * picture_width + 94)];
   hit.t *= 1.5;
@@ -165,7 +165,7 @@ TEST_CASE("no name of a scene or of a shader is a command, markup or a column, w
   }
 }
 
-TEST_CASE("JSON says the same, and a NaN in it is null") {
+TEST_CASE("JSON has the report's values, and null for a NaN") {
   Frame value = picture_frame();
   value.color.pixel(50, 30)[1] = std::nanf("");
   const std::vector<Report> reports{report_on(picture_frame()), report_on(value)};

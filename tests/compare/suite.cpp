@@ -82,7 +82,7 @@ TEST_CASE("a diagnosis names the first value that differs") {
         }).starts_with("all rays have the same hits, but colours differ where light is reflected"));
 }
 
-TEST_CASE("a diagnosis names the side") {
+TEST_CASE("a diagnosis names the executor that disagrees") {
   const Frame honest = picture_frame(), wrong = changed(red);
   CHECK(tells(diagnosis(wrong, honest), "; twin agrees with the reference: check gpu's data"));
   CHECK(tells(diagnosis(wrong, wrong), "; gpu and twin agree with each other, but not with the reference"));
@@ -92,7 +92,7 @@ TEST_CASE("a diagnosis names the side") {
   CHECK(diagnosis(one_bit, honest).starts_with("gpu and twin agree with the reference, but not bit by bit"));
 }
 
-TEST_CASE("a scene that cannot be rendered fails among others, unless it may") {
+TEST_CASE("in a suite a scene that cannot be rendered fails, unless it may be skipped") {
   const Report failed = not_verified("b.toml", false), skipped = not_verified("c.toml", true);
   CHECK_FALSE(failed.passes());
   CHECK(failed.verdict() == "failed");
@@ -107,7 +107,7 @@ TEST_CASE("a scene that cannot be rendered fails among others, unless it may") {
         "passed  a.toml       96×72          0 explained       0 unexplained     1.50 s\n");
 }
 
-TEST_CASE("JUnit's XML has a case a scene, with the numbers in the failure's text") {
+TEST_CASE("JUnit's XML has a case for each scene, and the numbers in the failure's text") {
   const Report bad = report_on("b<&>.toml", changed(red), picture_frame());
   const std::string text =
       to_junit(std::vector<Report>{good("a.toml"), bad, not_verified("c\x01\xff.toml", true)});
@@ -122,7 +122,7 @@ TEST_CASE("JUnit's XML has a case a scene, with the numbers in the failure's tex
   CHECK(text.find('\xff') == std::string::npos);
 }
 
-TEST_CASE("GitHub gets an annotation a failure, and a table") {
+TEST_CASE("GitHub gets an annotation for each failure, and a table") {
   const std::vector<Report> reports{good("a.toml"), not_verified("b,c:d%.toml", false)};
   CHECK(to_annotations(reports) ==
         "::error file=b%2Cc%3Ad%25.toml,title=eyeray verify::not verified: it has <no> \"camera\"\n");

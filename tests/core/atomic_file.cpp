@@ -24,7 +24,7 @@ ExitCode failure(const Action& action) {
 
 }  // namespace
 
-TEST_CASE("a file is written whole, in the place of an older one, and nothing else is left") {
+TEST_CASE("a file is written whole, replaces an older one, and no other file is left") {
   const TemporaryFolder folder;
   write_file_atomically(folder / "a", std::string_view("first, and longer"));
   write_file_atomically(folder / "a", std::string_view("second"));
@@ -33,7 +33,7 @@ TEST_CASE("a file is written whole, in the place of an older one, and nothing el
   CHECK(folder.names() == std::set<std::string>{"a"});
 }
 
-TEST_CASE("bytes survive, zeros and all, beyond one write's and one read's size") {
+TEST_CASE("all bytes survive, including zeros, beyond the size of one write and one read") {
   const TemporaryFolder folder;
   std::string bytes(3'000'001, '\0');
   for (size_t i = 0; i < bytes.size(); ++i) bytes[i] = char(i * 7 % 251);
@@ -41,7 +41,7 @@ TEST_CASE("bytes survive, zeros and all, beyond one write's and one read's size"
   CHECK(read_file(folder / "a") == bytes);
 }
 
-TEST_CASE("a name without a folder lies in the current one") {
+TEST_CASE("a name without a folder is a file in the current folder") {
   const TemporaryFolder folder;
   const auto before = std::filesystem::current_path();
   std::filesystem::current_path(folder.path());
@@ -50,7 +50,7 @@ TEST_CASE("a name without a folder lies in the current one") {
   CHECK(folder.names() == std::set<std::string>{"plain"});
 }
 
-TEST_CASE("a failed write is a file error that says why, and leaves everything as it was") {
+TEST_CASE("a failed write is a file error with the reason, and leaves everything unchanged") {
   const TemporaryFolder folder;
   CHECK(failure([&] { write_file_atomically(folder / "no/such/folder", std::string_view("x")); }) ==
         ExitCode::file_io);
@@ -92,7 +92,7 @@ TEST_CASE("write much" * doctest::skip()) {
   CHECK(failure([&] { write_file_atomically(path, much); }) == ExitCode::file_io);
 }
 
-TEST_CASE("check_writable leaves no trace, and the file that is there") {
+TEST_CASE("check_writable leaves no trace, and keeps an existing file") {
   const TemporaryFolder folder;
   check_writable(folder / "new");
   CHECK(folder.names().empty());
@@ -132,7 +132,7 @@ TEST_CASE("a replaced file keeps its mode") {
   }
 }
 
-TEST_CASE("errors give the name that was written, on one line") {
+TEST_CASE("errors show the given file name on one line") {
   const TemporaryFolder folder;
   try {
     write_file_atomically(folder / "no\n::such/a\x1b.png", std::string_view("x"));

@@ -8,7 +8,7 @@
 
 using namespace eyeray::engine;
 
-TEST_CASE("a diagnostic shows where, what and the line") {
+TEST_CASE("a diagnostic shows position, message and source line") {
   CHECK(format_diagnostic({Severity::error, {"a.toml", 12, 5}, "wrong", "x = 1.2", 1}) ==
         "a.toml:12:5: error: wrong\n  x = 1.2\n      ^");
   CHECK(format_diagnostic({Severity::warning, {"a.toml", 12, 0}, "odd", "x = 1.2", 1}) ==
@@ -17,7 +17,7 @@ TEST_CASE("a diagnostic shows where, what and the line") {
   CHECK(format_diagnostic({Severity::error, {"", 0, 0}, "wrong", "", 1}) == "error: wrong");
 }
 
-TEST_CASE("the caret stands under the column, past tabs, long characters and a cut") {
+TEST_CASE("the caret is under the column, after tabs, long characters and a cut") {
   CHECK(format_diagnostic({Severity::error, {"a", 1, 4}, "m", "\t\"é\" 1", 1}) ==
         "a:1:4: error: m\n  \t\"é\" 1\n  \t  ^");
   CHECK(format_diagnostic({Severity::error, {"a", 1, 103}, "m", "12345", 101}) ==
@@ -44,7 +44,7 @@ TEST_CASE("only the part of a long line around the column is shown") {
   CHECK(diagnostic.source_column == 3);
 }
 
-TEST_CASE("no text of a file is a command to a terminal or to GitHub's workflows") {
+TEST_CASE("no text of a file acts as a command to a terminal or to GitHub's workflows") {
   for (const std::string& text : test::nasty_strings) {
     CAPTURE(text);
     for (const bool in_file : {false, true}) {
@@ -63,7 +63,7 @@ TEST_CASE("no text of a file is a command to a terminal or to GitHub's workflows
   }
 }
 
-TEST_CASE("an InputError reports everything") {
+TEST_CASE("an InputError reports all its diagnostics") {
   const InputError error(
       {{Severity::error, {"a", 1, 1}, "x", "", 1}, {Severity::error, {"b", 2, 1}, "y", "", 1}});
   CHECK(std::string(error.what()) == "a:1:1: error: x\nb:2:1: error: y");
@@ -71,7 +71,7 @@ TEST_CASE("an InputError reports everything") {
   CHECK(error.diagnostics().size() == 2);
 }
 
-TEST_CASE("the nearest name") {
+TEST_CASE("the nearest name is found, unless all names are too different") {
   constexpr std::array<std::string_view, 5> names = {"radius", "center", "material", "up", "eye"};
   CHECK(nearest_name("radis", names) == "radius");
   CHECK(nearest_name("centre", names) == "center");  // neighbours swapped count once

@@ -66,7 +66,7 @@ TEST_CASE("files that a cache makes are private under every umask") {
   CHECK(cache.load("a") == "bytes");
 }
 
-TEST_CASE("a cache that is not used says why, and one that is used or not there yet says nothing") {
+TEST_CASE("an unused cache gives a reason; a used or missing cache gives no warning") {
   const TemporaryFolder folder;
   const DiskCache cache(folder.path() / "cache");
   const std::string name = cache.folder().string();

@@ -22,7 +22,7 @@ bool is_utf8(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("a shell reads a word as it was") {
+TEST_CASE("a shell reads an escaped word unchanged") {
   for (const char* shell : {"sh", "bash"}) {
     std::string script = "printf '%s\\n'";
     std::string words;
@@ -41,7 +41,7 @@ TEST_CASE("a shell reads a word as it was") {
   CHECK(shell_word("camera.fov=30") == "camera.fov=30");
 }
 
-TEST_CASE("TOML reads a string as it was, and refuses what is no UTF-8") {
+TEST_CASE("TOML reads an escaped string unchanged, and refuses text that is not UTF-8") {
   for (const std::string& text : nasty_strings) {
     CAPTURE(text);
     const std::string document = "a = " + toml_string(text) + "\n[b]\n";
@@ -55,7 +55,7 @@ TEST_CASE("TOML reads a string as it was, and refuses what is no UTF-8") {
   }
 }
 
-TEST_CASE("JSON reads a string as it was, and holds no command to a terminal or to GitHub's workflows") {
+TEST_CASE("JSON reads a string unchanged, and holds no command to a terminal or to GitHub's workflows") {
   for (const std::string& text : nasty_strings) {
     CAPTURE(text);
     for (const int indent : {-1, 2}) {
@@ -68,7 +68,7 @@ TEST_CASE("JSON reads a string as it was, and holds no command to a terminal or 
   }
 }
 
-TEST_CASE("XML has as many tags and quotes as before, and no character that it cannot hold") {
+TEST_CASE("escaped text adds no tag or quote to XML, and no character that XML forbids") {
   for (const std::string& text : nasty_strings) {
     CAPTURE(text);
     const std::string xml = xml_text(text);

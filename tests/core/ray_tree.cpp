@@ -7,7 +7,7 @@
 
 using namespace eyeray::engine;
 
-TEST_CASE("rays and values come to where they belong, however the loop goes about it") {
+TEST_CASE("rays and values are attached to their parents, whatever order the loop traces in") {
   RayRecorder recorder;
   recorder.value("point", 3, Vec2(1.5, 2.5));
   recorder.ray(RayKind::eye, 0, 0);
@@ -54,7 +54,7 @@ TEST_CASE("rays and values come to where they belong, however the loop goes abou
   CHECK(rays[5].values[0].numbers[0] == -4);
 }
 
-TEST_CASE("records without room are counted") {
+TEST_CASE("records that do not fit are counted") {
   RayRecorder recorder;
   for (uint32_t i = 0; i < RayRecorder::most + 10; ++i) recorder.value("x", 1, 1.0f);
   recorder.ray(RayKind::eye, 0, 0);

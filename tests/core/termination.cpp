@@ -45,7 +45,7 @@ class Child : public Process {
 
 }  // namespace
 
-TEST_CASE("child: asks" * doctest::skip()) {
+TEST_CASE("child: polls" * doctest::skip()) {
   watch_and_report();
   const Saving saving;
   fmt::print(stderr, "ready\n");
@@ -53,9 +53,9 @@ TEST_CASE("child: asks" * doctest::skip()) {
   std::_Exit(exit_status(ExitCode::interrupted));
 }
 
-TEST_CASE("the first signal sets the flag, and gives the status") {
+TEST_CASE("the first signal sets the flag, and determines the exit status") {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-    Child child("asks");
+    Child child("polls");
     REQUIRE(child.says("ready"));
     child.send_signal(signal);
     REQUIRE(child.ends());
@@ -71,7 +71,7 @@ TEST_CASE("child: ignores SIGHUP" * doctest::skip()) {
   hang();
 }
 
-TEST_CASE("under nohup SIGHUP is no signal") {
+TEST_CASE("under nohup SIGHUP is ignored") {
   Child child("ignores SIGHUP");
   REQUIRE(child.says("ready"));
   child.send_signal(SIGHUP);
@@ -81,7 +81,7 @@ TEST_CASE("under nohup SIGHUP is no signal") {
   CHECK(child.code() == 128 + SIGTERM);  // the code of the first signal that was seen
 }
 
-TEST_CASE("child: does not ask" * doctest::skip()) {
+TEST_CASE("child: does not poll" * doctest::skip()) {
   watch_and_report();
   AtomicFile file(std::getenv("EYERAY_TEST_FILE"));
   file.write("half of it");
@@ -89,9 +89,9 @@ TEST_CASE("child: does not ask" * doctest::skip()) {
   hang();
 }
 
-TEST_CASE("work that does not poll is ended, and its half-written files are gone") {
+TEST_CASE("work that does not poll is ended, and its half-written files are removed") {
   const TemporaryFolder folder;
-  Child child("does not ask", {{"EYERAY_TEST_FILE", folder / "file"}});
+  Child child("does not poll", {{"EYERAY_TEST_FILE", folder / "file"}});
   REQUIRE(child.says("ready"));
   CHECK(folder.names().size() == 1);
   child.send_signal(SIGTERM);
@@ -111,7 +111,7 @@ TEST_CASE("child: has its output full" * doctest::skip()) {
   while (true) fmt::print(stderr, "{}\n", std::string(65536, '.'));
 }
 
-TEST_CASE("an output that takes no more holds nothing up") {
+TEST_CASE("a full output does not delay the end") {
   Child child("has its output full");
   REQUIRE(child.says("ready"));
   child.send_signal(SIGINT);
@@ -128,7 +128,7 @@ TEST_CASE("child: saves for ever" * doctest::skip()) {
   hang();
 }
 
-TEST_CASE("one signal lets it save, two at once are one, a second ends it") {
+TEST_CASE("one signal lets the process save, two at once count as one, another ends it") {
   Child child("saves for ever");
   REQUIRE(child.says("ready"));
   child.send_signal(SIGTERM);
@@ -142,15 +142,15 @@ TEST_CASE("one signal lets it save, two at once are one, a second ends it") {
   CHECK(child.err().find("ended: interrupted\n") != std::string::npos);
 }
 
-TEST_CASE("child: calls what does not return" * doctest::skip()) {
+TEST_CASE("child: calls a function that never returns" * doctest::skip()) {
   watch_and_report();
   const Saving saving;
   const ForeignCall call(0.05, Error(ExitCode::timed_out, "it took too long"));
   hang();
 }
 
-TEST_CASE("a call that does not return is ended, whatever there is to save") {
-  Child child("calls what does not return");
+TEST_CASE("a call that does not return is ended, even while work waits to be saved") {
+  Child child("calls a function that never returns");
   REQUIRE(child.ends());
   CHECK(child.code() == int(ExitCode::timed_out));
   CHECK(child.err().find("ended: it took too long\n") != std::string::npos);
@@ -170,7 +170,7 @@ TEST_CASE("child: returns too late and saves" * doctest::skip()) {
   hang();
 }
 
-TEST_CASE("after a call that returned too late there is time to save, and no more") {
+TEST_CASE("a call that returned too late leaves time to save, but not to continue") {
   Child child("returns too late and saves");
   REQUIRE(child.ends());
   CHECK(child.code() == int(ExitCode::timed_out));
@@ -219,7 +219,7 @@ constexpr bool sanitized = __has_feature(address_sanitizer);
 constexpr bool sanitized = false;
 #endif
 
-TEST_CASE("memory that runs out in a library's hands is a message, any other crash a crash") {
+TEST_CASE("memory that runs out in a library gives a message, but any other crash stays a crash") {
   std::vector<std::unique_ptr<Child>> children;
   children.push_back(std::make_unique<Child>("has no memory in a thread"));
   // AddressSanitizer itself needs more memory than that.

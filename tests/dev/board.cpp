@@ -56,7 +56,7 @@ TEST_CASE("rows not rendered yet have no value") {
   CHECK(std::isnan(board.picture("gpu")->image.pixel(0, 1)[0]));
 }
 
-TEST_CASE("pictures are compared where both have come equally far") {
+TEST_CASE("pictures are compared where both have equally many samples") {
   Board board;
   const auto put = [&](const char* view, int row, int generation, int sample,
                        const std::vector<float>& values) {
@@ -92,7 +92,7 @@ TEST_CASE("pictures are compared where both have come equally far") {
   CHECK(difference(1, 1) == std::numeric_limits<float>::infinity());
 }
 
-TEST_CASE("rows that do not add up are left out") {
+TEST_CASE("rows of inconsistent size or position are ignored") {
   Board board;
   for (const Message& message :
        {rows(0, 1, 1, grey(4, 1)), rows(-1, 1, 1, grey(5, 1)), rows(3, 1, 1, grey(5, 1)),

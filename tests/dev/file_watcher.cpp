@@ -72,7 +72,7 @@ TEST_CASE("a save is reported once, however it is done") {
   }
 }
 
-TEST_CASE("other files in the folder are not our business") {
+TEST_CASE("changes to other files in the folder are not reported") {
   const TemporaryFolder folder;
   write_text(folder / "scene.toml", "1");
   FileWatcher watcher;
@@ -83,7 +83,7 @@ TEST_CASE("other files in the folder are not our business") {
   CHECK(changes_during(watcher, [&] { write_text(folder / "scene.toml", "2"); }) == Names{"scene.toml"});
 }
 
-TEST_CASE("a file whose folder does not exist yet") {
+TEST_CASE("a file whose folder does not exist yet is watched") {
   const TemporaryFolder folder;
   FileWatcher watcher;
   const WatchList list{{folder / "a/b/mesh.toml"}, {}, {}};
@@ -95,7 +95,7 @@ TEST_CASE("a file whose folder does not exist yet") {
   CHECK(changes_during(watcher, [&] { write_text(folder / "a/b/mesh.toml", "1"); }) == Names{"mesh.toml"});
 }
 
-TEST_CASE("a file behind a symbolic link") {
+TEST_CASE("the target of a symbolic link is watched") {
   const TemporaryFolder folder;
   fs::create_directory(folder / "real");
   write_text(folder / "real/scene.toml", "1");
@@ -105,7 +105,7 @@ TEST_CASE("a file behind a symbolic link") {
   CHECK(changes_during(watcher, [&] { write_text(folder / "real/scene.toml", "2"); }) == Names{"scene.toml"});
 }
 
-TEST_CASE("everything of a kind below a folder, new folders too") {
+TEST_CASE("all files of a kind below a folder are watched, in new folders too") {
   const TemporaryFolder folder;
   fs::create_directories(folder / "shaders/shapes");
   FileWatcher watcher;
@@ -119,7 +119,7 @@ TEST_CASE("everything of a kind below a folder, new folders too") {
   CHECK(changes_during(watcher, [&] { write_text(folder / "shaders/new/x.glsl", "1"); }) == Names{"x.glsl"});
 }
 
-TEST_CASE("a file that is away for a moment counts once it is back") {
+TEST_CASE("a file that is missing for a moment is reported once it is back") {
   const TemporaryFolder folder;
   const std::string file = folder / "scene.toml";
   write_text(file, "1");

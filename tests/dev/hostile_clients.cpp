@@ -42,7 +42,7 @@ size_t resident_bytes() {
 
 }  // namespace
 
-TEST_CASE("requests that are too large cost nothing") {
+TEST_CASE("requests that are too large are refused, and use little memory") {
   const Site site;
   const size_t before = resident_bytes();
   {
@@ -63,7 +63,7 @@ TEST_CASE("requests that are too large cost nothing") {
   CHECK(status(site.get(site.root())) == 200);
 }
 
-TEST_CASE("slow clients are dropped, and keep nobody waiting for ever") {
+TEST_CASE("slow clients are dropped, and do not delay others for ever") {
   WebLimits limits;
   limits.request_seconds = 0.5;
   limits.connections = 4;
@@ -83,7 +83,7 @@ TEST_CASE("slow clients are dropped, and keep nobody waiting for ever") {
   drip.join();
 }
 
-TEST_CASE("silent clients keep nobody waiting") {
+TEST_CASE("silent clients do not delay others") {
   allow_many_files();
   for (const int count : {300, 1000}) {
     const Site site;
@@ -152,7 +152,7 @@ TEST_CASE("a connection has one request") {
   CHECK(site.commands.size() == 1);
 }
 
-TEST_CASE("a body comes in one way alone") {
+TEST_CASE("a request body must use exactly one valid encoding") {
   WebLimits limits;
   limits.request_seconds = 0.5;
   const Site site(0, limits);
@@ -190,7 +190,7 @@ TEST_CASE("a body comes in one way alone") {
   CHECK(status(site.get(site.root())) == 200);
 }
 
-TEST_CASE("it ends at once beside clients in every state") {
+TEST_CASE("the server ends at once, whatever state its clients are in") {
   const Stopwatch watch;
   std::vector<std::unique_ptr<Client>> open;
   {

@@ -37,7 +37,7 @@ two_sided = false      # @checkbox
   CHECK(found[5].type == "bool");
 }
 
-TEST_CASE("for people they have the names of what they belong to") {
+TEST_CASE("the label of a tunable names the owner of its value") {
   const auto found = scene_tunables(R"(
 top = 1.5                 # @slider 0 2
 [camera]
@@ -69,7 +69,7 @@ major = 1.5               # @slider 0 3
         "column: twist\ntorus: major\n");
 }
 
-TEST_CASE("values that no control moves are left alone") {
+TEST_CASE("values that no control can change are ignored") {
   for (const char* line : {"a = \"text\"  # @slider 0 1", "a = 1  # @slider 2 1", "a = [1, 2] # @color",
                            "a = 1  # @checkbox", "# a = 1  # @slider 0 1", "a = 1  # slider 0 1"}) {
     CAPTURE(line);

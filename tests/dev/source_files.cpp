@@ -15,7 +15,7 @@ const SourceFiles::Clock::time_point in_a_while = SourceFiles::Clock::now() + st
 
 }  // namespace
 
-TEST_CASE("bytes count, and not that they were saved") {
+TEST_CASE("a file counts as changed if its bytes changed, not if it was only saved") {
   const TemporaryFolder folder;
   const fs::path file = folder / "a.glsl";
   write_text(file, "1");
@@ -59,7 +59,7 @@ TEST_CASE("a file that was saved while it was read counts as changed") {
   CHECK_FALSE(files.changed().empty());
 }
 
-TEST_CASE("a change without notification is found once it is over") {
+TEST_CASE("a change without notification is found once the file stays the same") {
   const TemporaryFolder folder;
   const fs::path file = folder / "a.glsl";
   write_text(file, "1");

@@ -94,7 +94,7 @@ class Supervised {
 
 }  // namespace
 
-TEST_CASE("a probe that an edit overtakes is asked again, and its answer names the edit") {
+TEST_CASE("a probe that an edit overtakes is repeated, and its answer names the edit") {
   Supervised dev;
   const int first = dev.status().at("edit");
   dev.command(R"({"probe": [3, 4]})");

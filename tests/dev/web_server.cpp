@@ -35,7 +35,7 @@ TEST_CASE("the page, its pictures and values are served under the token") {
     CHECK(status(site.get(site.root() + "values?view=gpu" + pixels)) == 400);
 }
 
-TEST_CASE("nothing without the token, and no file of the machine") {
+TEST_CASE("the server serves nothing without the token, and no file of the machine") {
   const Site site;
   for (const std::string& path : {std::string("/"), std::string("/main.mjs"), std::string("/frame?view=gpu"),
                                   std::string("/0123456789abcdef/"), site.root() + "../../../etc/passwd",
@@ -93,7 +93,7 @@ TEST_CASE("a command that is nested too deep is refused, and the server lives on
   CHECK(status(site.get(site.root())) == 200);
 }
 
-TEST_CASE("it listens on this machine's own addresses alone") {
+TEST_CASE("the server listens only on this machine's own addresses") {
   const Site site;
   CHECK(Client(site.server.port()).connected());
   const std::string wanted = fmt::format(":{:04X}", site.server.port());
@@ -116,7 +116,7 @@ TEST_CASE("it listens on this machine's own addresses alone") {
   }
 }
 
-TEST_CASE("a port that is taken is left to who has it") {
+TEST_CASE("a port in use stays with its owner") {
   const Site first;
   const Site second(first.server.port());
   CHECK(second.server.port() != first.server.port());
@@ -124,7 +124,7 @@ TEST_CASE("a port that is taken is left to who has it") {
   CHECK(status(second.get(second.root())) == 200);
 }
 
-TEST_CASE("a page that is closed leaves its place to the next") {
+TEST_CASE("a closed page frees its connection for the next page") {
   WebLimits limits;
   limits.listeners = 1;
   Site site(0, limits);
@@ -142,7 +142,7 @@ TEST_CASE("a page that is closed leaves its place to the next") {
   CHECK(watch.seconds() < 8);  // not at the next sign of life, which is sent every ten seconds
 }
 
-TEST_CASE("all pages get a status, however long") {
+TEST_CASE("all pages get a status of any length") {
   Site site;
   const auto pages = clients(site, 3);
   for (const auto& page : pages)
@@ -153,7 +153,7 @@ TEST_CASE("all pages get a status, however long") {
   for (const auto& page : pages) CHECK(page->answer("\n\n").find("\"state\":\"next\"}") != std::string::npos);
 }
 
-TEST_CASE("a request that takes long keeps nobody waiting") {
+TEST_CASE("a slow request does not delay others") {
   Site site;
   std::mutex busy;
   site.obey = [&] { const std::lock_guard lock(busy); };

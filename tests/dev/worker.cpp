@@ -77,7 +77,7 @@ TEST_CASE("the way in which a worker ended is reported") {
   CHECK(nothing.kill() == "exit code 127");
 }
 
-TEST_CASE("one that hears nothing is ended all the same") {
+TEST_CASE("a worker that ignores signals is ended too") {
   Worker deaf(shell("trap '' TERM; echo >&$1; while :; do sleep 1; done"));
   deaf.start();
   CHECK_FALSE(deaf.socket().receive(0.2));
@@ -106,7 +106,7 @@ TEST_CASE("bytes that are no message close the socket") {
   }
 }
 
-TEST_CASE("a worker that a debugger holds is known") {
+TEST_CASE("a worker held by a debugger is detected") {
   Worker worker(shell("exec sleep 600"));
   CHECK_FALSE(worker.debugged());
   worker.start();
