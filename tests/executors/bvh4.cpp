@@ -79,7 +79,7 @@ void gather(std::span<const shader::uvec4> nodes, uint32_t width, uint32_t node,
 
 }  // namespace
 
-TEST_CASE("a BVH4 holds each slot of the binary one once, in boxes no smaller, four at most in a leaf") {
+TEST_CASE("a BVH4 holds each slot of the binary BVH once, in boxes no smaller, at most four in a leaf") {
   Random random(3);
   for (const int count : {2, 3, 5, 30, 3000}) {
     Scene scene = test::random_scene(random, count < 30 ? 1 : 20);
@@ -101,7 +101,7 @@ TEST_CASE("a BVH4 holds each slot of the binary one once, in boxes no smaller, f
   }
 }
 
-TEST_CASE("nearest and any: four lanes a ray find what the twin finds, bit by bit") {
+TEST_CASE("nearest and any: four lanes a ray find the twin's hits, bit by bit") {
   gpu::Device device({});
   Random random(11);
   for (const auto& [shapes, triangles, split, texels] : {std::tuple(0, 300, false, true),
@@ -143,8 +143,7 @@ TEST_CASE("nearest and any: four lanes a ray find what the twin finds, bit by bi
   }
 }
 
-TEST_CASE(
-    "four lanes a ray, more steps than a capped driver grants: every answer is the twin's, or flagged") {
+TEST_CASE("four lanes a ray: beyond a capped driver's steps every answer is the twin's, or flagged") {
   gpu::Device device({});
   Scene scene = test::empty_scene();
   const int opaque = test::add(scene, make_phong({}));

@@ -51,9 +51,8 @@ void check_against_twin(gpu::Device& device, const Scene& scene, const PackedSce
 
 }  // namespace
 
-TEST_CASE(
-    "deferred shapes among others in a BVH, with instances and without: the GPU finds what the twin does" *
-    doctest::test_suite("long")) {
+TEST_CASE("deferred shapes among others in a BVH, with and without instances: the GPU finds the twin's hits" *
+          doctest::test_suite("long")) {
   gpu::Device device({});
   for (const std::string file :
        {"scenes/shapes/gallery.toml", "scenes/shapes/csg.toml", "scenes/group_shapes.toml"}) {
@@ -71,9 +70,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE(
-    "deferred shapes among others in instances without a BVH: nothing waits, and the GPU finds what the twin "
-    "does") {
+TEST_CASE("deferred shapes in instances without a BVH do not wait, and the GPU finds the twin's hits") {
   gpu::Device device({});
   const Scene scene = parse_scene(R"(
 render = { groups = "instanced" }

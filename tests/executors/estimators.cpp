@@ -93,7 +93,7 @@ int emissive(Scene& scene, double radiance) {
 
 }  // namespace
 
-TEST_CASE("area lights of every form: shadow rays alone, paths alone, both") {
+TEST_CASE("shadow rays alone, paths alone and both agree for area lights of every form") {
   Scene scene = corner();
   add(scene, make_sphere({1, 1.4, 0.2}, 0.4), emissive(scene, 2));
   add(scene, make_disk({-0.1, 1.4, 0.4}, {0.1, -1, 0}, 0.4), emissive(scene, 3));
@@ -104,7 +104,7 @@ TEST_CASE("area lights of every form: shadow rays alone, paths alone, both") {
                     {"roulette from the first vertex on", {early_roulette}}});
 }
 
-TEST_CASE("an environment with a bright place: shadow rays alone, paths alone, both") {
+TEST_CASE("shadow rays alone, paths alone and both agree for an environment with a bright region") {
   Scene scene = corner();
   scene.environment = environment(32, 16, [](const Vec3& d) {
     return Vec3(0.5 + 4 * std::pow(std::max(0.0, glm::dot(d, glm::normalize(Vec3(1, 1, 0.5)))), 20));
@@ -114,7 +114,7 @@ TEST_CASE("an environment with a bright place: shadow rays alone, paths alone, b
                     {"no roulette", {no_roulette}}});
 }
 
-TEST_CASE("roulette whose survivors are not paid is found") {
+TEST_CASE("the comparison detects roulette that does not weight its survivors") {
   Scene scene = corner();
   add(scene, make_sphere({1, 1.4, 0.2}, 0.4), emissive(scene, 2));
   CHECK(apart(estimated(scene, {}), estimated(scene, {early_roulette, unpaid_roulette})) > 5);

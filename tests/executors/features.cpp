@@ -63,7 +63,7 @@ std::string missing(const Names& from, const Names& names) {
 
 }  // namespace
 
-TEST_CASE("features.h lists what a specialisation and the twin define, and nothing else") {
+TEST_CASE("features.h lists exactly the names that a specialisation and the twin define") {
   CHECK(defined().size() > 40);
   CHECK(missing(listed(), defined()) == "");
   CHECK(missing(defined(), listed()) == "");

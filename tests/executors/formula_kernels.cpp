@@ -89,7 +89,7 @@ std::optional<float> value_at(const formula::Formula& formula, const glm::vec4& 
 
 }  // namespace
 
-TEST_CASE("kernels of formulas at random compute the interpreter's bits, wherever indices point") {
+TEST_CASE("kernels of random formulas compute the interpreter's bits, wherever indices point") {
   gpu::Device device({});
   constexpr int in_a_kernel = 8;
   size_t compared = 0, different = 0;
@@ -125,7 +125,7 @@ TEST_CASE("kernels of formulas at random compute the interpreter's bits, whereve
   CHECK(different == 0);
 }
 
-TEST_CASE("formulas without anything undefined are what a driver makes of their text") {
+TEST_CASE("formulas without undefined operations have the values that a driver computes from their text") {
   gpu::Device device({});
   size_t compared = 0, different = 0;
   for (int k = 0; k < test::amount(12, 12, 3000); ++k) {

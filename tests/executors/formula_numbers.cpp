@@ -102,7 +102,7 @@ TEST_CASE("a kernel that loads the numbers of formulas suits other parameters to
   }
 }
 
-TEST_CASE("numbers that are loaded give the same bits as those in the kernel's text") {
+TEST_CASE("loaded numbers give the same bits as numbers in the kernel's text") {
   for (const Scene& scene : {scene_of(0.3, 0.7, 0.9, 0.8, 0.55), scene_of(0.25, 0.125, 0.5, 0.25, 0.5)}) {
     const auto loaded = samples(scene, Backend::gpu, true);
     for (const auto& other : {samples(scene, Backend::gpu, false), samples(scene, Backend::twin, false)})

@@ -27,7 +27,7 @@ Taken take(Executor& executor, const Grid& grid, bool auxiliaries) {
 
 }  // namespace
 
-TEST_CASE("a grid's width and height count what a stride leaves") {
+TEST_CASE("a grid's width and height count the pixels that a stride leaves") {
   const Grid grid({3, 5, 10, 7}, 3);
   CHECK(grid.width() == 4);
   CHECK(grid.height() == 3);
@@ -35,7 +35,7 @@ TEST_CASE("a grid's width and height count what a stride leaves") {
   CHECK(Grid({0, 0, 10, 7}).pixels() == 70);
 }
 
-TEST_CASE("every third pixel is that of the whole picture, bit by bit, however rays are traced") {
+TEST_CASE("every third pixel equals the whole picture's pixel, bit by bit, however rays are traced") {
   struct Way {
     Backend backend;
     const char* rays;

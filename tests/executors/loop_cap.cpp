@@ -79,7 +79,7 @@ void check_right_or_flagged(const Scene& scene, Executor& gpu, Executor& twin) {
 
 }  // namespace
 
-TEST_CASE("more iterations than a capped driver grants: every pixel is the twin's, or flagged") {
+TEST_CASE("beyond a capped driver's iterations every pixel is the twin's, or flagged") {
   const Scene scene = hall_of_mirrors(1200, 60);
   const auto gpu = make_executor(Backend::gpu, scene, one_by_one());
   const auto twin = make_executor(Backend::twin, scene, one_by_one());
@@ -102,8 +102,7 @@ TEST_CASE("a scene too large for one ray on a capped driver is refused with the 
   }
 }
 
-TEST_CASE(
-    "iterations round outlines count: every pixel is the twin's, or flagged, and too many are refused") {
+TEST_CASE("iterations around outlines count: pixels are the twin's or flagged, and too many are refused") {
   // A ray and its shadow ray take 8 000 iterations with one ring, 24 000 with three.
   for (const int rings : {1, 3}) {
     const Scene scene = hall_of_rings(rings, 4);
@@ -123,7 +122,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("more iterations in a BVH than a capped driver grants: every pixel is the twin's, or flagged") {
+TEST_CASE("beyond a capped driver's iterations in a BVH every pixel is the twin's, or flagged") {
   // No box separates these spheres: a ray tests them all, and the first one is the nearest.
   constexpr int count = 70'000;
   Scene scene = test::empty_scene();
@@ -158,8 +157,7 @@ TEST_CASE("more iterations in a BVH than a capped driver grants: every pixel is 
 }
 
 TEST_CASE(
-    "whichever loop a driver cuts off, in a BVH or in the linear list: what is taken from a ray is right, or "
-    "flagged") {
+    "whichever loop a driver cuts off, in a BVH or the linear list, a ray's occlusion is right or flagged") {
   // The spheres absorb so little that a ray goes through all of them.
   constexpr int count = 70'000;
   Scene scene = test::empty_scene();

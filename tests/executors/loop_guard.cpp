@@ -40,7 +40,7 @@ TEST_CASE("each kind of loop counts its iterations where its condition is") {
         "void f() { for (int i = g(1, 2);may_iterate(B) && ( i < h(3)); i++) c(); }");
 }
 
-TEST_CASE("loops inside of one another share a bit, later ones have another") {
+TEST_CASE("nested loops share a bit, and later loops have another") {
   CHECK(
       guarded("void f() {\n  while (a) {\n    do { for (;b;) c(); } while (d);\n  }\n  while (e) {}\n}\n") ==
       "void f() {\n  while (may_iterate(B) && (a)) {\n    do { for (;may_iterate(B) && (b);) c(); } while "
@@ -59,7 +59,7 @@ TEST_CASE("comments, directives and names that only look like loops stay as they
     CHECK(guarded(text) == text);
 }
 
-TEST_CASE("functions that eyeray has as they are cost nothing, whatever stands around them") {
+TEST_CASE("functions that equal eyeray's own cost nothing, whatever surrounds them") {
   const std::string own = "float f() {\n  while (a) b();\n}\nfloat g() { while (c) d(); }\n";
   LoopGuard guard(7);
   CHECK(guard.guard("a.glsl", own, own) == own);
@@ -71,7 +71,7 @@ TEST_CASE("functions that eyeray has as they are cost nothing, whatever stands a
         "float f() {\n  while (a) b();\n}\nfloat g() { while (may_iterate(256u) && (c)) e(); }\n");
 }
 
-TEST_CASE("the error names the loop that was stopped, or those that may be meant") {
+TEST_CASE("the error names the stopped loop, or the candidates") {
   LoopGuard guard(7);
   const uint32_t stopped = FLAG_ENDLESS_LOOP;
   guard.guard("mine/a.glsl", "void f() {}", "");

@@ -26,7 +26,7 @@ Error error_of(ShaderFiles files) {
 
 }  // namespace
 
-TEST_CASE("a shader of eyeray's own that does not compile is eyeray's fault, and a user's is the user's") {
+TEST_CASE("a built-in shader that does not compile is an internal error, a user's is bad input") {
   const std::string nonsense = "nonsense;\n";
   const Error own = error_of(ShaderFiles({}, nonsense));
   const std::string message = own.what();

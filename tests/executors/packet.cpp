@@ -55,7 +55,7 @@ std::vector<shader::QueryRay> picture(Random& random, int size, int strays) {
 
 }  // namespace
 
-TEST_CASE("nearest and any: rays in packets find what the twin finds, bit by bit") {
+TEST_CASE("nearest and any: rays in packets find the twin's hits, bit by bit") {
   gpu::Device device({});
   Random random(17);
   // If a BVH holds only triangles, its rays take turns in another way.

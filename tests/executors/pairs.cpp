@@ -315,7 +315,7 @@ TEST_CASE("random scenes that combine everything pass every gate") {
   for (uint64_t seed = 1; seed <= 3; ++seed) check_verified(seed);
 }
 
-TEST_CASE("… 60 of them" * doctest::test_suite("long")) {
+TEST_CASE("60 random scenes that combine everything pass every gate" * doctest::test_suite("long")) {
   for (uint64_t seed = 1; seed <= 60; ++seed) check_verified(seed);
 }
 

@@ -72,7 +72,7 @@ RayCounts counted(std::span<const PixelSample> samples) {
 }  // namespace
 
 TEST_CASE(
-    "GPU and twin count the same rays of each kind in every pixel, in wavefronts too; the reference nearly" *
+    "GPU and twin count each pixel's rays of each kind alike, in wavefronts too, the reference nearly so" *
     doctest::test_suite("long")) {
   for (const std::string material : {"glass", "floor"}) {
     CAPTURE(material);
@@ -102,7 +102,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("the kinds of each pixel's rays are the means of its samples, in bands too") {
+TEST_CASE("each pixel's ray kinds are the means of its samples, in bands too") {
   Scene scene = parse_scene(stage + things("glass"), "scene.toml");
   scene.image.samples = 3;
   ExecutorOptions options;
@@ -140,7 +140,7 @@ TEST_CASE("the kinds of each pixel's rays are the means of its samples, in bands
               [&](const film::Rows& rows) { CHECK_FALSE(film::contains(rows.channels, kinds)); });
 }
 
-TEST_CASE("between two mirrors a ray is reflected as often as it may be") {
+TEST_CASE("a ray between two mirrors is reflected max_depth times") {
   const Scene scene = parse_scene(R"(
 [image]
 width = 8
@@ -177,7 +177,7 @@ material = "mirror"
   }
 }
 
-TEST_CASE("light that cannot leave glass is a total reflection, and no refracted ray") {
+TEST_CASE("light that cannot leave glass counts as a total reflection, not as a refracted ray") {
   // From inside, past the critical angle of 41.8° everywhere.
   const Scene scene = parse_scene(R"(
 [image]

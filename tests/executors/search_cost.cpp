@@ -25,8 +25,7 @@ std::vector<FirstHit> first_hits(const Scene& scene, Backend backend, bool searc
 
 }  // namespace
 
-TEST_CASE(
-    "GPU and twin search alike: through TLAS and BLASes, deferred shapes, CSG objects and a linear list") {
+TEST_CASE("GPU and twin have the same search cost in TLAS, BLASes, deferred shapes, CSG objects and lists") {
   for (const std::string name :
        {"whitted", "sphereflake", "group_instances", "scattered", "shapes/gallery"}) {
     CAPTURE(name);
@@ -42,7 +41,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("by brute force every ray tests every primitive; and what is not counted is said to be unknown") {
+TEST_CASE("by brute force every ray tests every primitive, and uncounted costs are marked unknown") {
   const Scene scene = loader::parse_scene(R"(
 [image]
 width = 8

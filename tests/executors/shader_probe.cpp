@@ -96,7 +96,7 @@ void check_pixels(const std::string& file, int count) {
 
 }  // namespace
 
-TEST_CASE("nothing of PROBE is left in kernels that do not record") {
+TEST_CASE("kernels that do not record contain nothing of PROBE") {
   const PackedScene packed = pack::pack(loader::load_scene("scenes/whitted.toml"));
   for (const char* entry :
        {"kernels/render.comp.glsl", "kernels/wavefront.comp.glsl", "kernels/query.comp.glsl"}) {
@@ -113,11 +113,12 @@ TEST_CASE("nothing of PROBE is left in kernels that do not record") {
   }
 }
 
-TEST_CASE("GPU and twin have the same rays with the same values, and they make the pixel") {
+TEST_CASE("GPU and twin record the same rays and values, and these add up to the pixel") {
   for (const char* scene : {"scenes/whitted.toml", "scenes/meshes.toml"}) check_pixels(scene, 6);
 }
 
-TEST_CASE("… in every kind of scene" * doctest::test_suite("long")) {
+TEST_CASE("GPU and twin record the same rays and values in every kind of scene" *
+          doctest::test_suite("long")) {
   for (const char* scene :
        {"scenes/alpha.toml", "scenes/cornell.toml", "scenes/inside_glass.toml", "scenes/textures.toml",
         "scenes/group_instances.toml", "scenes/sphereflake.toml", "scenes/orthographic.toml",
@@ -126,7 +127,7 @@ TEST_CASE("… in every kind of scene" * doctest::test_suite("long")) {
     check_pixels(scene, 6);
 }
 
-TEST_CASE("a user's PROBE shows values of every type, where they are and at which ray") {
+TEST_CASE("a user's PROBE records values of every type, with their line and their ray") {
   const test::TemporaryFolder folder;
   const std::string before = "  bool deeper = path.depth < frame.max_depth;\n";
   const std::string text = test::replaced(test::own_shader("integrators/whitted.glsl"), before,
@@ -172,7 +173,7 @@ TEST_CASE("a user's PROBE shows values of every type, where they are and at whic
   CHECK(seen > 3);
 }
 
-TEST_CASE("records beyond the room are counted") {
+TEST_CASE("records beyond the buffer's capacity are counted") {
   const std::map<std::string, std::string, std::less<>> files{{"a.glsl", "PROBE(x, 1.0f);\n"}};
   const ShaderProbe probe(files);
   std::vector<shader::ProbeRecord> records(3);

@@ -46,7 +46,7 @@ std::vector<QueryHit> ask(Executor& executor, std::span<const Query> rays, Query
 
 }  // namespace
 
-TEST_CASE("iteration limits: each way to trace flags the same rays, and all others are right") {
+TEST_CASE("at iteration limits each way to trace flags the same rays, and all others are right") {
   const test::TemporaryFolder folder;
   const std::string shaders = test::lay_fault(folder, "steps");
   const Scene scene = crowd();

@@ -38,7 +38,7 @@ ProfileOptions rays(const std::string& how) {
 
 }  // namespace
 
-TEST_CASE("pictures of a million samples want wide vectors, but for big scenes in packets") {
+TEST_CASE("pictures of a million samples want wide vectors, except big scenes in packets") {
   const records::PackedScene few = spheres(3), many = spheres(2000), most = spheres(17'000);
   for (const records::PackedScene* scene : {&few, &many, &most}) {
     CHECK_FALSE(wants_wide_vectors({}, picture(768, 768), *scene));
@@ -53,7 +53,7 @@ TEST_CASE("pictures of a million samples want wide vectors, but for big scenes i
   CHECK_FALSE(wants_wide_vectors({}, picture(2048, 2048), gathering));
 }
 
-TEST_CASE("packets trace big pictures where vectors are narrow, or where they are asked for") {
+TEST_CASE("packets trace big pictures if vectors are narrow, or on request") {
   const records::PackedScene scene = spheres(2000);
   gpu::DeviceInfo cpu;
   cpu.type = gpu::DeviceType::cpu;

@@ -64,7 +64,7 @@ TEST_CASE("other constants stay as they are") {
   CHECK(tunables.found().empty());
 }
 
-TEST_CASE("an executor's next sample is by the values chosen now, its photons too") {
+TEST_CASE("an executor's next sample and photons use the values chosen now") {
   const Scene scene = loader::load_scene(
       "scenes/sppm/points.toml",
       std::vector<loader::Override>{{"image.width=24"}, {"image.height=18"}, {"render.photons=4096"}});

@@ -27,7 +27,7 @@ std::string chosen(const std::string& setting) {
 
 }  // namespace
 
-TEST_CASE("every value of a key chooses another thing") {
+TEST_CASE("every value of a key makes a different choice") {
   for (const Tuning& tuning : tunings()) {
     std::set<std::string> seen;
     for (const std::string_view value : tuning.values) {

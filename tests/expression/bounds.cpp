@@ -66,7 +66,7 @@ Report bound_often(const expression::StraightLine& function, const F& f, double 
 
 }  // namespace
 
-TEST_CASE("surfaces: 20 000 pieces each, and no value escapes") {
+TEST_CASE("bounds of surfaces enclose every value, in 20 000 pieces each") {
   for (const test::TestSurface& surface : test::test_surfaces()) {
     CAPTURE(surface.name);
     const formula::Formula formula({surface.glsl, {}}, {}, "it");
@@ -80,7 +80,7 @@ TEST_CASE("surfaces: 20 000 pieces each, and no value escapes") {
   }
 }
 
-TEST_CASE("each function of GLSL: 10 000 pieces, and no value escapes") {
+TEST_CASE("bounds of each GLSL function enclose every value, in 10 000 pieces") {
   struct Row {
     const char* glsl;
     double (*f)(double x, double y, double z);
@@ -150,7 +150,8 @@ TEST_CASE("each function of GLSL: 10 000 pieces, and no value escapes") {
   }
 }
 
-TEST_CASE("a square is known to be one, and affine bounds shrink with the square of the piece") {
+TEST_CASE(
+    "a product of equal factors is bounded as a square, and affine bounds shrink with the piece's square") {
   const expression::StraightLine square = test::straight_line("float f(vec3 p) { return p.x * p.x; }");
   const shader::vec3 e = test::bound_piece(square, {}, {1, 0, 0}, 0, 1);
   CHECK(e.x == doctest::Approx(0.5));

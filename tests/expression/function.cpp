@@ -33,7 +33,7 @@ std::string refusal(const std::string& glsl) {
 
 }  // namespace
 
-TEST_CASE("a expression computes what the text says") {
+TEST_CASE("an expression computes the value of its text") {
   for (const test::TestSurface& surface : test::test_surfaces()) {
     CAPTURE(surface.name);
     const expression::StraightLine function = test::straight_line(surface.glsl);
@@ -78,7 +78,7 @@ TEST_CASE("the gradient is the derivative") {
   }
 }
 
-TEST_CASE("the texts are GLSL") {
+TEST_CASE("the generated texts compile as GLSL") {
   const gpu::SourceProvider shaders = [](std::string_view path) -> std::optional<std::string> {
     std::ifstream file("shaders/" + std::string(path));
     if (!file) return std::nullopt;
@@ -98,7 +98,7 @@ TEST_CASE("the texts are GLSL") {
   }
 }
 
-TEST_CASE("loops, calls and branches come down to what they compute") {
+TEST_CASE("loops, calls and branches become straight-line code") {
   const auto text = [](const std::string& glsl) {
     const expression::StraightLine function = test::straight_line(glsl);
     return expression::bound_text(function, "f");

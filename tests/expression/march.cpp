@@ -92,7 +92,7 @@ Count march_often(const test::TestSurface& surface, int rays) {
 
 }  // namespace
 
-TEST_CASE("however short a march's finest piece is, it gets to its end") {
+TEST_CASE("a march reaches its end, however short its finest piece is") {
   const expression::StraightLine one = test::straight_line("float f(vec3 p) { return p.x + 1.0; }");
   Random random(3);
   for (int i = 0; i < 10'000; ++i) {
@@ -104,7 +104,7 @@ TEST_CASE("however short a march's finest piece is, it gets to its end") {
   }
 }
 
-TEST_CASE("2 000 rays at each surface: no root is missed, none comes out of nothing") {
+TEST_CASE("2 000 rays at each surface miss no root and find no false one") {
   for (const test::TestSurface& surface : test::test_surfaces()) {
     CAPTURE(surface.name);
     const Count count = march_often(surface, 2'000);
@@ -120,8 +120,7 @@ TEST_CASE("2 000 rays at each surface: no root is missed, none comes out of noth
   }
 }
 
-TEST_CASE(
-    "rays that skim the Mandelbulb hit it where f changes its sign, not anywhere that its bound allows") {
+TEST_CASE("rays that skim the Mandelbulb hit it where f changes its sign, not wherever its bound allows") {
   // On this surface, a bound may be hundreds of times as wide as float32's rounding.
   const test::TestSurface& bulb =
       *std::ranges::find(test::test_surfaces(), "mandelbulb", &test::TestSurface::name);
@@ -152,7 +151,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "flakes of the Mandelbulb are hit where float32 tells them, however much its bound allows for rounding") {
+    "rays hit flakes of the Mandelbulb that float32 resolves, however much its bound allows for rounding") {
   const test::TestSurface& bulb =
       *std::ranges::find(test::test_surfaces(), "mandelbulb", &test::TestSurface::name);
   const expression::StraightLine function = test::straight_line(bulb.glsl);

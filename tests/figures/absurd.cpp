@@ -98,7 +98,7 @@ bool can_be_hit(const Shape& shape, const PackedScene& packed, Random& random) {
 
 }  // namespace
 
-TEST_CASE("absurd shapes are refused or can be computed with") {
+TEST_CASE("absurd shapes are refused or give finite results") {
   for (const shapes::ShapeType* type : shapes::types()) {
     Random random{7};
     int accepted = 0, refused = 0, wrong = 0;
@@ -129,7 +129,7 @@ TEST_CASE("absurd shapes are refused or can be computed with") {
   }
 }
 
-TEST_CASE("a cone has uv at its tip, however flat it is, and on a cap there that rounding makes a point") {
+TEST_CASE("a cone has uv at its tip, however flat, and on a tip cap that rounding shrinks to a point") {
   Random random{8};
   for (const double radius : {1.0, 1e5, 1e9, 1e12})
     for (const double tip : {0.0, 1e-9, 1.05}) {

@@ -93,7 +93,7 @@ PackedScene packed(const Shape& shape) {
 
 }  // namespace
 
-TEST_CASE("Bézier patches that are all waves, or fold beyond their borders: no hit is missed") {
+TEST_CASE("rays miss no hit on Bézier patches that are all waves, or fold beyond their borders") {
   for (const Case& each : cases) {
     CAPTURE(each.what);
     const auto patch = make_bezier(each.net);

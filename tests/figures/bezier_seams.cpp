@@ -41,8 +41,7 @@ enum class Aim { seams, corners, poles };
 
 }  // namespace
 
-TEST_CASE(
-    "rays from within a ball of Bézier patches, at borders of pieces, corners and poles: none leaves it") {
+TEST_CASE("no ray leaves a ball of Bézier patches at borders of pieces, corners or poles") {
   const char* names[] = {"borders", "corners", "poles"};
   for (const Aim aim : {Aim::seams, Aim::corners, Aim::poles}) {
     std::atomic<int> rays = 0, leaks = 0, doubtful = 0;

@@ -29,7 +29,7 @@ std::vector<Case> unit_squares() {
 
 }  // namespace
 
-TEST_CASE("a hit on the border, where u = v = 1, is just before what begins there, in both halves") {
+TEST_CASE("a hit on the border u = v = 1 has uv just below 1, in both halves") {
   for (const Case& each : unit_squares()) {
     CAPTURE(each.what);
     Packer packer(Vec3(0));

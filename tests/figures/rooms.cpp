@@ -327,7 +327,7 @@ void follow_paths(const PackedScene& scene, const Vec3& position, bool at_edges,
 }  // namespace
 
 // --subcase=NAME follows only the paths in one room.
-TEST_CASE("closed rooms: paths that bounce about within stay, at random and from edge to edge") {
+TEST_CASE("paths that bounce within closed rooms stay inside, at random and from edge to edge") {
   const int paths = test::amount(500, 2'000, 1'250'000);
   for (const auto& [name, text] : rooms_with_cuts()) {
     SUBCASE(name.c_str()) {

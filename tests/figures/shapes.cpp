@@ -186,13 +186,13 @@ void check_first_hits(const std::string& name, const Make& make, double distance
 
 }  // namespace
 
-TEST_CASE("first hits at distances 1 … 1e4: no wrong answer but where a ray grazes") {
+TEST_CASE("first hits at distances 1 … 1e4 are right, except where a ray grazes") {
   for (const auto& [name, make] : shape_makers()) {
     for (const double distance : {1.5, 1e1, 1e2, 1e3, 1e4}) check_first_hits(name, make, distance);
   }
 }
 
-TEST_CASE("every closed shape as a part of CSG objects: first hits, no wrong answer but where a ray grazes") {
+TEST_CASE("first hits of CSG objects with every closed shape are right, except where a ray grazes") {
   std::set<std::string> closed;
   for (const auto& [name, make] : shape_makers()) {
     Random random{1};
@@ -227,7 +227,7 @@ TEST_CASE("every closed shape as a part of CSG objects: first hits, no wrong ans
   CHECK(closed == listed);
 }
 
-TEST_CASE("rays that leave, sizes 1e-4 … 1e4: none hits its surface again, every hit is on it") {
+TEST_CASE("no leaving ray hits its surface again, and every hit is on it, for sizes 1e-4 … 1e4") {
   for (const auto& [name, make] : shape_makers()) {
     std::atomic<int> left = 0, rehits = 0, bent_back = 0, off = 0, along = 0;
     for_shapes(make, [&](const Sample& sample, Random& random) {
@@ -279,7 +279,7 @@ TEST_CASE("rays that leave, sizes 1e-4 … 1e4: none hits its surface again, eve
   }
 }
 
-TEST_CASE("every shape that has bounds has its figures") {
+TEST_CASE("every shape with bounds has a test maker") {
   for (const shapes::ShapeType* type : shapes::types())
     if (type->name != "plane") CHECK_MESSAGE(shape_makers().contains(std::string(type->name)), type->name);
 }

@@ -89,7 +89,7 @@ void look(const Shape& shape, const PackedScene& scene, const Ray& ray, double s
 
 }  // namespace
 
-TEST_CASE("u and v grow over every shape as both halves say") {
+TEST_CASE("derivatives of u and v agree in both halves on every shape") {
   for (const auto& maker : test::shape_makers()) {
     const auto& name = maker.first;
     const auto& make = maker.second;

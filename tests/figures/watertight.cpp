@@ -119,8 +119,7 @@ Mat4 turned(const Placement& placement, double degrees) {
 
 }  // namespace
 
-TEST_CASE(
-    "a gear's face of 36 teeth, a ring with a hole and a hub: each ray at their seams hits one of them") {
+TEST_CASE("each ray at the seams of a 36-tooth gear's teeth, ring and hub hits exactly one of them") {
   for (const Placement& placement : placements) {
     for (const double degrees : {0.0, 40.0}) {
       const Mat4 map = turned(placement, degrees);
@@ -159,7 +158,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a closed gear: no ray from within passes at edges or vertices, walls of any kind") {
+TEST_CASE("no ray from within a closed gear passes at edges or vertices, with walls of any kind") {
   constexpr const char* names[] = {"walls of polygons", "walls of polygons and triangles",
                                    "walls of all kinds"};
   for (const int kinds : {1, 2, 3}) {

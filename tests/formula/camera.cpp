@@ -23,7 +23,7 @@ std::string fault_of_camera(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("a camera is a function of a place in the picture and one on the lens") {
+TEST_CASE("a camera is a function of a point in the picture and a point on the lens") {
   CHECK(fault_of_camera("vec3 direction(vec2 place, vec2 lens) { return vec3(place, 1.0); }") == "");
   CHECK(fault_of_camera("vec3 direction(const in vec2 a, in vec2 b) { return vec3(a, 1.0); }") == "");
   const std::string missing = "10:1: the text must have a function `vec3 direction(vec2 place, vec2 lens)`";
@@ -34,7 +34,8 @@ TEST_CASE("a camera is a function of a place in the picture and one on the lens"
   CHECK(fault_of_camera("vec3 origin(vec2 place, vec2 lens) { return vec3(place, 1.0); }") == missing);
 }
 
-TEST_CASE("directions and origins of rays, in float32's bits and in float64; without an origin, the eye") {
+TEST_CASE(
+    "rays have directions and origins in float32's bits and in float64; the default origin is the eye") {
   const std::string text =
       "vec3 direction(vec2 place, vec2 lens) {\n  place.x *= scale;\n  return vec3(place, 1.0 / 3.0);\n}\n";
   const formula::Formula from_eye = camera(text, {{"scale", {0.1}}});

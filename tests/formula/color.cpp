@@ -35,7 +35,7 @@ TEST_CASE("a colour is a function of uv") {
         "10:1: no parameter can be named `color`: that is the function's name");
 }
 
-TEST_CASE("a colour's bits in float32, and float64 beside them") {
+TEST_CASE("a colour has exact bits in float32, and a float64 value") {
   // Parameters, arrays, a uv that is written to, a function that has the name of a surface's.
   const formula::Formula formula = color(
       "vec3 gradient(vec3 p) { return p * p; }\n"
@@ -55,7 +55,7 @@ TEST_CASE("a colour's bits in float32, and float64 beside them") {
   CHECK(both[2] == doctest::Approx(1.0 / 9).epsilon(1e-7));  // a literal in the text is float32
 }
 
-TEST_CASE("the same text as another kind's is another formula") {
+TEST_CASE("the same text as another kind is a different formula") {
   const std::string text = "float f(vec3 p) { return p.x; }\nvec3 color(vec2 uv) { return vec3(uv, 1.0); }\n";
   const formula::Formula surface({text, {}}, {}, "it");
   const formula::Formula colored = color(text);

@@ -19,7 +19,7 @@ float result_of(const std::string& body, const std::string& before = "") {
 
 }  // namespace
 
-TEST_CASE("formulas at random, of constants and of what is computed, give what the rules say") {
+TEST_CASE("random formulas of constants and computed values give the results of the rules") {
   const int count = test::amount(2'000, 30'000, 1'000'000);
   for (int i = 0; i < count; ++i) {
     const test::KnownFormula known(test::seed() * 10'000'000 + uint64_t(i));
@@ -75,7 +75,7 @@ TEST_CASE("constants are computed in float32, one operation after the other") {
         tenth * 0.7f);
 }
 
-TEST_CASE("constants of every shape, chosen between, shadowed, read at constant and computed places") {
+TEST_CASE("constants of every shape can be selected, shadowed, and read at constant and computed indices") {
   const std::string table =
       "const bool odd = 3 % 2 == 1;\nconst int n = odd ? 2 : 5;\nconst float t[4] = float[4](1.0, 2.0 * 2.0, "
       "float(n), -8.0), u = 0.5;\nconst vec3 v = vec3(u, t[1], t[n]);\n";

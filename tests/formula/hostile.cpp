@@ -45,7 +45,7 @@ const std::string odd_size = "the size of an array must be a decimal number from
 
 }  // namespace
 
-TEST_CASE("an array has the size that everybody reads, or none") {
+TEST_CASE("an array's size is a plain decimal number, or the array is refused") {
   for (const std::string size :
        {"0100", "0x10", "1u", "0", "1025", "4 + 4", "99999999999999999999", "-1", "n"}) {
     CAPTURE(size);
@@ -55,7 +55,7 @@ TEST_CASE("an array has the size that everybody reads, or none") {
   CHECK(refusal_of_f("float a[2][2]; return p.x;") == "arrays of arrays are not supported");
 }
 
-TEST_CASE("a loop whose counter is written to in any way ends, by the count of its turns") {
+TEST_CASE("a loop whose counter is written to in any way ends by its iteration count") {
   for (const std::string store : {"i &= 0;", "i %= 1;", "(i) = 0;", "i |= 0; i = 0;", "i ^= i;", "i--;",
                                   "int k = i; i -= k;", "i <<= 31;", "i >>= 31;"}) {
     CAPTURE(store);
@@ -66,7 +66,7 @@ TEST_CASE("a loop whose counter is written to in any way ends, by the count of i
   CHECK(is_endless("for (int i = 0; i <= 2147483647; i++) p.y += p.x;\nreturn p.y;"));
 }
 
-TEST_CASE("calls are counted as what they come to") {
+TEST_CASE("calls count with all the instructions that they expand to") {
   std::string chain = "float g0(float x) { return sin(x); }\n";
   for (int i = 1; i < 40; ++i)
     chain += fmt::format(
@@ -110,7 +110,7 @@ TEST_CASE("text that is too long or too deep is refused before a compiler sees i
   CHECK(refusal(table + ");\nfloat f(vec3 p) { return t[int(p.x)].y; }\n") == "");
 }
 
-TEST_CASE("nobody can read two functions out of one text") {
+TEST_CASE("a text that could be read as two different functions is refused") {
   CHECK(refusal_of_f("// \\\nreturn 1.0;\nreturn dot(p, p) - 0.64;") ==
         "a comment must not end in a backslash: in GLSL the next line would be part of it");
   CHECK(refusal_of_f("// \\\r\nreturn 1.0;") ==
@@ -134,7 +134,7 @@ TEST_CASE("indices reach nothing beyond their arrays") {
     CHECK(formula.value(std::array{far, far, far}) == (far > 0 && far < 2e9f ? 710.0f : 217.0f));
 }
 
-TEST_CASE("arrays are chosen between as a whole") {
+TEST_CASE("a condition selects whole arrays") {
   for (const std::string index : {"1", "int(p.y)"}) {
     CAPTURE(index);
     const formula::Formula formula({"float f(vec3 p) {\n  vec2 a[2], b[2], c[2];\n"
@@ -151,7 +151,7 @@ TEST_CASE("arrays are chosen between as a whole") {
   }
 }
 
-TEST_CASE("a formula within the limits is no longer than drivers compile in seconds") {
+TEST_CASE("a formula's straight-line code is limited to a length that drivers compile in seconds") {
   const auto why = [](int terms) -> std::string {
     const formula::Formula formula(
         {"float f(vec3 p) {\n float s = p.x;\n" + times(terms, "s = s * p.y + 0.5;\n") + "return s;\n}\n",
@@ -169,7 +169,7 @@ TEST_CASE("a formula within the limits is no longer than drivers compile in seco
       "; at most 512 are allowed; so no interval can be computed for it: declare a `lipschitz`"));
 }
 
-TEST_CASE("an array is held to its size wherever it is declared") {
+TEST_CASE("an array's size is limited wherever it is declared") {
   for (const uint64_t size : {1025ull, 65536ull, 1ull << 28, 1ull << 29, 1ull << 30, 1ull << 31, 715827883ull,
                               1431655766ull, 4294967295ull, 1ull << 32, (1ull << 32) + 1, 1ull << 62}) {
     const std::string list = fmt::format("[{}]", size);
@@ -201,7 +201,7 @@ TEST_CASE("an array is held to its size wherever it is declared") {
                      "b[i] = vec4(1); c[i] = b[i]; d[i] = c[i]; return d[i + 1].x;") != "");
 }
 
-TEST_CASE("all variables together are limited, whatever becomes of them") {
+TEST_CASE("all variables together are limited, whatever their use") {
   std::string names = "vec4 a0[1024]";
   for (int i = 1; i < 400; ++i) names += fmt::format(", a{}[1024]", i);
   std::string touched;
@@ -210,7 +210,7 @@ TEST_CASE("all variables together are limited, whatever becomes of them") {
         "the formula's variables together have more than 1048576 numbers: use smaller arrays");
 }
 
-TEST_CASE("no construct, however often it is written, takes a compiler deeper than it can go") {
+TEST_CASE("no repeated construct takes a compiler deeper than it can go") {
   const auto refused = [](const std::string& body) { return refusal_of_f(body) != ""; };
   // 600 and 10 000 repetitions fit in a text of 64 KiB; 100 000 do not.
   for (const int count : {600, 10000, 100000}) {

@@ -22,7 +22,7 @@ std::string faults_of(const std::string& text, std::vector<formula::FormulaParam
 
 }  // namespace
 
-TEST_CASE("text that is no formula is refused at its place") {
+TEST_CASE("text that is no formula is refused at the fault's position") {
   CHECK(faults_of("float f(vec3 p) { return p.x; }") == "");
   CHECK(faults_of("float g(vec3 p) { return p.x; }") ==
         "10:1: the text must have a function `float f(vec3 p)`\n");
@@ -72,7 +72,7 @@ TEST_CASE("a kernel has operations on numbers, private names, and nothing to fol
   CHECK_FALSE(formula.loops());
 }
 
-TEST_CASE("loops are counted, but those whose few turns are written out") {
+TEST_CASE("loops are counted, except loops with few iterations, which are unrolled") {
   const auto counted = [](const std::string& loop) {
     const formula::Formula formula(
         {"float g(float x) { return x; }\nvoid h(inout int i) { i = 0; }\nfloat f(vec3 p) { " + loop +

@@ -45,7 +45,7 @@ TEST_CASE("formulas are computed as GLSL defines") {
   CHECK(value_of("float class = 2.0; float this = class; return this;") == doctest::Approx(2));
 }
 
-TEST_CASE("nothing is undefined: divisions by 0, places outside of arrays, functions without an end") {
+TEST_CASE("divisions by 0, indices outside arrays and functions without a final return are defined") {
   CHECK(value_of("int zero = int(p.x); return float(7 / zero) + float(7 % zero);") == 0);
   CHECK(value_of("float a[2] = float[2](1.0, 2.0); return a[int(p.z) * 1000];") == 2);
   CHECK(value_of("int i = 2147483647; i++; return float(i);") == -2147483648.0);
@@ -90,7 +90,7 @@ TEST_CASE("whole numbers wrap around, shifts are masked, indices are clamped") {
                  "float g(float x, int i) { float t; if (i == 0) t = 5.0; return t; }\n") == 5);
 }
 
-TEST_CASE("ways through loops and functions") {
+TEST_CASE("loops and functions follow every control flow") {
   CHECK(value_of("float s = 0.0; for (int i = 0; i < 9; i++) { if (i == 2) continue; if (i == 5) break; s += "
                  "float(i); } return s;") == 8);
   CHECK(value_of("float s = 0.0; int i = 0; while (true) { i++; if (i % 2 == 0) continue; s += float(i); if "
@@ -123,7 +123,7 @@ TEST_CASE("a loop that does not end is an error, and the program goes on") {
   }
 }
 
-TEST_CASE("the formulas that come with eyeray are as steep as they say, and their gradients are right") {
+TEST_CASE("built-in formulas are no steeper than their Lipschitz bounds, and their gradients are right") {
   for (const ReadyFormula& ready : ready_formulas()) {
     if (!ready.lipschitz) continue;
     CAPTURE(ready.name);

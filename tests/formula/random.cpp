@@ -28,7 +28,7 @@ uint64_t bits_at(const formula::Formula& formula, const Vec3& p) {
 
 }  // namespace
 
-TEST_CASE("formulas at random are refused with words or run to an end, each time to the same bits") {
+TEST_CASE("random formulas are refused with a message, or end each time with the same bits") {
   const int count = test::amount(1'000, 10'000, 1'000'000);
   int accepted = 0;
   for (int i = 0; i < count; ++i) {

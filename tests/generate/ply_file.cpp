@@ -53,7 +53,7 @@ TEST_CASE("a PLY file has its header, then vertices, then faces, little-endian")
   CHECK(text.substr(header.size() + 72) == std::string("\3\0\0\0\0\1\0\0\0\2\0\0\0", 13));
 }
 
-TEST_CASE("a mesh that is not finished leaves nothing") {
+TEST_CASE("an unfinished mesh leaves nothing") {
   const TemporaryFolder folder;
   {
     PlyFile file(folder / "a.ply", "");

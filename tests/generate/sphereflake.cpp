@@ -32,7 +32,7 @@ TEST_CASE("a sphereflake has (9^(n+1) - 1) / 8 spheres") {
   }
 }
 
-TEST_CASE("spheres stand as Haines' database has them: parents first, each child touching its parent") {
+TEST_CASE("spheres are arranged as in Haines' database: parents first, each child touching its parent") {
   const std::vector<Ball> all = balls(3);
   CHECK(all[0].center == Vec3(0.0));
   CHECK(all[0].radius == 0.5);
@@ -68,7 +68,7 @@ TEST_CASE("a child that points to -z is turned over about the y axis") {
                       Vec3(-0.9659258262890683, 0.2588190451025208, 0)) < 1e-14);
 }
 
-TEST_CASE("the scene loads whole, and points fall on the pixels that Haines' tables name") {
+TEST_CASE("the whole scene loads, and points fall on the pixels of Haines' tables") {
   const Scene scene = parse_scene(sphereflake_stage() + sphereflake_spheres(3), "balls.toml");
   CHECK(scene.warnings.empty());
   CHECK(scene.shapes.size() == 820 + 2);
@@ -113,7 +113,8 @@ TEST_CASE("an octasphere is closed, outward and round") {
   }
 }
 
-TEST_CASE("a sphereflake of triangles comes near the number asked for, every sphere in its place") {
+TEST_CASE(
+    "a triangulated sphereflake has about the requested number of triangles, every sphere at its position") {
   CHECK(sphereflake_divisions(4, 1'000'000) == 4);
   CHECK(sphereflake_triangles(4, 4) == 944'768);
   CHECK(sphereflake_divisions(4, 1) == 1);

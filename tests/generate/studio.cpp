@@ -7,7 +7,7 @@
 
 using namespace eyeray::engine;
 
-TEST_CASE("the studio that scenes are lit by is the one that is generated") {
+TEST_CASE("the generated studio equals the file that lights scenes") {
   const test::TemporaryFolder folder;
   image::write_image(folder / "studio.hdr", generate::studio(64));
   CHECK(test::read_text(folder / "studio.hdr") == test::read_text("scenes/path/studio.hdr"));

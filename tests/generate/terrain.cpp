@@ -38,7 +38,7 @@ TEST_CASE("noise is bounded, and its gradient is the derivative") {
   CHECK(noise({0.5, 0.5}, 1).value != noise({0.5, 0.5}, 2).value);
 }
 
-TEST_CASE("a terrain is a grid of two triangles a cell that look up") {
+TEST_CASE("a terrain is a grid with two triangles a cell, facing up") {
   CHECK(terrain_grid(51'200) == 160);
   CHECK(terrain_grid(1'048'352) == 724);
   CHECK(terrain_grid(8'000'000) == 2000);
@@ -68,7 +68,7 @@ TEST_CASE("a terrain is a grid of two triangles a cell that look up") {
   }
 }
 
-TEST_CASE("heights join across the blocks of rows that are made at once, and normals are theirs") {
+TEST_CASE("heights join across the blocks of rows, and normals fit the heights") {
   const TerrainOptions options{.grid = 130, .seed = 5};
   const Mesh mesh = terrain(options);
   for (const int row : {1, 62, 63, 64, 65, 127, 128, 129}) {
@@ -84,7 +84,7 @@ TEST_CASE("heights join across the blocks of rows that are made at once, and nor
   }
 }
 
-TEST_CASE("the same seed is the same landscape, finer on a finer grid; another seed another one") {
+TEST_CASE("a seed gives the same landscape, finer on a finer grid; another seed gives another") {
   const TerrainOptions coarse{.grid = 256}, fine{.grid = 4096}, other{.grid = 256, .seed = 1};
   double refined = 0, different = 0;
   for (int i = 0; i < 100; ++i) {

@@ -20,7 +20,7 @@ void for_both_kinds(const std::function<void(gpu::Device&)>& test) {
 
 }  // namespace
 
-TEST_CASE("bytes come back as they went, and begin as zeros") {
+TEST_CASE("a buffer begins as zeros and returns the uploaded bytes") {
   for_both_kinds([](gpu::Device& device) {
     for (const size_t count : {1u, 3u, 1000u, 1000000u}) {
       gpu::Buffer buffer(device, count * 4, "numbers");
@@ -74,7 +74,7 @@ TEST_CASE("a list that was not run leaves the device usable") {
   CHECK(buffer.read_records<uint32_t>(1)[0] == 5);
 }
 
-TEST_CASE("a guard that a shader overwrote is an error that says where") {
+TEST_CASE("a guard that a shader overwrote is an error that states the position") {
   for_both_kinds([](gpu::Device& device) {
     gpu::Buffer buffer(device, 100 * 4, "pixels");
     const auto first = uint32_t(buffer.payload_offset() / 4);

@@ -42,7 +42,7 @@ void test::child_work(std::string_view name) {
     std::printf("%d %s\n", info.index, info.name.c_str());
 }
 
-TEST_CASE("devices are listed, and nothing is said on standard error") {
+TEST_CASE("devices are listed, and standard error stays empty") {
   const ProcessResult result = run_child("list");
   CHECK(result.code == 0);
   CHECK(contains(result.out, "0 "));

@@ -29,7 +29,7 @@ std::string format(const Diagnostic& d) {
 
 }  // namespace
 
-TEST_CASE("errors have file, line, column and the line; all of them in one go") {
+TEST_CASE("all errors are reported at once, each with file, line, column and the line's text") {
   const auto found =
       diagnose({{"main.comp.glsl",
                  head + "#include \"lib/half.glsl\"\nvoid main() {\n  int a = foo;\n  halve(1.0);\n}\n"},
@@ -55,7 +55,7 @@ TEST_CASE("a long line is cut around the fault") {
   CHECK(found[0].source_line.find("int a = foo;") != std::string::npos);
 }
 
-TEST_CASE("a syntax error has the column of the sign it is at, where the line has that once") {
+TEST_CASE("a syntax error has the column of its token, if the line has that token once") {
   const auto column = [](const std::string& line) {
     const auto syntax = diagnose({{"main.comp.glsl", head + "void main() {\n" + line + "\n}\n"}});
     REQUIRE(!syntax.empty());
@@ -82,7 +82,7 @@ TEST_CASE("an error in a registry's row is reported in the row's file") {
   CHECK(reported("// ball_hit\nfloat ball_hit(bool x) { return 1.0; }\n") == "shapes/ball.glsl:2:7" + rest);
 }
 
-TEST_CASE("errors of the preamble and of linking have no line of ours") {
+TEST_CASE("errors of the preamble and of linking name no source line") {
   const auto linking = diagnose({{"main.comp.glsl", head + "void other() {}\n"}});
   REQUIRE(linking.size() == 1);
   CHECK(contains(linking[0].message, "Missing entry point"));
@@ -149,7 +149,7 @@ TEST_CASE("a shader's source is everything it may include, read once") {
   CHECK(error_of([&] { gpu::read_shader(provider, "nothing"); }).first == "there is no shader 'nothing'");
 }
 
-TEST_CASE("SPIR-V is remembered by content, and a damaged entry is made anew") {
+TEST_CASE("SPIR-V is cached by content, and a damaged entry is replaced") {
   const TemporaryFolder folder;
   const DiskCache cache(folder.path() / "deep" / "cache");
   const auto source = [](const std::string& body) {
@@ -200,7 +200,7 @@ TEST_CASE("a shader with warnings is compiled every time, so that they are seen 
   }
 }
 
-TEST_CASE("a cache that cannot be written remembers nothing, and harms nothing") {
+TEST_CASE("a cache that cannot be written stores nothing, and does no harm") {
   const TemporaryFolder folder;
   write_text(folder / "file", "");
   const DiskCache pipes(folder.path() / "pipes");

@@ -36,7 +36,7 @@ TEST_CASE("the device is chosen by sort, index or part of its name") {
   CHECK(gpu::choose_device(std::span(machine).first(3), "auto").index == 1);
 }
 
-TEST_CASE("a device that will not do is named with its reasons, and the others are listed") {
+TEST_CASE("an unusable device is named with its reasons, and the others are listed") {
   const auto [unusable, code] = error_of([] { gpu::choose_device(machine, "geforce"); });
   CHECK(code == ExitCode::no_device);
   CHECK(contains(unusable, "2  Old GeForce: not usable: it supports Vulkan 1.0.3, but eyeray needs 1.1"));
@@ -49,7 +49,7 @@ TEST_CASE("a device that will not do is named with its reasons, and the others a
                  "matches --device gpu"));
 }
 
-TEST_CASE("this machine's devices say what they are") {
+TEST_CASE("this machine's devices report their properties") {
   const std::vector<DeviceInfo> devices = gpu::list_devices();
   REQUIRE(!devices.empty());
   const DeviceInfo& info = device().info();

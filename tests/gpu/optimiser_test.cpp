@@ -63,7 +63,7 @@ TEST_CASE("an optimised kernel has the same bits") {
   CHECK(results[0] == results[1]);
 }
 
-TEST_CASE("functions are inlined, what nobody needs is gone, and the module stays valid") {
+TEST_CASE("functions are inlined, unused code is removed, and the module stays valid") {
   const std::vector<uint32_t> plain = compile(R"(#version 450
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) buffer Data { float data[]; };
@@ -88,7 +88,7 @@ void main() {
   CHECK(spvtools::SpirvTools(SPV_ENV_VULKAN_1_1).Validate(optimised));
 }
 
-TEST_CASE("a module that inlining would make too large comes back as it was, at once") {
+TEST_CASE("a module that inlining would make too large is returned unchanged, at once") {
   const auto doubling = [](int functions) {
     std::string text =
         "#version 450\nlayout(local_size_x = 1) in;\nlayout(std430, binding = 0) buffer Data { float data[]; "
@@ -107,7 +107,7 @@ TEST_CASE("words that are not SPIR-V are not optimised") {
   CHECK(error_of([] { gpu::optimise(std::vector<uint32_t>{1, 2, 3}); }).second == ExitCode::bad_input);
 }
 
-TEST_CASE("a kernel has the float policy before it is optimised, whether remembered or not") {
+TEST_CASE("a kernel has the float policy before it is optimised, whether cached or not") {
   const TemporaryFolder folder;
   const DiskCache cache(folder.path());
   const auto read = [](std::string_view) -> std::optional<std::string> {

@@ -49,7 +49,7 @@ TEST_CASE("a triangle covers the pixels whose centres it contains, top left firs
   }
 }
 
-TEST_CASE("the nearer triangle is seen, whatever is drawn first; among equally near ones, the first") {
+TEST_CASE("the nearer triangle is visible in any order of drawing; the first among equally near ones") {
   const auto near = corner(1, 0.75, 1), far = corner(2, 0.5, 2), as_far = corner(2, 0.5, 3);
   for (const auto& order : {std::vector{near, far, as_far}, std::vector{far, as_far, near}}) {
     const gpu::RasterPicture picture = draw(drawing_device(), {order});
@@ -60,7 +60,7 @@ TEST_CASE("the nearer triangle is seen, whatever is drawn first; among equally n
   }
 }
 
-TEST_CASE("depth runs straight over a triangle, and ends at 0 and 1") {
+TEST_CASE("depth is linear over a triangle, and clipped at 0 and 1") {
   // x + y from 0 to 2 over the picture: depth 1.5 at the top left, −0.5 at the bottom right.
   const std::vector<gpu::RasterVertex> sloping = {{-1, -1, 1.5f, 1}, {3, -1, -0.5f, 1}, {-1, 3, -0.5f, 1}};
   const gpu::RasterPicture picture = draw(drawing_device(), {sloping});
@@ -89,7 +89,7 @@ TEST_CASE("more triangles than a batch are all drawn") {
   CHECK(picture.ids.back() == 2);
 }
 
-TEST_CASE("core and synchronisation validation have nothing to say about drawing") {
+TEST_CASE("core and synchronisation validation report nothing about drawing") {
   for (const char* validation : {"core", "sync"}) {
     for (const bool force_staging : {false, true}) {
       gpu::Device device({.validation = validation, .draws = true, .force_staging = force_staging});

@@ -43,7 +43,7 @@ void main() { x = imageLoad(texels, 3); }
   CHECK(reflection.bindings == Bindings{{1, gpu::BindingKind::storage}, {4, gpu::BindingKind::texels}});
 }
 
-TEST_CASE("anything but storage buffers, and texel buffers of the one format, in set 0 is refused") {
+TEST_CASE("a shader may bind only storage buffers, and texel buffers of one format, in set 0") {
   const auto refused = [](const std::string& declaration) {
     return error_of([&] {
              gpu::reflect(compile(

@@ -57,7 +57,7 @@ const std::string choosing = R"(
 
 }  // namespace
 
-TEST_CASE("selections that only choose are gone, and every bit stays") {
+TEST_CASE("selections that only choose a value are flattened, and every bit stays") {
   const std::vector<uint32_t> strict = gpu::decorate_no_contraction(word_kernel(choosing));
   constexpr uint32_t numbers = 4096;
   std::vector<uint32_t> words(numbers), results[2];

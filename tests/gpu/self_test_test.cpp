@@ -17,7 +17,7 @@ gpu::SourceProvider with_fault(const std::string& right, const std::string& wron
 
 }  // namespace
 
-TEST_CASE("the self-test says what this device is like") {
+TEST_CASE("the self-test reports this device's properties") {
   const TemporaryFolder folder;
   const DiskCache cache(folder.path());
   gpu::self_test(device(), project_shader, cache);

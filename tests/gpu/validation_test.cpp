@@ -34,7 +34,7 @@ void main() { copied[gl_GlobalInvocationID.x] = data[gl_GlobalInvocationID.x]; }
 
 }  // namespace
 
-TEST_CASE("core and synchronisation validation have nothing to say") {
+TEST_CASE("core and synchronisation validation report nothing") {
   for (const char* validation : {"core", "sync"}) {
     for (const bool force_staging : {false, true}) {
       gpu::Device device({.validation = validation, .force_staging = force_staging});

@@ -158,7 +158,7 @@ TEST_CASE("TGA with a palette, grey, and a run that is longer than a row") {
                                                 {128, 128, 128, 255}});
 }
 
-TEST_CASE("TGA: alpha counts as its fields say; gamma, aspect and premultiplied colours are warned of") {
+TEST_CASE("TGA: alpha follows the header's fields; gamma, aspect and premultiplied colours cause warnings") {
   std::string pixels;
   for (int i = 0; i < 6; ++i) pixels += std::string("\x10\x20\x30\x40", 4);
   CHECK(decode_bitmap(tga_header(2, 32, 32 | 8) + pixels).pixels[0] == BitmapPixel{48, 32, 16, 64});
@@ -229,7 +229,7 @@ TEST_CASE("BMP with a palette of 1, 4 or 8 bits") {
                                  bitmap_colors[1], bitmap_colors[0]});
 }
 
-TEST_CASE("BMP: what is compressed is refused, other colours are warned of") {
+TEST_CASE("BMP: compressed files are refused, and other colour spaces cause a warning") {
   const std::string pixels = bmp_rows(24, false);
   for (const int compression : {1, 2, 4, 5, 7})
     CHECK(decode_bitmap(bmp(40, bitmap_rows, 24, compression, "", "", pixels))
@@ -249,7 +249,7 @@ TEST_CASE("BMP: what is compressed is refused, other colours are warned of") {
   CHECK(of_space(0x4d424544, 0) == 1);
 }
 
-TEST_CASE("sizes of TGA and BMP are not believed before there are bytes for them") {
+TEST_CASE("sizes in TGA and BMP headers are trusted only if the file has the bytes") {
   std::string bytes = tga_header(10, 24, 0);
   bytes.replace(12, 4, "\xff\xff\xff\xff");
   CHECK(decode_bitmap(bytes).refused == "cannot read a: it has 65535×65535 pixels; the most is 16384 a side");

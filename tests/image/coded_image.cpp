@@ -55,7 +55,7 @@ std::string png_with_size(uint32_t width, uint32_t height) {
 
 }  // namespace
 
-TEST_CASE("PNG of every kind: the codes come out, from the top left") {
+TEST_CASE("PNG of every kind decodes to the right codes, from the top left") {
   const Pixel colors[] = {{255, 0, 0, 255}, {0, 255, 0, 255},     {0, 0, 255, 255},
                           {0, 0, 0, 255},   {255, 255, 255, 255}, {64, 128, 192, 255}};
   for (const char* file : {"rgb.png", "palette.png", "rgb16.png", "rgba_interlaced.png"}) {
@@ -76,7 +76,7 @@ TEST_CASE("PNG of every kind: the codes come out, from the top left") {
   }
 }
 
-TEST_CASE("two bits a pixel, and a grey that is transparent") {
+TEST_CASE("a PNG may have two bits a pixel and a transparent grey") {
   const CodedImage image = decode(bytes_of("grey2_transparent.png"));
   REQUIRE(image.pixels.size() == 10);
   for (size_t i = 0; i < 10; ++i) {
@@ -86,7 +86,7 @@ TEST_CASE("two bits a pixel, and a grey that is transparent") {
   }
 }
 
-TEST_CASE("a PNG takes little more memory than its pixels, and only what the budget has left") {
+TEST_CASE("a PNG takes little more memory than its pixels, and only within the remaining budget") {
   const std::string bytes = bytes_of("one_bit_4096.png");
   CHECK(bytes.size() < 11'000);
   const uint64_t before = peak_memory();
@@ -113,7 +113,7 @@ TEST_CASE("a PNG takes little more memory than its pixels, and only what the bud
       "are left");
 }
 
-TEST_CASE("JPEG, baseline, progressive and grey: the codes come out, but for its own losses") {
+TEST_CASE("JPEG, baseline, progressive and grey, decodes to the right codes, within the format's losses") {
   for (const char* file : {"baseline.jpg", "progressive.jpg"}) {
     CAPTURE(file);
     const CodedImage image = decode(bytes_of(file));
@@ -137,7 +137,7 @@ TEST_CASE("JPEG, baseline, progressive and grey: the codes come out, but for its
   }
 }
 
-TEST_CASE("a JPEG is turned as its EXIF orientation says") {
+TEST_CASE("a JPEG is rotated according to its EXIF orientation") {
   // The stored picture is 3 × 2: 0 1 2 / 3 4 5. Row by row, as a viewer sees it (Exif 2.3, figure of tag
   // 0x0112).
   const std::string seen[8] = {"012345", "210543", "543210", "345012",
@@ -184,7 +184,7 @@ TEST_CASE("pictures that end early are refused, wherever they end") {
   }
 }
 
-TEST_CASE("a header that promises more than its file can hold takes no memory") {
+TEST_CASE("a header that claims more than its file can hold takes no memory") {
   CHECK(refusal(png_with_size(3, 2)) == "accepted");
   CHECK(refusal(png_with_size(16384, 16384)) == "cannot read a picture: it ends early");
   CHECK(refusal(png_with_size(16385, 1)) ==

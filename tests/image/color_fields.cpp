@@ -66,7 +66,7 @@ std::string jpeg_with(uint8_t marker, const std::string& content) {
 
 }  // namespace
 
-TEST_CASE("PNG: of cICP, iCCP, sRGB, gAMA and cHRM the first that stands there counts") {
+TEST_CASE("PNG: the first one present of cICP, iCCP, sRGB, gAMA and cHRM counts") {
   const std::string not_srgb = " is ignored: its colours are read as sRGB";
   CHECK(message_of_png({}) == "");
   CHECK(message_of_png({{"gAMA", big(45455)}, {"cHRM", primaries(64000)}}) == "");
@@ -84,7 +84,7 @@ TEST_CASE("PNG: of cICP, iCCP, sRGB, gAMA and cHRM the first that stands there c
         "a: its colour space (cICP 9, 16)" + not_srgb);
 }
 
-TEST_CASE("PNG: pixels that are no squares, an orientation") {
+TEST_CASE("PNG: non-square pixels and an orientation cause warnings") {
   CHECK(message_of_png({{"pHYs", big(2835) + big(2835) + "\1"}}) == "");
   CHECK(message_of_png({{"pHYs", big(1) + big(2) + std::string(1, '\0')}}) ==
         "a: its pixels are not square (pHYs), which is ignored");
@@ -96,7 +96,7 @@ TEST_CASE("PNG: pixels that are no squares, an orientation") {
   CHECK(message_of_png({{"eXIf", oriented(6)}}) == "a: its EXIF orientation (eXIf) of 6 is ignored");
 }
 
-TEST_CASE("JPEG: profiles and densities") {
+TEST_CASE("JPEG: other colour profiles and non-square densities cause warnings") {
   const std::string icc = std::string("ICC_PROFILE\0\1\1", 14);
   CHECK(warnings_of(jpeg_with(0xe2, icc + "desc sRGB IEC61966-2.1")).empty());
   CHECK(warnings_of(jpeg_with(0xe2, icc + "desc Adobe RGB (1998)")) ==
@@ -108,7 +108,7 @@ TEST_CASE("JPEG: profiles and densities") {
   CHECK(warnings_of(jpeg_with(0xe0, density(72, 144))).size() == 1);
 }
 
-TEST_CASE("pictures that are compared are warned of likewise, and damaged fields say nothing") {
+TEST_CASE("compared pictures cause the same warnings, and damaged fields do no harm") {
   const test::TemporaryFolder folder;
   const std::string file = folder / "a.png";
   std::ofstream(file) << png_with({{"gAMA", big(100000)}});

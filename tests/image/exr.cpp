@@ -72,7 +72,7 @@ TEST_CASE("an EXR keeps every bit, of one and three channels, at any size") {
   CHECK(folder.names() == std::set<std::string>{"a.exr"});
 }
 
-TEST_CASE("half channels are as near as a half is, and what is finite stays so") {
+TEST_CASE("half channels have a half's precision, and finite values stay finite") {
   const TemporaryFolder folder;
   Image image(4, 2, 4);
   for (size_t i = 0; i < image.sample_count(); ++i) image.samples()[i] = float(i) / 7;
@@ -96,7 +96,7 @@ TEST_CASE("half channels are as near as a half is, and what is finite stays so")
     }
 }
 
-TEST_CASE("each way to compress, tiles and mipmaps are read") {
+TEST_CASE("every EXR compression, tiles and mipmaps are read") {
   for (const char* name : {"plain", "rle", "zips", "zip", "piz", "tiled"}) {
     CAPTURE(name);
     CHECK(holds(read_image(corpus + name + ".exr"), {0, 1, 2}));
@@ -109,7 +109,7 @@ TEST_CASE("each way to compress, tiles and mipmaps are read") {
   CHECK(holds(read_image(corpus + "grey.exr"), {0}));
 }
 
-TEST_CASE("the picture is the display window: 0 around the data, and without what lies outside") {
+TEST_CASE("the picture is the display window: 0 around the data, and cropped outside") {
   const TemporaryFolder folder;
   Image image(3, 2, 1);
   for (size_t i = 0; i < image.sample_count(); ++i) image.samples()[i] = float(i) + 1;
@@ -145,7 +145,7 @@ TEST_CASE("layers are chosen by name, and parts are layers") {
   CHECK(holds(read_image(corpus + "one_layer.exr", "beauty"), {0, 1, 2}));
 }
 
-TEST_CASE("files that are no pictures are refused, each with its own words") {
+TEST_CASE("files that are no pictures are refused, each with a specific message") {
   CHECK(refusal_of(corpus + "layers.exr", "nrmal") ==
         "it has no layer 'nrmal'; its layers are depth, id, normal, uv");
   CHECK(refusal_of(corpus + "grey.exr", "id") == "it has no layer 'id'");
@@ -157,7 +157,7 @@ TEST_CASE("files that are no pictures are refused, each with its own words") {
   CHECK(refusal_of(corpus + "subsampled.exr") == "its channel B is subsampled");
 }
 
-TEST_CASE("a file that ends early, or promises more than it holds, is refused") {
+TEST_CASE("a file that ends early, or claims more than it holds, is refused") {
   const TemporaryFolder folder;
   const std::string file = folder / "a.exr";
   for (const char* name : {"zip", "parts", "tiled", "piz"}) {

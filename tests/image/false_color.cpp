@@ -63,7 +63,7 @@ TEST_CASE("neighbouring ids differ, and no id is grey") {
   CHECK(seen.size() == 64);
 }
 
-TEST_CASE("directions are half of themselves plus one, and no direction is grey") {
+TEST_CASE("a direction's colour is (direction + 1) / 2, and no direction is grey") {
   const Image image = false_color(row({1, 0, -1, 0, 0, 0}, 3), FalseColor::direction);
   CHECK(shown(image, 0) == glm::ivec3(255, 128, 0));
   CHECK(shown(image, 1) == grey);
@@ -84,7 +84,7 @@ TEST_CASE("data without any value is grey all over") {
   }
 }
 
-TEST_CASE("a picture seen in pieces is painted as the whole is") {
+TEST_CASE("a picture in pieces gets the same false colours as the whole") {
   const std::vector<float> samples{1, 2, 0, -7, 100, infinity, 3, 0, 5, -1, 8, 0.5f};
   for (const auto& [kind, channels] :
        {std::pair{FalseColor::scalar, 1}, {FalseColor::depth, 1}, {FalseColor::position, 3}}) {

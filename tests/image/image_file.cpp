@@ -105,7 +105,7 @@ TEST_CASE("PFM keeps every bit, of one and three channels") {
   }
 }
 
-TEST_CASE("PFM is laid out as the format says: the bottom row first") {
+TEST_CASE("PFM has the layout of the format: the bottom row first") {
   Image image(1, 2, 1);
   *image.pixel(0, 0) = 1.0f;  // top
   *image.pixel(0, 1) = 2.0f;
@@ -161,7 +161,7 @@ TEST_CASE("HDR keeps eight bits of the largest channel, and nothing that it cann
   CHECK(read.samples()[2] > 1e37f);
 }
 
-TEST_CASE("HDR: EXPOSURE and COLORCORR are divided out, other primaries are named, old runs are read") {
+TEST_CASE("HDR: EXPOSURE and COLORCORR are divided out, other primaries cause a warning, old runs are read") {
   const TemporaryFolder folder;
   const auto read = [&](const std::string& lines, const std::string& rows,
                         std::vector<std::string>& warnings) {
@@ -224,7 +224,7 @@ TEST_CASE("malformed HDR files are refused") {
   }
 }
 
-TEST_CASE("truncated and foreign files are refused, cut where they may be") {
+TEST_CASE("files of other formats are refused, and so are truncated files") {
   const TemporaryFolder folder;
   const Image image = random_image(20, 3, 3, 1);
   for (const std::string name : {"a.png", "a.hdr", "a.pfm"}) {

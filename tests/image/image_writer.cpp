@@ -98,7 +98,7 @@ TEST_CASE("pieces make the same file as the whole, and every format gives the pi
   }
 }
 
-TEST_CASE("flat pictures are short: runs are used where the format has them") {
+TEST_CASE("flat pictures give small files, since formats with runs use them") {
   const TemporaryFolder folder;
   write_image(folder / "a.hdr", Image(1000, 10, 3));
   CHECK(std::filesystem::file_size(folder / "a.hdr") < 1000);
@@ -106,7 +106,7 @@ TEST_CASE("flat pictures are short: runs are used where the format has them") {
   CHECK(std::filesystem::file_size(folder / "a.png") < 1000);
 }
 
-TEST_CASE("an unfinished picture leaves no trace, and the old file where it was") {
+TEST_CASE("an unfinished picture leaves no trace, and the old file unchanged") {
   const TemporaryFolder folder;
   const Image image = mixed_image(20, 4, 3);
   for (const std::string name : {"a.png", "a.pfm", "a.hdr", "a.exr"}) {
@@ -122,7 +122,7 @@ TEST_CASE("an unfinished picture leaves no trace, and the old file where it was"
   }
 }
 
-TEST_CASE("one file written twice at once is one of the two, whole") {
+TEST_CASE("two writers of one file leave one of the two pictures, whole") {
   const TemporaryFolder folder;
   const Image first = mixed_image(50, 6, 3), second = mixed_image(50, 6, 1);
   ImageWriter a(folder / "a.pfm", 50, 6, 3), b(folder / "a.pfm", 50, 6, 1);
@@ -134,7 +134,7 @@ TEST_CASE("one file written twice at once is one of the two, whole") {
   CHECK(read_image(folder / "a.pfm").samples() == second.samples());
 }
 
-TEST_CASE("a PFM that was written can be read again from anywhere") {
+TEST_CASE("rows of a written PFM can be read from any position") {
   const TemporaryFolder folder;
   for (const int channels : {1, 3}) {
     const Image image = mixed_image(17, 11, channels);

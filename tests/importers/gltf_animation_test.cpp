@@ -76,7 +76,7 @@ std::vector<double> joined(const std::vector<std::vector<double>>& parts) {
 
 }  // namespace
 
-TEST_CASE("translations jump or go straight between keys, and stay at the ends") {
+TEST_CASE("translations step or are linear between keys, and stay constant beyond the ends") {
   const std::vector<double> times = {0.5, 1.5, 3.5}, values = {1, 0, 0, 3, 8, 0, 3, 4, -6};
   const GltfFile straight = animated_square({"translation", "", times, values});
   CHECK(near(point_at(straight, 0), Vec3(1, 0, 0)));
@@ -126,7 +126,7 @@ TEST_CASE("cubic splines have the values and the slopes of their keys") {
   CHECK(at(spun, 0.25).warnings.empty());
 }
 
-TEST_CASE("rotations go evenly the shortest way, whatever their signs") {
+TEST_CASE("rotations take the shortest way at constant speed, whatever their signs") {
   const GltfFile file =
       animated_square({"rotation", "LINEAR", {0, 1, 2}, joined({turn(0), turn(120), turn(280)})});
   for (const double t : {0.0, 0.25, 0.9, 1.0}) CHECK(near(point_at(file, t, {1, 0, 0}), turned(120 * t)));
@@ -154,7 +154,7 @@ TEST_CASE("rotations go evenly the shortest way, whatever their signs") {
   CHECK(at(coarse, 0.5).warnings.empty());
 }
 
-TEST_CASE("keys of a node that nothing animates stay, and nodes below move with it") {
+TEST_CASE("properties of a node that nothing animates stay, and child nodes move with it") {
   GltfFile file = square_file();
   file.json["nodes"] = {{{"children", {1}}, {"translation", {0, 0, 5}}, {"scale", {9, 9, 9}}}, {{"mesh", 0}}};
   animate(file, {"scale", "", {0, 1}, {1, 1, 1, 3, 1, 1}});
@@ -168,7 +168,7 @@ TEST_CASE("keys of a node that nothing animates stay, and nodes below move with 
   CHECK(warns(at(flat, 0), "a node whose transforms flatten everything was left out"));
 }
 
-TEST_CASE("weights of morph targets: of each node that moves its own") {
+TEST_CASE("each animated node has separate weights of morph targets") {
   GltfFile file = square_file();
   const auto all = [](double x, double z) {
     std::vector<double> change;
@@ -196,7 +196,7 @@ TEST_CASE("weights of morph targets: of each node that moves its own") {
   CHECK(contains(refusal(file.gltf(), "a.gltf"), "meshes[0].primitives[0] has 2 targets, but 3 weights"));
 }
 
-TEST_CASE("joints that move hold the skin") {
+TEST_CASE("the skin follows animated joints") {
   GltfFile file = square_file();
   Json& attributes = file.primitive()["attributes"];
   attributes["JOINTS_0"] = file.add({0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, 5121, "VEC4", 4);
@@ -217,7 +217,7 @@ TEST_CASE("cameras and lights of a file move with their nodes") {
   CHECK(at(file, 0.25).camera->eye == Vec3(0, 0, 2));
 }
 
-TEST_CASE("which animation is played: by name, by number, the first, none") {
+TEST_CASE("an animation is chosen by name or number, or is the first, or none") {
   GltfFile file = animated_square({"translation", "", {0}, {1, 0, 0}});
   animate(file, {"translation", "", {0}, {2, 0, 0}});
   animate(file, {"translation", "", {0}, {3, 0, 0}});
@@ -239,7 +239,7 @@ TEST_CASE("which animation is played: by name, by number, the first, none") {
   for (const char* none : {"none", "", "3", "-1", "0x", "walk"}) CHECK(x(none) == 7);
 }
 
-TEST_CASE("animations that break rules, a row a rule") {
+TEST_CASE("animations that break rules are reported, one row for each rule") {
   const Sampled plain{"translation", "", {0, 1}, {0, 0, 0, 1, 0, 0}};
   struct Row {
     Sampled sampled;

@@ -36,7 +36,7 @@ const std::string edgebreaker_head("DRACO\x02\x02\x01\x01\x00\x00\x00", 12);
 
 }  // namespace
 
-TEST_CASE("draco: positions, normals, uv and corners, by both methods, at every speed, in every container") {
+TEST_CASE("draco: positions, normals, uv and corners survive both methods, every speed and every container") {
   for (const int method : {draco::MESH_EDGEBREAKER_ENCODING, draco::MESH_SEQUENTIAL_ENCODING}) {
     for (const int speed : {0, 3, 5, 10}) {
       for (const bool quantized : {false, true}) {
@@ -56,7 +56,7 @@ TEST_CASE("draco: positions, normals, uv and corners, by both methods, at every 
 }
 
 // Edgebreaker has separate tables for vertices of one position and several normals.
-TEST_CASE("draco: corners that share a position only") {
+TEST_CASE("draco: corners may share only their position") {
   const std::vector<double> roof = {0, 0, 0, 0, 1, 0, 1, 1, 1, 1, 0, 1, 1, 0, 1, 1, 1, 1, 2, 1, 0, 2, 0, 0};
   const std::vector<double> normals = {-1, 0, 1, -1, 0, 1, -1, 0, 1, -1, 0, 1,
                                        1,  0, 1, 1,  0, 1, 1,  0, 1, 1,  0, 1};
@@ -82,7 +82,7 @@ TEST_CASE("draco: corners that share a position only") {
   }
 }
 
-TEST_CASE("draco: a strip's triangles are whole already, and fans cannot be") {
+TEST_CASE("draco: a strip is coded as separate triangles, and fans are refused") {
   GltfFile file = draco_grid();
   file.primitive()["mode"] = 5;
   file.json["accessors"][3]["count"] = 300;  // vertices of the strip
@@ -93,7 +93,7 @@ TEST_CASE("draco: a strip's triangles are whole already, and fans cannot be") {
                "meshes[0].primitives[0] has a mode other than triangles and strips of them, and Draco data"));
 }
 
-TEST_CASE("draco: attributes that its data lack come from their accessors, colours from bytes") {
+TEST_CASE("draco: attributes that its data lack come from accessors, and colours may be bytes") {
   const Grid grid = hilly_grid();
   const auto redness = [](double x, double y) { return std::round(255 * (x + y) / 2); };
   std::vector<double> colors, plain;
@@ -123,7 +123,7 @@ TEST_CASE("draco: attributes that its data lack come from their accessors, colou
   }
 }
 
-TEST_CASE("draco: a skin's joints and weights") {
+TEST_CASE("draco: a skin's joints and weights are decoded") {
   // A square with two joints, each of which holds two corners; the second joint stands 3 above the first.
   GltfFile file = square_file();
   Grid grid{square_positions, {}, {}, {0, 1, 2, 0, 2, 3}};
@@ -148,7 +148,7 @@ TEST_CASE("draco: a skin's joints and weights") {
   }
 }
 
-TEST_CASE("draco: two primitives of one data, and one that is not coded by the same accessors") {
+TEST_CASE("draco: two primitives may share coded data, or accessors with an uncoded primitive") {
   GltfFile file = draco_grid();
   const Json coded = file.primitive();
   file.json["meshes"][0]["primitives"].push_back(coded);
@@ -172,7 +172,7 @@ TEST_CASE("draco: two primitives of one data, and one that is not coded by the s
   CHECK(scene.meshes[1].positions[0].y > 9.9);
 }
 
-TEST_CASE("draco: what disagrees with the data is refused, with its place") {
+TEST_CASE("draco: properties that disagree with the data are refused, with their position") {
   const struct {
     const char* at;
     Json value;
@@ -213,7 +213,7 @@ TEST_CASE("draco: what disagrees with the data is refused, with its place") {
   }
 }
 
-TEST_CASE("draco: data that are none, of another kind, cut short, or damaged") {
+TEST_CASE("draco: foreign, truncated or damaged data, and data of another kind, are refused") {
   const std::string where = "meshes[0].primitives[0].extensions.KHR_draco_mesh_compression has data that ";
   CHECK(contains(refusal_of_data(""), where + "are not Draco data"));
   CHECK(contains(refusal_of_data("DRAGO\x02\x02\x01\x01"), where + "are not Draco data"));
@@ -269,7 +269,7 @@ TEST_CASE("draco: absurd sizes take no memory, in its header, its attributes or 
   CHECK(contains(refusal_of_data(tree), "are damaged: their metadata end too early"));
 }
 
-TEST_CASE("draco: one attribute of a large mesh is not copied into accessors without end") {
+TEST_CASE("draco: copies of a large mesh's attribute into accessors are limited") {
   constexpr int side = 400;
   Grid plane = hilly_grid(side);
   for (size_t i = 2; i < plane.positions.size(); i += 3) plane.positions[i] = 0;
@@ -293,7 +293,7 @@ TEST_CASE("draco: one attribute of a large mesh is not copied into accessors wit
 }
 
 // Draco 1.5.5 takes 7 s for the claimed orientations, in a few bytes; only decoding finds their count.
-TEST_CASE("draco: orientations of uv without end") {
+TEST_CASE("draco: absurd counts of uv orientations take no time") {
   const std::string whole = draco_grid_data({draco::MESH_EDGEBREAKER_ENCODING, 3}, hilly_grid());
   size_t survived = 0;
   for (size_t at = 40; at + 4 <= whole.size(); ++at) {

@@ -7,7 +7,7 @@ using namespace eyeray::engine;
 using namespace eyeray::engine::importers;
 using namespace eyeray::engine::test;
 
-TEST_CASE("a key that stands twice in an object is refused, with its place") {
+TEST_CASE("a key that occurs twice in an object is refused, with its position") {
   const std::string plain = square_file().gltf();
   const auto with = [&](const std::string& extras) {
     return refusal("{\n\"extras\": " + extras + "," + plain.substr(1), "a.gltf");
@@ -19,7 +19,7 @@ TEST_CASE("a key that stands twice in an object is refused, with its place") {
   CHECK(with("1, \"extras\": 2") == "a.gltf:2:14: error: an object has the key \"extras\" twice");
 }
 
-TEST_CASE("JSON is read in time that grows with its length, and to a bound") {
+TEST_CASE("the time to read JSON grows linearly with its length, and its number of values is bounded") {
   GltfFile file = square_file();
   const std::string plain = file.gltf();
   const size_t index = plain.find("\"nodes\":[") + 9;

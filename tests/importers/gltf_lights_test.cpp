@@ -8,7 +8,7 @@ using namespace eyeray::engine;
 using namespace eyeray::engine::importers;
 using namespace eyeray::engine::test;
 
-TEST_CASE("the first camera and all lights") {
+TEST_CASE("the first camera and all lights are imported") {
   GltfFile file = square_file();
   file.json["extensionsUsed"] = {"KHR_lights_punctual"};
   file.json["extensions"]["KHR_lights_punctual"]["lights"] = {

@@ -23,7 +23,7 @@ std::vector<float> by_four(const std::vector<double>& three) {
 
 }  // namespace
 
-TEST_CASE("meshopt: attributes and indices in every mode and size, by both names, in every container") {
+TEST_CASE("meshopt: attributes and indices decode in every mode, size and container, by both names") {
   check_grid(import_sound(grid_file().gltf(), "a.gltf"), 1e-6);
   for (const char* mode : {"TRIANGLES", "INDICES"}) {
     for (const int component : {5123, 5125}) {
@@ -40,7 +40,7 @@ TEST_CASE("meshopt: attributes and indices in every mode and size, by both names
   check_grid(import_file(folder.write("a.gltf", file.gltf("coded.bin"))), 1e-6);
 }
 
-TEST_CASE("meshopt: what is coded counts, and the fallback is not even read") {
+TEST_CASE("meshopt: coded data are used, and the fallback is not even read") {
   GltfFile file = meshopt_grid();
   file.json.erase("extensionsRequired");
   file.more_buffers = {{{"byteLength", 1 << 20}, {"uri", "missing.bin"}}};
@@ -51,7 +51,7 @@ TEST_CASE("meshopt: what is coded counts, and the fallback is not even read") {
   CHECK(contains(refusal(file.gltf(), "a.gltf"), "buffers[1] has no data"));
 }
 
-TEST_CASE("meshopt: interleaved and quantised attributes in one view") {
+TEST_CASE("meshopt: one view may hold interleaved and quantised attributes") {
   GltfFile file = grid_file();
   const Grid grid = hilly_grid();
   Bytes vertices;
@@ -72,7 +72,7 @@ TEST_CASE("meshopt: interleaved and quantised attributes in one view") {
   check_grid(import_sound(file.gltf(), "a.gltf"), 1e-3);
 }
 
-TEST_CASE("meshopt: the filter OCTAHEDRAL, in 8 and 16 bits") {
+TEST_CASE("meshopt: the filter OCTAHEDRAL decodes 8 and 16 bits") {
   const std::vector<float> normals = by_four(hilly_grid().normals);
   const size_t count = normals.size() / 4;
   for (const size_t stride : {4, 8}) {
@@ -92,7 +92,7 @@ TEST_CASE("meshopt: the filter OCTAHEDRAL, in 8 and 16 bits") {
   }
 }
 
-TEST_CASE("meshopt: the filter EXPONENTIAL") {
+TEST_CASE("meshopt: the filter EXPONENTIAL is decoded") {
   std::vector<float> positions;
   for (const double number : hilly_grid().positions) positions.push_back(float(number));
   std::string coded(positions.size() * 4, '\0');
@@ -110,7 +110,7 @@ TEST_CASE("meshopt: the filter EXPONENTIAL") {
 }
 
 // This file has no rotations, so the test uses colours, which have four numbers too.
-TEST_CASE("meshopt: the filter QUATERNION") {
+TEST_CASE("meshopt: the filter QUATERNION is decoded") {
   std::vector<float> turns;
   for (int i = 0; i < grid_side * grid_side; ++i) {
     const Vec4 turn = glm::normalize(Vec4(1 + i % 3, 1 + i % 5, 9, 1 + i % 7));
@@ -141,7 +141,7 @@ TEST_CASE("meshopt: the filter QUATERNION") {
   CHECK(worst < 1e-3);
 }
 
-TEST_CASE("meshopt: what is against the specification is refused, with its place") {
+TEST_CASE("meshopt: violations of the specification are refused, with their position") {
   const struct {
     size_t view;
     Json changes;
@@ -189,7 +189,7 @@ TEST_CASE("meshopt: what is against the specification is refused, with its place
                  "bufferViews[0] has another byteStride than its decoded data"));
 }
 
-TEST_CASE("meshopt: data cut short at every byte, or of another version") {
+TEST_CASE("meshopt: data truncated at any byte, or of another version, are refused") {
   for (const auto& [mode, view] : {std::pair("TRIANGLES", size_t{0}), std::pair("TRIANGLES", size_t{3}),
                                    std::pair("INDICES", size_t{3})}) {
     GltfFile file = meshopt_grid(mode);

@@ -25,7 +25,8 @@ Vec3 corner(const ImportedScene& scene, size_t instance) {
 
 }  // namespace
 
-TEST_CASE("KHR_node_visibility hides a node and all below it, but moves joints and cameras") {
+TEST_CASE(
+    "KHR_node_visibility hides a node and its descendants, but the node still moves joints and cameras") {
   GltfFile file = square_file();
   file.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
   file.json["cameras"] = {
@@ -47,7 +48,7 @@ TEST_CASE("KHR_node_visibility hides a node and all below it, but moves joints a
   CHECK(contains(refusal(file.gltf(), "a.gltf"), "it has no visible triangles"));
 }
 
-TEST_CASE("EXT_mesh_gpu_instancing shows a mesh many times, each moved before its node") {
+TEST_CASE("EXT_mesh_gpu_instancing shows a mesh many times, each transformed before its node") {
   GltfFile file = instanced_file();
   ImportedScene scene = import_sound(file.gltf(), "a.gltf");
   CHECK(scene.warnings.empty());

@@ -46,7 +46,7 @@ const std::string out_of_range =
 
 }  // namespace
 
-TEST_CASE("rules of glTF: what is said when each is broken") {
+TEST_CASE("rules of glTF: each broken rule gives its message") {
   CHECK(message_of(rich_file()) == "");
   const std::string error = "a.gltf: error: ";
   const std::vector<double> ones(16, 1), flat_normals = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
@@ -345,7 +345,7 @@ TEST_CASE("rules of glTF: what is said when each is broken") {
   check_rules(table);
 }
 
-TEST_CASE("rules of glTF: a kind is said once, with its count and first place") {
+TEST_CASE("rules of glTF: each kind of fault is reported once, with its count and first position") {
   GltfFile file = rich_file();
   for (int i = 2; i < 40; ++i) {
     file.json["nodes"].push_back({{"rotation", {0, 0, 0, 3}}});

@@ -31,7 +31,7 @@ Json surface(const Json& color, double metallic, double roughness) {
 
 }  // namespace
 
-TEST_CASE("metallic-roughness becomes what comes nearest") {
+TEST_CASE("metallic-roughness becomes the nearest supported material") {
   const Scattering plastic = scattering_of(surface({1, 0.5, 0, 1}, 0, 0.5));
   CHECK(plastic.diffuse == Vec3(1, 0.5, 0));
   CHECK(plastic.reflected == Vec3(0));
@@ -61,7 +61,7 @@ TEST_CASE("metallic-roughness becomes what comes nearest") {
   CHECK(glass.materials[0]->medium()->absorption.y == doctest::Approx(std::log(2) / 2));
 }
 
-TEST_CASE("metallic-roughness as a BSDF, with its coat, its index and its map") {
+TEST_CASE("metallic-roughness becomes a BSDF, with its coat, its index and its map") {
   const auto bsdf_of = [](const GltfFile& file, const Vec2& uv) {
     const ImportedScene scene = import_sound(file.gltf(), "a.gltf");
     const ScatteringContext context{uv, 1, 1, 1};
@@ -109,7 +109,7 @@ TEST_CASE("metallic-roughness as a BSDF, with its coat, its index and its map") 
   CHECK(metal > 0.25);
 }
 
-TEST_CASE("extensions of materials, with their pictures: which channel of each counts") {
+TEST_CASE("each material extension reads the right channel of its picture") {
   std::ifstream png("tests/image/pictures/rgba_interlaced.png", std::ios::binary);
   const std::string picture{std::istreambuf_iterator<char>(png), {}};
   const Json map = {{"index", 0}};
@@ -178,7 +178,7 @@ TEST_CASE("extensions of materials, with their pictures: which channel of each c
   CHECK(half.layered == 0.75);
 }
 
-TEST_CASE("pictures, from data and files, with their samplers") {
+TEST_CASE("pictures come from data and files, with their samplers") {
   std::ifstream png("tests/image/pictures/rgb.png", std::ios::binary);
   const std::string picture{std::istreambuf_iterator<char>(png), {}};
   GltfFile file =
@@ -204,7 +204,7 @@ TEST_CASE("pictures, from data and files, with their samplers") {
   CHECK(warns(import_sound(file.gltf(), "a.gltf"), "textures without a picture (1)"));
 }
 
-TEST_CASE("a normal map counts by its codes, with the mesh's tangents where they are sound") {
+TEST_CASE("a normal map uses its raw codes, and the mesh's tangents if they are sound") {
   std::ifstream png("tests/image/pictures/rgb.png", std::ios::binary);
   const std::string picture{std::istreambuf_iterator<char>(png), {}};
   GltfFile file = with_material({{"normalTexture", {{"index", 0}, {"scale", -0.5}}}});
@@ -276,7 +276,7 @@ TEST_CASE("alphaMode MASK cuts out by factor, picture and vertices, BLEND blends
   CHECK(mask_of()->covers(Vec2(0), 0.5, 0.3));
 }
 
-TEST_CASE("a material that is not doubleSided is there, and shines, only in front; glass is on both sides") {
+TEST_CASE("a single-sided material is visible and emits only in front; glass has both sides") {
   const auto material_of = [](const Json& json) {
     return std::move(import_sound(with_material(json).gltf(), "a.gltf").materials[0]);
   };
@@ -293,7 +293,7 @@ TEST_CASE("a material that is not doubleSided is there, and shines, only in fron
   }
 }
 
-TEST_CASE("parts left out are named once, and counted") {
+TEST_CASE("omitted parts are named once, with their count") {
   GltfFile file = with_material({{"occlusionTexture", {{"index", 0}}}});
   file.json["textures"].push_back(Json::object());
   file.json["materials"].push_back(file.json["materials"][0]);
@@ -307,7 +307,7 @@ TEST_CASE("parts left out are named once, and counted") {
                                  "points and lines (1)"});
 }
 
-TEST_CASE("textures in formats that are not read leave the colour") {
+TEST_CASE("textures in unsupported formats leave the material's colour") {
   for (const auto& [extension, format] :
        {std::pair("EXT_texture_webp", "WebP"), std::pair("KHR_texture_basisu", "KTX2")}) {
     GltfFile file = with_material({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
@@ -317,7 +317,7 @@ TEST_CASE("textures in formats that are not read leave the colour") {
   }
 }
 
-TEST_CASE("emission, by factor, strength and picture; what is unlit emits its base colour") {
+TEST_CASE("emission has factor, strength and picture; an unlit material emits its base colour") {
   CHECK(scattering_of({{"emissiveFactor", {0.5, 0, 1}}}).emitted == Vec3(0.5, 0, 1));
   const Json strong = {{"KHR_materials_emissive_strength", {{"emissiveStrength", 3}}}};
   CHECK(scattering_of({{"emissiveFactor", {0.5, 0, 1}}, {"extensions", strong}}).emitted == Vec3(1.5, 0, 3));

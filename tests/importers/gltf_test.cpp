@@ -18,7 +18,7 @@ void check_square(const ImportedScene& scene) {
 
 }  // namespace
 
-TEST_CASE("the same square as data URI, .glb and two files") {
+TEST_CASE("the same square is read from a data URI, a .glb and two files") {
   const GltfFile file = square_file();
   check_square(import_sound(file.gltf(), "a.gltf"));
   check_square(import_sound(file.glb(), "a.glb"));
@@ -30,7 +30,7 @@ TEST_CASE("the same square as data URI, .glb and two files") {
   CHECK(scene.files == std::vector<std::filesystem::path>{folder / "a.gltf", folder / "sub/the data.bin"});
 }
 
-TEST_CASE("every type of index and of coordinate") {
+TEST_CASE("every type of index and of coordinate is read") {
   for (const int index : {5121, 5123, 5125}) {
     GltfFile file;
     file.add_positions(square_positions);
@@ -54,7 +54,7 @@ TEST_CASE("every type of index and of coordinate") {
   }
 }
 
-TEST_CASE("lists, strips and fans, with and without indices") {
+TEST_CASE("lists, strips and fans are read, with and without indices") {
   const std::vector<double> zigzag = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
   const std::vector<double> soup = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0};
   const struct {
@@ -75,7 +75,7 @@ TEST_CASE("lists, strips and fans, with and without indices") {
   }
 }
 
-TEST_CASE("interleaved attributes, normals and uv, whose v starts at the top") {
+TEST_CASE("interleaved attributes, normals and uv are read, and v starts at the top") {
   GltfFile file;
   std::vector<double> rows;
   for (size_t i = 0; i < 4; ++i) {
@@ -104,7 +104,7 @@ TEST_CASE("interleaved attributes, normals and uv, whose v starts at the top") {
   }
 }
 
-TEST_CASE("sparse accessors, upon data and upon nothing") {
+TEST_CASE("sparse accessors replace data, or zeros without a view") {
   for (const bool base : {true, false}) {
     GltfFile file = square_file();
     Json& positions = file.json["accessors"][0];
@@ -123,7 +123,7 @@ TEST_CASE("sparse accessors, upon data and upon nothing") {
   }
 }
 
-TEST_CASE("nodes move what is below them, and share meshes") {
+TEST_CASE("nodes transform their descendants, and share meshes") {
   GltfFile file = square_file();
   file.json["nodes"] = {{{"mesh", 0}, {"children", {2, 1}}, {"translation", {1, 2, 3}}},
                         {{"mesh", 0}, {"matrix", {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 5, 0, 0, 1}}},
@@ -160,7 +160,7 @@ TEST_CASE("nodes that are their own ancestors, or have two parents, are refused"
   CHECK(import_sound(file.gltf(), "a.gltf").instances.size() == 1);
 }
 
-TEST_CASE("wrong glTF is refused, and the place named") {
+TEST_CASE("wrong glTF is refused, and the position named") {
   const auto message = [](const char* pointer, const Json& value) {
     GltfFile file = square_file();
     file.json[Json::json_pointer(pointer)] = value;
@@ -220,7 +220,7 @@ TEST_CASE("damaged files are refused") {
   CHECK(contains(refusal(glb, "a.glb"), "it must be glTF 2, not 1"));
 }
 
-TEST_CASE("few bytes cannot stand for much memory") {
+TEST_CASE("a small file cannot claim much memory") {
   GltfFile file = square_file();
   file.json["accessors"][0] = {{"componentType", 5126}, {"type", "VEC3"}, {"count", 1000000000}};
   CHECK(contains(refusal(file.gltf(), "a.gltf"),

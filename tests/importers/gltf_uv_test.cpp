@@ -45,7 +45,7 @@ Json glowing(const Json& emission) {
 
 }  // namespace
 
-TEST_CASE("a picture on another set of uv, or on the same one otherwise transformed, is shown there") {
+TEST_CASE("a picture may use another set of uv, or another transform of the same set") {
   for (const Json& emission : {texture_of_set(1), scaled(0.5)}) {
     const ImportedScene scene = import_sound(two_uv_file(glowing(emission)).gltf(), "a.gltf");
     CHECK(scene.warnings.empty());
@@ -85,7 +85,7 @@ TEST_CASE("any picture may read the second uv, and a third is left out") {
   }
 }
 
-TEST_CASE("tangents are along the uv of the normal map") {
+TEST_CASE("tangents follow the uv of the normal map") {
   Json material = glowing(texture_of_set(0));
   material["normalTexture"] = texture_of_set(1);
   GltfFile file = two_uv_file(material);

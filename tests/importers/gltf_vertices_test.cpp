@@ -39,7 +39,7 @@ TEST_CASE("colours of vertices are linear, with and without alpha, and kept with
 }
 
 // By the specification, uv are scaled, then rotated counter-clockwise as pictures are seen, then moved.
-TEST_CASE("KHR_texture_transform, and the set of uv that it names") {
+TEST_CASE("KHR_texture_transform transforms uv, and selects the set that it names") {
   GltfFile file = square_file();
   file.primitive()["attributes"]["TEXCOORD_2"] = file.add({0, 0, 1, 0, 1, 1, 0, 1}, 5126, "VEC2", 2);
   file.primitive()["material"] = 0;
@@ -61,7 +61,7 @@ TEST_CASE("KHR_texture_transform, and the set of uv that it names") {
   }
 }
 
-TEST_CASE("morph targets by their weights, the node's before the mesh's") {
+TEST_CASE("morph targets use the node's weights before the mesh's") {
   GltfFile file = square_file();
   const std::vector<double> up = {0, 0, 2, 0, 0, 2, 0, 0, 2, 0, 0, 2};
   file.primitive()["targets"] = {{{"POSITION", file.add(up, 5126, "VEC3", 3)}}};
@@ -78,7 +78,7 @@ TEST_CASE("morph targets by their weights, the node's before the mesh's") {
   CHECK(contains(refusal(file.gltf(), "a.gltf"), "do not all have as many elements"));
 }
 
-TEST_CASE("a skin puts vertices where its joints are, wherever its node is") {
+TEST_CASE("a skin's vertices follow its joints, wherever its node is") {
   // Each of two joints holds two corners, and the second joint stands above the first.
   GltfFile file = square_file();
   const auto skinned = [&](const std::vector<double>& joints, const std::vector<double>& weights) {

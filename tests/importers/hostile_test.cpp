@@ -62,7 +62,7 @@ bool survives(const std::string& bytes, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("files cut short at every byte") {
+TEST_CASE("files truncated at every byte are refused or read") {
   for (const Seed& seed : seeds()) {
     const auto& name = seed.name;
     const auto& bytes = seed.bytes;
@@ -75,7 +75,7 @@ TEST_CASE("files cut short at every byte") {
   }
 }
 
-TEST_CASE("files with random damage") {
+TEST_CASE("files with random damage are refused or read") {
   std::mt19937 random(11);
   const auto below = [&](size_t n) { return std::uniform_int_distribution<size_t>(0, n - 1)(random); };
   constexpr std::string_view tokens[] = {"-1",
@@ -132,7 +132,7 @@ TEST_CASE("files with random damage") {
   }
 }
 
-TEST_CASE("what is no mesh file") {
+TEST_CASE("files other than mesh files are refused") {
   CHECK(refusal("", "a.stl") == "a.stl: error: a mesh file's name must end in .obj, .ply, .gltf or .glb");
   CHECK_FALSE(is_mesh_file("a.toml"));
   CHECK_FALSE(is_mesh_file("obj"));

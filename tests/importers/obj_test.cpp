@@ -12,7 +12,7 @@ const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 }  // namespace
 
-TEST_CASE("a square in every way that indices are written") {
+TEST_CASE("a square is read in every notation of indices") {
   const std::string extra = square + "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\n";
   for (const char* face :
        {"f 1 2 3 4", "f 1/1 2/2 3/3 4/4", "f 1//1 2//1 3//1 4//1", "f 1/1/1 2/2/1 3/3/1 4/4/1",
@@ -56,7 +56,7 @@ TEST_CASE("wrong OBJ is refused at its line and column") {
   CHECK(contains(refusal("", "a.obj"), "no visible triangles"));
 }
 
-TEST_CASE("faces that cannot be seen are left out and counted") {
+TEST_CASE("invisible faces are left out and counted") {
   const std::string more = square + "v nan 0 0\nv inf 0 0\nv 1e999 0 0\nv 1e-999 0 1\nv 0.5 0 0\n";
   const ImportedScene scene =
       import_sound(more + "f 1 2 3\nf 1 2 5\nf 1 2 6\nf 1 2 7\nf 1 2 2\nf 1 9 2\nf 1 2\nf 1 2 8\n", "a.obj",
@@ -67,7 +67,7 @@ TEST_CASE("faces that cannot be seen are left out and counted") {
   CHECK(scene.meshes[0].positions.size() == 4);  // the positions of unused vertices are gone
 }
 
-TEST_CASE("normals that cannot be used become those of the face") {
+TEST_CASE("unusable normals are replaced by the face's normal") {
   const ImportedScene scene = import_sound(
       square + "vn 0 0 5\nvn 0 0 0\nvn 0 0 -1\nvn nan 0 0\nf 1//1 2//2 3//3\nf 1//1 3//4 4//1\n", "a.obj");
   CHECK(warns(scene, "3 corners whose normals"));
@@ -110,7 +110,7 @@ TEST_CASE("each material has its mesh, and its .mtl is read") {
   CHECK(scene.files.size() == 3);
 }
 
-TEST_CASE("colours of vertices, with and without a weight before them; those without are white") {
+TEST_CASE("vertices have colours, with or without a weight before them; vertices without one are white") {
   const ImportedScene scene = import_sound(
       "v 0 0 0\nv 1 0 0 1 0.5 0\nv 1 1 0 1 0 7 nan\nv 0 1 0 1 0.25 0.5 0.75\nf 1 2 3 4\n", "a.obj");
   const std::vector<Vec3>& colors = scene.meshes[0].colors;
@@ -122,7 +122,7 @@ TEST_CASE("colours of vertices, with and without a weight before them; those wit
   CHECK(scene.warnings.empty());
 }
 
-TEST_CASE("text in UTF-16 is called that") {
+TEST_CASE("text in UTF-16 is refused by name") {
   for (const std::string start : {"\xff\xfe", "\xfe\xff"})
     CHECK(refusal(start + "v", "a.obj") == "a.obj: error: it is text in UTF-16: save it as UTF-8");
 }
@@ -189,7 +189,7 @@ TEST_CASE("a byte order mark before OBJ, MTL and PLY is skipped") {
   CHECK(import_sound(mark + ply, "a.ply").meshes[0].triangles.size() == 1);
 }
 
-TEST_CASE("options of maps may have fewer numbers than they can; -s and -o place the picture") {
+TEST_CASE("options of maps may omit numbers; -s and -o transform the picture") {
   const Folder folder;
   std::filesystem::copy_file("tests/image/pictures/rgb.png", folder / "my picture.png");
   const auto corner = [&](const std::string& options) {

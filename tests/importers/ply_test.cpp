@@ -33,7 +33,7 @@ std::string ascii(const std::string& vertices, const std::string& faces) {
 
 }  // namespace
 
-TEST_CASE("every type of coordinate, of index and of a list's length, in every order of bytes") {
+TEST_CASE("every type of coordinate, index and list length is read, in every byte order") {
   for (const auto& pair : {std::pair("binary_little_endian", std::endian::little),
                            std::pair("binary_big_endian", std::endian::big)}) {
     const char* const format = pair.first;
@@ -63,7 +63,7 @@ TEST_CASE("every type of coordinate, of index and of a list's length, in every o
   }
 }
 
-TEST_CASE("text, with any spaces and line breaks") {
+TEST_CASE("text is read with any spaces and line breaks") {
   check_ply_square(import_sound(ascii("0 0 0\n1 0 0\n1 1 0\n0 1 0\n", "4 0 1 2 3\n"), "a.ply"));
   check_ply_square(import_sound(ascii("0 0 0  +1 0 0\r\n1e0 1.0 -0 0 1 0", "\t4 0 1\n2 3"), "A.PLY"));
   std::string windows = ascii("0 0 0\n1 0 0\n1 1 0\n0 1 0\n", "4 0 1 2 3\n");
@@ -71,7 +71,7 @@ TEST_CASE("text, with any spaces and line breaks") {
   check_ply_square(import_sound(windows, "a.ply"));
 }
 
-TEST_CASE("other elements and properties are stepped over, wherever they are") {
+TEST_CASE("other elements and properties are skipped, wherever they are") {
   Bytes data;
   data.add(uint8_t(2)).add(1.5f).add(2.5f);
   data.add(uint8_t(3)).add(int16_t(0)).add(int16_t(1)).add(int16_t(2)).add(7.0);
@@ -97,7 +97,7 @@ TEST_CASE("other elements and properties are stepped over, wherever they are") {
   CHECK(scene.warnings.empty());
 }
 
-TEST_CASE("colours of vertices, of every type, are what a screen shows") {
+TEST_CASE("vertex colours of every type are sRGB codes") {
   for (const auto& [type, one] :
        {std::pair("uchar", 255.0), std::pair("ushort", 65535.0), std::pair("float", 1.0)}) {
     for (const std::string prefix : {"", "diffuse_"}) {
@@ -126,7 +126,7 @@ TEST_CASE("colours of vertices, of every type, are what a screen shows") {
   }
 }
 
-TEST_CASE("names of uv") {
+TEST_CASE("every name of uv is read") {
   for (const auto& [u, v] : {std::pair("s", "t"), std::pair("u", "v"), std::pair("texture_u", "texture_v"),
                              std::pair("texture_s", "texture_t")}) {
     const ImportedScene scene = import_sound(
@@ -140,7 +140,7 @@ TEST_CASE("names of uv") {
   }
 }
 
-TEST_CASE("strips of triangles turn every other one") {
+TEST_CASE("strips of triangles flip every other triangle") {
   const ImportedScene scene =
       import_sound(header("ascii",
                           "element vertex 6\nproperty float x\nproperty float y\nproperty float z\n"
@@ -151,7 +151,7 @@ TEST_CASE("strips of triangles turn every other one") {
   CHECK(signed_area(scene.meshes[0], {0, 0, 1}) == 5);
 }
 
-TEST_CASE("wrong PLY is refused, with its place in a text") {
+TEST_CASE("wrong PLY is refused, with the position in a text") {
   const auto message = [](const std::string& bytes) { return refusal(bytes, "a.ply"); };
   const std::string good = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
   CHECK(message("") == "a.ply:1:1: error: the header ends without `end_header`");
@@ -183,7 +183,7 @@ TEST_CASE("wrong PLY is refused, with its place in a text") {
   CHECK(message(ascii(good, "-4 0 1 2 3")) == "a.ply:15:3: error: the length of a list must be an integer");
 }
 
-TEST_CASE("a header may promise what it likes") {
+TEST_CASE("a header that claims absurd counts is refused") {
   for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
     for (const char* count : {"1000000000", "18446744073709551615"}) {
       const std::string xyz = "\nproperty float x\nproperty float y\nproperty float z\n";
@@ -227,7 +227,7 @@ const std::string face_uv = "property list uchar float texcoord\n";
 
 }  // namespace
 
-TEST_CASE("colours of faces are shown, and those of vertices before them") {
+TEST_CASE("colours of faces are shown, but colours of vertices take precedence") {
   const ImportedScene scene =
       import_sound(two_faces("", face_corners + face_colors, "3 0 1 2 255 0 0", "3 0 2 3 0 0 255"), "a.ply");
   CHECK(scene.warnings.empty());
@@ -254,7 +254,7 @@ TEST_CASE("colours of faces are shown, and those of vertices before them") {
         std::vector<std::string>{"the colours of faces were left out: those of vertices are shown"});
 }
 
-TEST_CASE("a picture is shown by the uv of faces, and each of several by its number") {
+TEST_CASE("faces' uv map one picture, or several by their number") {
   const Folder folder;
   for (const char* name : {"a.png", "b.png"})
     std::filesystem::copy_file("tests/image/pictures/rgb.png", folder / name);
@@ -294,7 +294,7 @@ TEST_CASE("a picture is shown by the uv of faces, and each of several by its num
               "it has no uv"));
 }
 
-TEST_CASE("a picture in a comment is shown where vertices have uv") {
+TEST_CASE("a comment's picture is shown if vertices have uv") {
   const Folder folder;
   std::filesystem::copy_file("tests/image/pictures/rgb.png", folder / "my picture.png");
   const auto scene_of = [&](const std::string& comments) {

@@ -84,7 +84,7 @@ TEST_CASE("a concave polygon of too many corners is a fan, and counted") {
   CHECK(triangulator.fans() == 1);
 }
 
-TEST_CASE("polygons without sense end") {
+TEST_CASE("the triangulation of degenerate polygons ends") {
   Triangulator triangulator;
   const double nan = std::nan("");
   CHECK(triangulator.cut({}).empty());

@@ -63,7 +63,7 @@ TEST_CASE("normals weigh faces by their angle, not by how they are cut") {
   CHECK(corners == 1);
 }
 
-TEST_CASE("a thousand faces around a point take no time") {
+TEST_CASE("50 000 faces around a point take little time") {
   std::string obj = "v 0 0 1\n";
   constexpr int count = 50000;
   for (int i = 0; i < count; ++i)

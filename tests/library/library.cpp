@@ -102,7 +102,7 @@ TEST_CASE("a renderer's first picture warns of a cache that others may write to"
   std::filesystem::remove_all(folder);
 }
 
-TEST_CASE("a picture bears the warnings that the command line prints") {
+TEST_CASE("a picture has the warnings that the command line prints") {
   const auto only_warning = [&](const Scene& scene, const RenderOptions& options) {
     const Picture picture = renderer().render(scene, options);
     REQUIRE(picture.warnings().size() == 1);
@@ -117,7 +117,7 @@ TEST_CASE("a picture bears the warnings that the command line prints") {
   CHECK(only_warning(lit, {}).find("exposure") != std::string::npos);
 }
 
-TEST_CASE("a picture's planes have the shapes that the header says") {
+TEST_CASE("a picture's planes have the shapes that the header documents") {
   const Picture picture = renderer().render(Scene::read(small), {.aovs = {"depth", "normal", "hits"}});
   CHECK(picture.complete());
   CHECK(picture.samples_done() == 1);
@@ -144,7 +144,7 @@ TEST_CASE("a picture's planes have the shapes that the header says") {
   CHECK(std::memcmp(pixels.values.data(), &color.values[3 * middle], 12 * sizeof(float)) == 0);
 }
 
-TEST_CASE("gpu and twin make the same bits, from several threads at once too") {
+TEST_CASE("GPU and twin render the same bits, from several threads at once too") {
   const Scene scene = Scene::read(small);
   const Picture alone = renderer().render(scene);
   std::vector<Picture> pictures(3, alone);
@@ -159,7 +159,7 @@ TEST_CASE("gpu and twin make the same bits, from several threads at once too") {
   CHECK_FALSE(same_bits(renderer().render(with({"sphere.0.radius=0.9"})).color(), alone.color()));
 }
 
-TEST_CASE("a render that is cancelled returns what it has, and the renderer goes on") {
+TEST_CASE("a cancelled render returns its picture so far, and the renderer stays usable") {
   const Scene scene = with({"image.pattern=random", "image.samples=65536"});
   SUBCASE("by progress, with some samples") {
     int calls = 0;
@@ -184,7 +184,7 @@ TEST_CASE("a render that is cancelled returns what it has, and the renderer goes
     CHECK_FALSE(renderer().render(scene, options).complete());
     other.join();
   }
-  SUBCASE("before it began: nothing") {
+  SUBCASE("before it begins, and the picture is empty") {
     RenderOptions options;
     options.cancellation.request();
     const Picture picture = renderer().render(scene, options);
@@ -206,7 +206,7 @@ TEST_CASE("an exception from progress reaches the caller") {
   CHECK(renderer().render(Scene::read(small)).complete());
 }
 
-TEST_CASE("errors are of a kind, and a scene's have places") {
+TEST_CASE("errors have a kind, and a scene's errors have positions") {
   const Error missing = thrown_by([] { return Scene::read("no-such.toml"); });
   CHECK(missing.kind() == ErrorKind::file_io);
   const Error wrong = thrown_by([] { return Scene::parse("[[sphere]]\nradius = -1\nradios = 2\n", "mine"); });
@@ -278,7 +278,7 @@ TEST_CASE("a scene built in code is the same as one from a file") {
   CHECK(refusal({nan, corners}).diagnostics().size() == 1);
 }
 
-TEST_CASE("a value takes every number and text, and nothing that only converts to one") {
+TEST_CASE("a value accepts every number and text, but no type that only converts to one") {
   CHECK(Value(true).toml() == "true");
   CHECK(Value(-3).toml() == "-3");
   CHECK(Value(3u).toml() == "3");
@@ -315,7 +315,7 @@ TEST_CASE("only the engine makes scenes and pictures of its data") {
   static_assert(!std::is_constructible_v<Picture, std::shared_ptr<const Picture::Data>>);
 }
 
-TEST_CASE("verify reports what the program would") {
+TEST_CASE("verify returns the program's report") {
   const Report report = renderer().verify(Scene::read(small), {.crop = {0, 0, 32, 32}});
   CHECK(report.passed);
   CHECK(report.failures.empty());

@@ -149,7 +149,7 @@ void expect_noticed(const Expected& expected) {
 
 }  // namespace
 
-TEST_CASE("command.txt, run by a shell as it stands, finds the same again") {
+TEST_CASE("a shell that runs command.txt unchanged gets the same result again") {
   const TemporaryFolder folder;
   const std::string scene = folder / "it's a $scene.toml", kept = folder / "kept";
   std::filesystem::copy_file("scenes/whitted.toml", scene);
@@ -179,7 +179,7 @@ TEST_CASE("without a fault verify passes and keeps nothing") {
   CHECK(folder.names().empty());
 }
 
-TEST_CASE("every fault has its place in a shader, what is expected of it, and a row in the documents") {
+TEST_CASE("every fault has a line in a shader, an expected result, and a row in the documents") {
   const TemporaryFolder folder;
   const std::string document = read_text("docs/gates.md");
   std::set<std::string> names, expected;
@@ -196,21 +196,21 @@ TEST_CASE("every fault has its place in a shader, what is expected of it, and a 
   CHECK_THROWS(lay_fault(folder, "none"));
 }
 
-TEST_CASE("a fault in geometry, of a light's place and of one bit are noticed, each with its reason") {
+TEST_CASE("a fault in geometry, in a light's position and in one bit are detected, with the reason") {
   for (const Expected& expected : all_expected())
     for (const char* name : {"edge", "near_light", "bit"})
       if (expected.fault == name) expect_noticed(expected);
 }
 
-TEST_CASE("every fault on the GPU's side is noticed, with its reason" * doctest::test_suite("long")) {
+TEST_CASE("every fault on the GPU's side is detected, with its reason" * doctest::test_suite("long")) {
   for (const Expected& expected : all_expected()) expect_noticed(expected);
 }
 
-TEST_CASE("a driver that may contract a·b + c is noticed") {
+TEST_CASE("a driver that may contract a·b + c is detected") {
   expect_noticed({"", {"gate A: gpu and twin"}, {"scenes/whitted.toml", "--fast-math"}});
 }
 
-TEST_CASE("compare answers 1 to pictures of another size, too different, or not a number") {
+TEST_CASE("compare returns 1 for pictures of another size, too different, or with a NaN") {
   const TemporaryFolder folder;
   Image picture(8, 6, 3);
   write_image(folder / "a.pfm", picture);

@@ -24,7 +24,7 @@ TEST_CASE("an edge does not excuse a value that is on neither side of it") {
   CHECK(compared(gpu).first_hits.unexplained == 1);
 }
 
-TEST_CASE("too many explained pixels fail, all of them explained") {
+TEST_CASE("too many explained pixels fail, even if none is unexplained") {
   // The picture with an edge along a whole column.
   const Reference split = [](int x, int y, const Vec2& shift, rounding::Coincidence) {
     Neighbour neighbour = picture_reference(x, y, shift);
@@ -41,7 +41,7 @@ TEST_CASE("too many explained pixels fail, all of them explained") {
   CHECK(compare_with_reference(value, reference, split, {.max_explained = 0.05}).colors.passes());
 }
 
-TEST_CASE("an extreme between the usual places is looked for, in few pixels") {
+TEST_CASE("a search finds an extreme between the usual directions, if few pixels need it") {
   // In the first `columns` pixels of row 0, the picture is twice as bright if moved in a direction between
   // two of the 64 that are tried.
   const auto unexplained = [](int columns) {
@@ -77,7 +77,7 @@ TEST_CASE("unexamined pixels fail, even if all examined ones are explained") {
   CHECK_FALSE(tally.passes());
 }
 
-TEST_CASE("a gate that has failed keeps no other one from being examined") {
+TEST_CASE("a gate's failure does not keep other gates from being examined") {
   // Colours are wrong everywhere; first hits differ at honest edges alone.
   Frame gpu = honest_frame();
   for_each_pixel(gpu, [](float* color, FirstHit&) { color[0] += 0.3f; });
@@ -89,7 +89,7 @@ TEST_CASE("a gate that has failed keeps no other one from being examined") {
   CHECK(comparison.first_hits.explained[size_t(Cause::silhouette)] == edge_pixels);
 }
 
-TEST_CASE("noise cannot hide: pixels beyond the cap are not even looked into, and fail") {
+TEST_CASE("noise cannot hide a fault: pixels beyond the cap stay unexamined, and fail") {
   Frame gpu = honest_frame();
   for_each_pixel(gpu, [](float* color, FirstHit& hit) { color[0] += hit.primitive == 0 ? 1e-3f : 0.0f; });
   const Tally tally = compared(gpu).colors;

@@ -83,7 +83,7 @@ TEST_CASE("without a fault every gate passes, and each honest difference has its
         picture_width * picture_height);
 }
 
-TEST_CASE("gate A sees one bit, wherever it is") {
+TEST_CASE("gate A detects one bit, wherever it is") {
   const auto flip = [](float& value) { value = std::bit_cast<float>(std::bit_cast<uint32_t>(value) ^ 1u); };
   const auto flip_double = [&](double& value) {
     float narrow = float(value);
@@ -144,7 +144,7 @@ TEST_CASE("a ULP bound forgives small distances, never an id, a NaN or a ray") {
   CHECK_FALSE(compare_exactly(gpu, twin).passes(64));
 }
 
-TEST_CASE("NaN, infinity and negative colours fail, alone, everywhere") {
+TEST_CASE("a single NaN, infinity or negative colour fails, everywhere") {
   struct Fault {
     float value;
     const char* word;
@@ -178,7 +178,7 @@ TEST_CASE("NaN, infinity and negative colours fail, alone, everywhere") {
   CHECK(mentions(verify(gpu), "gpu: 1 infinite"));
 }
 
-TEST_CASE("samples that the executor itself calls incomplete fail") {
+TEST_CASE("samples that the executor flags as incomplete fail") {
   Frame gpu = honest_frame();
   gpu.flags = stack_overflow;
   gpu.flagged_pixels = 3;
@@ -245,7 +245,7 @@ TEST_CASE("flipped normals fail at the seam 'normal'") {
   CHECK(comparison.first_hits.worst.seam == Seam::normal);
 }
 
-TEST_CASE("geometric normals that are the shading normal's, or a front that is a back, fail at their seam") {
+TEST_CASE("wrong geometric normals, and a back reported as a front, fail at their seam") {
   for (const bool turned : {false, true}) {
     Frame gpu = honest_frame();
     for_each_pixel(gpu, [&](float*, FirstHit& hit) {
@@ -283,7 +283,7 @@ TEST_CASE("a wrong colour fails at the seam 'color' where an explained first hit
   CHECK(comparison.colors.worst.seam == Seam::color);
 }
 
-TEST_CASE("a difference just over the tolerance fails, just below passes") {
+TEST_CASE("a difference above the tolerance fails, and one below passes") {
   for (const auto& [factor, passes] : {std::pair{0.5, true}, {5.0, false}}) {
     Frame gpu = picture_frame();
     gpu.color.pixel(on_ball.x, on_ball.y)[0] += float(factor * 1e-4);
@@ -306,7 +306,7 @@ TEST_CASE("a difference just over the tolerance fails, just below passes") {
   }
 }
 
-TEST_CASE("gate C sees one surface or one ray too many") {
+TEST_CASE("gate C detects one surface or one ray too many") {
   for (const auto image : {&Frame::hits, &Frame::rays_traced}) {
     Frame gpu = picture_frame();
     *(gpu.*image).pixel(on_ball.x, on_ball.y) += 1;
@@ -322,7 +322,7 @@ TEST_CASE("gate C sees one surface or one ray too many") {
   CHECK(compared(honest_frame()).counts.explained[size_t(Cause::silhouette)] == edge_pixels);
 }
 
-TEST_CASE("a picture of another size, place or shape fails, and so does none at all") {
+TEST_CASE("a picture of another size, position or shape fails, and so does an empty one") {
   const Frame reference = picture_frame();
   std::vector<Frame> wrong(7, honest_frame());
   wrong[0].color = Image(picture_width - 1, picture_height, 3);
@@ -344,7 +344,7 @@ TEST_CASE("a picture of another size, place or shape fails, and so does none at 
   CHECK_FALSE(Report{}.passes());
 }
 
-TEST_CASE("a tolerance that nothing could exceed, or that is not a number, ends the program") {
+TEST_CASE("a tolerance that is too large, negative or not a number ends the program") {
   CHECK_FALSE(aborts([] { Tolerances{}.check(); }));
   CHECK(aborts([] { Tolerances{.color = std::nan("")}.check(); }));
   CHECK(aborts([] { Tolerances{.color = 0.1}.check(); }));

@@ -79,7 +79,7 @@ ReferenceComparison compared_paths(const Frame& value, double off = 0) {
 
 }  // namespace
 
-TEST_CASE("paths that part where the reference's do nearby are counted as such") {
+TEST_CASE("paths that diverge where nearby reference paths do are counted as diverged") {
   const ReferenceComparison comparison = compared_paths(path_frame(5e-5), 5e-5);
   CHECK(comparison.passes());
   CHECK(comparison.paths.pixels == picture_width * picture_height * each);
@@ -89,7 +89,7 @@ TEST_CASE("paths that part where the reference's do nearby are counted as such")
   CHECK(comparison.paths.worst.parting == "event 1: 2, but the reference's 1");
 }
 
-TEST_CASE("one sample's colour is wrong, by less than its pixel's mean would show") {
+TEST_CASE("one sample's wrong colour fails, though its pixel's mean would hide it") {
   Frame gpu = path_frame();
   sample_at(gpu, 20, 30, 0).color.x += 3e-4f;
   const ReferenceComparison comparison = compared_paths(gpu);
@@ -100,7 +100,7 @@ TEST_CASE("one sample's colour is wrong, by less than its pixel's mean would sho
   CHECK(comparison.paths.worst.seam == Seam::color);
 }
 
-TEST_CASE("a path goes where none of the reference's does, or nobody knows where") {
+TEST_CASE("a path that no nearby reference path takes, or whose events are unknown, fails") {
   // A sample shows the other wall, far from the edge.
   Frame gpu = path_frame();
   sample_at(gpu, 20, 2, 1) = sample_at(gpu, 60, 2, 1);
@@ -117,7 +117,7 @@ TEST_CASE("a path goes where none of the reference's does, or nobody knows where
             .paths.unexplained == 1);
 }
 
-TEST_CASE("the same path has another number of rays") {
+TEST_CASE("the same path with another number of rays fails") {
   Frame gpu = path_frame();
   sample_at(gpu, 20, 30, 3).rays += 1;
   const ReferenceComparison comparison = compared_paths(gpu);
@@ -125,7 +125,7 @@ TEST_CASE("the same path has another number of rays") {
   CHECK(comparison.paths.worst.seam == Seam::counts);
 }
 
-TEST_CASE("too many that part fail, all of them explained") {
+TEST_CASE("too many diverged paths fail, even if all are explained") {
   const Frame gpu = path_frame(5e-5);
   const PathReference reference = paths(5e-5);
   const ReferenceComparison comparison =
@@ -135,7 +135,7 @@ TEST_CASE("too many that part fail, all of them explained") {
   CHECK_FALSE(comparison.passes());
 }
 
-TEST_CASE("errors below any sample's tolerance, but everywhere, are found by their sums") {
+TEST_CASE("sums detect errors below every sample's tolerance, everywhere or in one tile") {
   for (const bool everywhere : {true, false}) {
     Frame gpu = path_frame();
     for (int y = 0; y < picture_height; ++y)
@@ -151,7 +151,7 @@ TEST_CASE("errors below any sample's tolerance, but everywhere, are found by the
   }
 }
 
-TEST_CASE("gate A is of samples, too: a colour that the mean does not show, and another path") {
+TEST_CASE("gate A compares samples, too: a colour that the mean hides, and another path") {
   const Frame twin = path_frame();
   Frame gpu = path_frame();
   CHECK(compare_exactly(gpu, twin).passes(0));

@@ -71,10 +71,10 @@ const Probed probed_faults[] = {
 
 }  // namespace
 
-TEST_CASE("the probe finds a wrong index of refraction, a missing shadow and a flipped bit where they are") {
+TEST_CASE("the probe locates a wrong index of refraction, a missing shadow and a flipped bit") {
   for (const Probed& probed : std::span(probed_faults).first(3)) expect_found(probed);
 }
 
-TEST_CASE("… and every fault that a pixel's kernel has" * doctest::test_suite("long")) {
+TEST_CASE("the probe locates every fault that a pixel's kernel has" * doctest::test_suite("long")) {
   for (const Probed& probed : probed_faults) expect_found(probed);
 }

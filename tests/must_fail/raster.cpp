@@ -47,7 +47,7 @@ TEST_CASE("gate R detects every fault of geometry that changes the hit of a came
   expect_noticed("scenes/whitted.toml", "shift", 1000);
 }
 
-TEST_CASE("gate R passes without a fault, and of a fault that changes no first hit") {
+TEST_CASE("gate R passes without a fault, and with a fault that changes no first hit") {
   for (const char* fault : {"", "light"}) {
     const nlohmann::json gates = gate_r("scenes/meshes.toml", fault);
     REQUIRE(gates.size() == 3);
