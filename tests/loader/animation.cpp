@@ -60,7 +60,7 @@ keyframes = )" + keyframes +
 
 }  // namespace
 
-TEST_CASE("between keyframes a value goes straight, jumps, or takes Catmull and Rom's way") {
+TEST_CASE("between keyframes a value is interpolated linearly, jumps, or follows a Catmull-Rom spline") {
   const std::string three = "[[0, [0, 0, 0]], [10, [10, 0, 2]], [30, [10, 40, 2]]]";
   CHECK(eye(three, "linear", 5) == Vec3(5, 0, 1));
   CHECK(eye(three, "linear", 10) == Vec3(10, 0, 2));
@@ -85,7 +85,7 @@ TEST_CASE("between keyframes a value goes straight, jumps, or takes Catmull and 
   CHECK(eye(even, "smooth", 1.5).x == doctest::Approx((-1 + 9 * 2 + 9 * 5 - 4) / 16.0));
 }
 
-TEST_CASE("a smooth curve has no corner at a keyframe, however far apart its neighbours are") {
+TEST_CASE("a smooth curve has no corner at a keyframe, however unevenly the keyframes are spaced") {
   const std::string uneven = "[[0, [0, 0, 0]], [1, [3, 0, 0]], [11, [4, 0, 0]], [12, [0, 0, 0]]]";
   for (const double frame : {1.0, 11.0}) {
     constexpr double h = 1e-4;
@@ -95,7 +95,7 @@ TEST_CASE("a smooth curve has no corner at a keyframe, however far apart its nei
   }
 }
 
-TEST_CASE("rotations: degrees about one axis run on, about two axes the shortest way is taken") {
+TEST_CASE("rotations about one axis interpolate the degrees; about two axes they take the shortest way") {
   const auto turn = [](const char* axis, double degrees) {
     return fmt::format("[{{ rotate = {{ axis = {}, degrees = {} }} }}]", axis, degrees);
   };
@@ -115,7 +115,7 @@ TEST_CASE("rotations: degrees about one axis run on, about two axes the shortest
   CHECK(half.z == doctest::Approx(-2 * c * s));
 }
 
-TEST_CASE("whole numbers stay whole where they are, and a track moves what an override has set") {
+TEST_CASE("tracks keep whole numbers whole, and animate values that an override has set") {
   const std::string depth =
       "[[track]]\ntarget = \"render.max_depth\"\ncurve = \"step\"\nkeyframes = [[0, 2], [5, 7]]\n";
   CHECK(at(depth, 4).render.max_depth == 2);

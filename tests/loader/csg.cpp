@@ -28,7 +28,7 @@ const Ray from_left{{-10, 0, 0}, {1, 0, 0}};
 
 }  // namespace
 
-TEST_CASE("a part has its own material, or that of the CSG object around it, or of the one around that") {
+TEST_CASE("a part without a material takes that of the nearest CSG object around it") {
   const Scene scene =
       parse(fmt::format("[[csg]]\nmaterial = \"wall\"\n[[csg.csg]]\n[[csg.csg.box]]\n{}"
                         "[[csg.minus.csg]]\nmaterial = \"ink\"\n[[csg.minus.csg.sphere]]\ncenter = "
@@ -39,7 +39,7 @@ TEST_CASE("a part has its own material, or that of the CSG object around it, or 
   CHECK(material_at(scene, *scene.shapes[0], {{-10, 0.7, 0}, {1, 0, 0}}) == "wall");
 }
 
-TEST_CASE("transforms of a part, of its CSG object, and of the group come one after the other") {
+TEST_CASE("the transforms of a part, its CSG object and its group are applied in that order") {
   const Scene scene =
       parse(fmt::format("[[group]]\ntransform = [{{ translate = [100, 0, 0] }}]\n"
                         "[[group.csg]]\ntransform = [{{ scale = 10 }}]\nmaterial = \"wall\"\n"
@@ -62,7 +62,7 @@ TEST_CASE("an intersection of separate parts is empty") {
   CHECK(bounds.min == Vec3(1.25, 0, 0));
 }
 
-TEST_CASE("batches: of a part, more parts; of a CSG object, more CSG objects, each of its material") {
+TEST_CASE("a part's batch adds parts; a CSG object's batch adds CSG objects, each with its own material") {
   const Scene scene = parse(
       "[[csg]]\nbatch = { transform = [[], [{ translate = [0, 50, 0] }]], material = [\"wall\", \"ink\"] "
       "}\n"
@@ -74,7 +74,7 @@ TEST_CASE("batches: of a part, more parts; of a CSG object, more CSG objects, ea
   CHECK(material_at(scene, *scene.shapes[1], {{-10, 50, 0}, {1, 0, 0}}) == "ink");
 }
 
-TEST_CASE("the order of tables does not matter: what is taken away stands below minus") {
+TEST_CASE("parts below `minus` are subtracted, whatever the order of the tables") {
   const std::string minus = "[[csg.minus.box]]\nmin = [-9, -9, -9]\nmax = [0, 9, 9]\n";
   const std::string ball = "[[csg.sphere]]\ncenter = [0, 0, 0]\nradius = 1\n";
   for (const std::string& parts : {ball + minus, minus + ball}) {

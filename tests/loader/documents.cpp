@@ -34,7 +34,7 @@ TEST_CASE("docs/scene-reference.md is what `eyeray check --manual` prints") {
                 "run: eyeray check --manual > docs/scene-reference.md");
 }
 
-TEST_CASE("every default is a right value of its key") {
+TEST_CASE("every default is a valid value of its key") {
   int defaults = 0;
   const auto check = [&](std::span<const reading::Key> keys) {
     for (const reading::Key& key : keys) {

@@ -42,7 +42,8 @@ std::shared_ptr<const EnvironmentMap> loaded(const test::Folder& folder, const s
 
 }  // namespace
 
-TEST_CASE("an environment's texels arrive, scaled and turned, from each kind of file, grey ones too") {
+TEST_CASE(
+    "an environment's texels are loaded, scaled and rotated, from each kind of file, greyscale ones too") {
   const test::Folder folder;
   image::Image picture = gray(4, 2, 0.5f);
   picture.pixel(1, 0)[2] = 3;
@@ -67,7 +68,7 @@ TEST_CASE("an environment's texels arrive, scaled and turned, from each kind of 
   CHECK_FALSE(load_scene(folder.write("none.toml", "")).environment);
 }
 
-TEST_CASE("texels that are no light are an error, with their count and first place; a black file a warning") {
+TEST_CASE("texels out of range are an error with their count and first position; a black file is a warning") {
   const test::Folder folder;
   const auto message = [&](const auto& spoil) {
     image::Image picture = gray(4, 3, 1);
@@ -91,7 +92,7 @@ TEST_CASE("texels that are no light are an error, with their count and first pla
   CHECK(message([](image::Image& picture) { picture = gray(1, 1, 2); }) == "accepted");
 }
 
-TEST_CASE("a file that holds no light is an error at its name") {
+TEST_CASE("a file that is not an environment is an error at its name") {
   const test::Folder folder;
   CHECK(message_of(folder, "image = 'none.hdr'") ==
         "cannot read " + (folder / "none.hdr") + ": No such file or directory");
@@ -112,7 +113,7 @@ TEST_CASE("a file that holds no light is an error at its name") {
         "[environment] takes the place of `background`: a scene has one or the other");
 }
 
-TEST_CASE("a sky has its sun among the lights, the last; by night there is none") {
+TEST_CASE("a sky adds its sun as the last light; by night there is none") {
   const test::Folder folder;
   const std::string day = "[environment]\ntype = 'sky'\nsun = [0, 2, -2]\nscale = 3\n";
   const Scene scene =

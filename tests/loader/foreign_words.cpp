@@ -18,7 +18,7 @@ std::string suggested(std::string_view word, const std::vector<std::string_view>
 
 }  // namespace
 
-TEST_CASE("a word of another renderer is answered by ours, where that is possible") {
+TEST_CASE("a word of another renderer suggests eyeray's word, where there is one") {
   CHECK(suggested("look_at", {"eye", "target"}) == "target");
   CHECK(suggested("focal_length", {"eye", "fov"}) == "fov");
   CHECK(suggested("LookAt", {"eye", "target"}) == "target");
@@ -33,7 +33,7 @@ TEST_CASE("a word of another renderer is answered by ours, where that is possibl
   CHECK(suggested("colour", {"center", "radius", "material"}) == "material");
 }
 
-TEST_CASE("a slip is still a slip, and a foreign word never stands in for one of ours") {
+TEST_CASE("a typing error is still corrected, and a foreign word never replaces one of eyeray's") {
   CHECK(suggested("raduis", {"center", "radius"}) == "radius");
   CHECK(suggested("maxDepth", {"max_depth", "min_throughput"}) == "max_depth");
   CHECK(suggested("", {"center"}) == "");
@@ -41,7 +41,7 @@ TEST_CASE("a slip is still a slip, and a foreign word never stands in for one of
   CHECK(suggested(" ", {"center", "eye"}) == "");
 }
 
-TEST_CASE("tables of other renderers") {
+TEST_CASE("the tables of other renderers suggest eyeray's tables") {
   CHECK(suggest_section("light_source") == "did you mean [[light]]?");
   CHECK(suggest_section("global_settings") == "did you mean [render]?");
   CHECK(suggest_section("difference") == "did you mean [[csg]]?");

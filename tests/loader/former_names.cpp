@@ -19,7 +19,7 @@ std::string scene_with(const std::string& csg) {
 
 }  // namespace
 
-TEST_CASE("[[solid]] is [[csg]], wherever it stands") {
+TEST_CASE("[[solid]] is an alias of [[csg]], wherever it is nested") {
   const Scene then = parse_scene(scene_with("solid"), "scene.toml");
   const Scene now = parse_scene(scene_with("csg"), "scene.toml");
   REQUIRE(then.shapes.size() == 2);
@@ -32,7 +32,7 @@ TEST_CASE("[[solid]] is [[csg]], wherever it stands") {
             .shapes.size() == 3);
 }
 
-TEST_CASE("min_weight is min_throughput, in a file and by -D") {
+TEST_CASE("min_weight is an alias of min_throughput, in a file and by -D") {
   CHECK(parse_scene("[render]\nmin_weight = 0.25\n", "scene.toml").render.min_throughput == 0.25);
   const std::vector<Override> change{{"render.min_weight=0.5"}};
   CHECK(parse_scene("", "scene.toml", change).render.min_throughput == 0.5);

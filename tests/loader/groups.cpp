@@ -17,7 +17,7 @@ double middle_x(const Shape& shape) {
 
 }  // namespace
 
-TEST_CASE("a group's transform comes after its members', and its own group's after that") {
+TEST_CASE("a group's transform is applied after its members', and before that of the enclosing group") {
   const Scene scene = parse_walls(
       "[[group]]\ntransform = [{ translate = [100, 0, 0] }]\n"
       "[[group.group]]\ntransform = [{ scale = 10 }]\n" +
@@ -27,7 +27,7 @@ TEST_CASE("a group's transform comes after its members', and its own group's aft
   CHECK(std::abs(scene.shapes[0]->bounds().max.x - 140) < 1e-9);
 }
 
-TEST_CASE("a batch shows a group once more for each transform; batches multiply") {
+TEST_CASE("a batch copies a group once for each transform; nested batches multiply") {
   const Scene scene = parse_walls(
       "[[group]]\nbatch = { transform = [[], [{ translate = [10, 0, 0] }], [{ translate = [20, 0, 0] }]] "
       "}\n" +
@@ -45,7 +45,7 @@ TEST_CASE("objects in no group come first, so that their ids do not depend on gr
   CHECK(std::abs(middle_x(*scene.shapes[0]) - 1) < 1e-12);
 }
 
-TEST_CASE("a mistake in a group is said once, at its place, however often the group is shown") {
+TEST_CASE("a mistake in a group is reported once, at its position, however many copies the group has") {
   CHECK(refused("[[group]]\nbatch = { transform = [[], [], []] }\n[[group.sphere]]\nradius = 1\n"
                 "center = [0, 0, 0]\nmaterial = \"wal\"\n") ==
         "scene.toml:9:12: error: no [[material]] is named \"wal\"; did you mean \"wall\"?\n"

@@ -77,7 +77,7 @@ TEST_CASE("large input") {
               repeat("[1, 2], ", many) + "] }"));
 }
 
-TEST_CASE("keys and values are bounded, over all files of a scene, and the place is said") {
+TEST_CASE("keys and values are limited over all files of a scene; the error names the position") {
   const auto message = [](const std::string& text) -> std::string {
     try {
       parse_scene(text, "scene.toml");
@@ -138,7 +138,7 @@ TEST_CASE("groups nest 15 deep by their headers, and deeper by instances") {
   }
 }
 
-TEST_CASE("lights are bounded, and the first beyond is named") {
+TEST_CASE("lights are limited; the error names the first one beyond the limit") {
   const std::string light = "[[light]]\ntype = \"point\"\nposition = [0, 1, 0]\nintensity = 1\n";
   CHECK_FALSE(refused(repeat(light, 2048)));
   try {
@@ -150,7 +150,7 @@ TEST_CASE("lights are bounded, and the first beyond is named") {
   }
 }
 
-TEST_CASE("errors beyond counting are counted") {
+TEST_CASE("errors beyond the first thousand are counted") {
   try {
     parse_scene(repeat("[[light]]\n", 1234), "scene.toml");
     FAIL("accepted");
@@ -160,7 +160,7 @@ TEST_CASE("errors beyond counting are counted") {
   }
 }
 
-TEST_CASE("files that are none") {
+TEST_CASE("devices, folders, pipes, and missing or too large files are refused") {
   const test::TemporaryFolder folder;
   CHECK(unreadable("/dev/zero") == "cannot read the scene /dev/zero: it is not a regular file");
   CHECK(unreadable(folder.path()) == "cannot read the scene " + folder.path().string() + ": it is a folder");
@@ -240,7 +240,7 @@ TEST_CASE("mutated scenes are either loaded or refused") {
   CHECK(refusals > 1000);
 }
 
-TEST_CASE("mutated overrides are either taken or refused") {
+TEST_CASE("mutated overrides are either accepted or refused") {
   constexpr std::string_view seeds[] = {"image.width=3",     "camera.eye=[1, 2, 3]",
                                         "sphere.0.radius=2", "material.glass.ior=1.5",
                                         "camera.eye.1=3",    "render.integrator=raycast"};

@@ -42,7 +42,7 @@ TEST_CASE("a medium with an extent, but without absorption and scattering, is in
   }
 }
 
-TEST_CASE("focus and blades of a camera without an aperture change nothing") {
+TEST_CASE("a camera without an aperture gives a warning for `focus` and blades, which have no effect") {
   const std::string camera = "[camera]\neye = [0, 0, 5]\ntarget = [0, 0, 0]\n";
   CHECK(warnings_of(camera + "focus = 4\n") ==
         std::vector<std::string>{"4: `focus` has no effect without an `aperture`: everything is sharp"});

@@ -54,7 +54,7 @@ std::string refusal(const std::string& scene, std::span<const Override> override
 
 }  // namespace
 
-TEST_CASE("a texture's keys for its image arrive") {
+TEST_CASE("a texture's keys set its image's properties") {
   const Folder folder;
   const auto color = [&](const std::string& settings, const Vec2& uv) {
     const std::string scene = folder.write("scene.toml", scene_with("{ image = \"a.png\"" + settings + " }"));
@@ -79,7 +79,7 @@ TEST_CASE("a texture's keys for its image arrive") {
         1e-9);
 }
 
-TEST_CASE("names are relative to the file that they stand in; each file is read once, and watched") {
+TEST_CASE("names are relative to the file that contains them; each file is read once, and watched") {
   const Folder folder("parts/a.png");
   const std::string picture_path = folder / "parts/a.png";
   const std::string part = folder.write("parts/part.toml", scene_with("{ image = 'a.png' }"));
@@ -163,7 +163,7 @@ TEST_CASE("a file that is no picture is an error at its name") {
   CHECK(message_of("a.png\\u0000") == "`image` needs the name of a file");
 }
 
-TEST_CASE("all images of a scene share their pixels, each setting of one counted; the place is said") {
+TEST_CASE("all images of a scene share one budget of pixels; each setting of an image counts") {
   const Folder folder("a.png");
   const std::string main = folder.write(
       "scene.toml", scene_with("{ image = 'a.png' }\nspecular = { image = 'a.png', filter = 'nearest' }"));
@@ -185,7 +185,7 @@ TEST_CASE("all images of a scene share their pixels, each setting of one counted
                          ": it has 3×2 pixels; of the 2^28"));
 }
 
-TEST_CASE("a picture in memory is the same as in a file, but for its name") {
+TEST_CASE("a picture decoded from memory equals one from a file, except for its name") {
   const std::string bytes = read_file(picture);
   PixelBudget budget;
   std::vector<std::string> warnings;

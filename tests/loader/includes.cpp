@@ -51,7 +51,7 @@ TEST_CASE("included shapes come first; the including file's settings win") {
   CHECK(scene.shapes[0]->position.file == c);
 }
 
-TEST_CASE("errors of all files are reported together, each at its place") {
+TEST_CASE("errors of all files are reported together, each at its position") {
   const Folder folder;
   const std::string main = folder.write("main.toml", "include = 'a.toml'\n[image]\nwidth = 0\n");
   const std::string a = folder.write("a.toml", "[image]\nheight = 0\n" + material + material);
@@ -74,7 +74,7 @@ TEST_CASE("a file that includes itself is refused") {
         std::string::npos);
 }
 
-TEST_CASE("includes nest to a limit") {
+TEST_CASE("includes are nested up to a limit") {
   const Folder folder;
   for (int i = 0; i < 30; ++i) {
     folder.write(fmt::format("{}.toml", i), i < 29 ? fmt::format("include = '{}.toml'", i + 1) : "");

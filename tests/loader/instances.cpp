@@ -34,7 +34,7 @@ double middle_x(const Shape& shape) {
 
 }  // namespace
 
-TEST_CASE("a named group stands where instances name it, after its own transform, and nowhere else") {
+TEST_CASE("a pattern appears only where instances name it, after its own transform") {
   const Scene scene =
       parse_walls("[[group]]\nname = \"ball\"\npattern = true\ntransform = [{ scale = 2 }]\n" +
                   sphere("group.sphere", 1) +
@@ -48,7 +48,7 @@ TEST_CASE("a named group stands where instances name it, after its own transform
   CHECK(std::abs(middle_x(*scene.shapes[2]) - 12) < 1e-9);
 }
 
-TEST_CASE("among nested groups, those are instanced that leave the least to keep") {
+TEST_CASE("among nested groups, those that leave the fewest objects in memory are instanced") {
   // 2 × 20 000 × 10 spheres: the inner group is instanced. With 20 000 × 2, the outer group is.
   const auto nested = [](int outer, int inner, int spheres) {
     std::string text = "[[group]]\n" + batch(outer) + "[[group.group]]\n" + batch(inner);
@@ -96,7 +96,7 @@ TEST_CASE("`groups` decides whether groups are instanced, and changes no id") {
   }
 }
 
-TEST_CASE("a group that holds something without an end is copied") {
+TEST_CASE("a group that contains an unbounded shape is copied") {
   const Scene scene =
       parse_walls("[render]\ngroups = \"instanced\"\n[[group]]\n" + batch(3) + "[[group.group]]\n" +
                   "[[group.group.plane]]\npoint = [0, 0, 0]\nnormal = [0, 1, 0]\nmaterial = \"wall\"\n");
@@ -104,7 +104,7 @@ TEST_CASE("a group that holds something without an end is copied") {
   CHECK(scene.shapes.size() == 3);
 }
 
-TEST_CASE("a triangle's normals are right or wrong in its own space, however its group is kept") {
+TEST_CASE("a triangle's normals are checked in its own space, whether its group is copied or instanced") {
   // The group's map, z' = z + 2 x, would turn the first normal to the wrong side, and the second one to the
   // right side.
   const auto verdict = [](const char* groups, const char* normal) {
@@ -138,7 +138,7 @@ TEST_CASE("a sphere in a stretched group is an ellipsoid") {
              "scene.toml:6:1: error: "));
 }
 
-TEST_CASE("errors in patterns and instances are reported at their place") {
+TEST_CASE("errors in patterns and instances are reported at their position") {
   const std::string ball = "[[group]]\nname = \"ball\"\npattern = true\n" + sphere("group.sphere", 1);
   CHECK(says(refused(ball + "[[instance]]\ngroup = \"bal\"\n"),
              "scene.toml:12:9: error: no [[group]] is named \"bal\"; did you mean \"ball\"?"));
@@ -155,7 +155,7 @@ TEST_CASE("errors in patterns and instances are reported at their place") {
              "scene.toml:5:8: error: group \"a\" contains itself: a → b → a"));
 }
 
-TEST_CASE("a group with a name that is no pattern stands where it is written, too") {
+TEST_CASE("a named group that is no pattern also appears where it is written") {
   const Scene scene =
       parse_walls("[[group]]\nname = \"ball\"\n" + sphere("group.sphere", 1) +
                   "[[instance]]\ngroup = \"ball\"\ntransform = [{ translate = [10, 0, 0] }]\n");
@@ -164,7 +164,7 @@ TEST_CASE("a group with a name that is no pattern stands where it is written, to
   CHECK(std::abs(middle_x(*scene.shapes[1]) - 11) < 1e-9);
 }
 
-TEST_CASE("an instanced object is named as its copies are") {
+TEST_CASE("an instanced object has the same name as its copies") {
   const std::string text = sphere("sphere", 0) + "[[group]]\nname = \"cart\"\n" + batch(2) +
                            sphere("group.sphere", 1) + "name = \"wheel\"\n" + sphere("group.sphere", 2) +
                            "[[group]]\n" + batch(2) + sphere("group.sphere", 3);
@@ -179,7 +179,7 @@ TEST_CASE("an instanced object is named as its copies are") {
   for (size_t i = 0; i < once_things.size(); ++i) CHECK(once_things.of(once_things[i].first) == i);
 }
 
-TEST_CASE("a group that nothing shows is a warning, and read all the same") {
+TEST_CASE("a pattern without instances is a warning, and its errors are still reported") {
   const Scene scene = parse_walls("[[group]]\nname = \"ball\"\npattern = true\n" + sphere("group.sphere", 1) +
                                   sphere("sphere", 0));
   CHECK(scene.shapes.size() == 1);
@@ -191,7 +191,7 @@ TEST_CASE("a group that nothing shows is a warning, and read all the same") {
              "scene.toml:8:10: error: "));
 }
 
-TEST_CASE("groups in each other without end are an error, not a stack that overflows") {
+TEST_CASE("groups nested too deep are an error, not a stack overflow") {
   std::string text = sphere("sphere", 0);
   for (int i = 0; i < 20'000; ++i)
     text += fmt::format("[[group]]\nname = \"{}\"\npattern = true\n[[group.instance]]\ngroup = \"{}\"\n", i,
@@ -199,7 +199,7 @@ TEST_CASE("groups in each other without end are an error, not a stack that overf
   CHECK(says(refused(text + "[[instance]]\ngroup = \"0\"\n"), "groups are nested more than 64 deep"));
 }
 
-TEST_CASE("named groups that double each time are refused, or instanced where that is enough") {
+TEST_CASE("named groups that double at each level are instanced if that suffices, otherwise refused") {
   const auto doubled = [](int levels) {
     std::string text = "[[group]]\nname = \"0\"\npattern = true\n" + sphere("group.sphere", 1);
     for (int i = 1; i <= levels; ++i)
@@ -225,7 +225,7 @@ TEST_CASE("parts of CSG objects count as kept objects") {
 }
 
 // Shapes in a group that become too thin, too far or too distorted only under the group's map into the world.
-TEST_CASE("shapes under a group's map are legal or not, however the group is kept") {
+TEST_CASE("a shape under a group's transform is accepted or refused alike, copied or instanced") {
   const struct {
     const char* group_map;
     const char* shape;

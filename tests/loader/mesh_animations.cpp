@@ -70,7 +70,7 @@ constexpr const char* sun = "[[light]]\ntype = \"directional\"\ndirection = [0, 
 
 }  // namespace
 
-TEST_CASE("a mesh shows its file's animation at the frame's moment") {
+TEST_CASE("a mesh shows its file's animation at the time of the frame") {
   const Folder folder;
   walker(folder);
   const std::string file =
@@ -91,7 +91,7 @@ TEST_CASE("a mesh shows its file's animation at the frame's moment") {
   CHECK(animation.last == 16);
 }
 
-TEST_CASE("one file may be shown by each of its animations, and at rest, at once") {
+TEST_CASE("one file may be shown in each of its animations, and at rest, in one scene") {
   const Folder folder;
   walker(folder);
   const std::string file = folder.write("scene.toml", std::string(sun) + R"(
@@ -122,7 +122,7 @@ loop = true
   CHECK(load(still).animation.tracks == 0);
 }
 
-TEST_CASE("an animation that a file does not have is an error at the key, and names those that it has") {
+TEST_CASE("an animation missing from a file is an error at the key, which lists the file's animations") {
   const Folder folder;
   walker(folder);
   folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
@@ -146,7 +146,7 @@ TEST_CASE("an animation that a file does not have is an error at the key, and na
   CHECK(message("file = 'walker.gltf'\nloop = 1") == "3:8: error: `loop` must be true or false, not 1");
 }
 
-TEST_CASE("a file that is itself the scene moves too, before a camera that stands still") {
+TEST_CASE("a mesh file used as the scene is animated too, in front of a fixed camera") {
   const Folder folder;
   const std::string file = walker(folder);
   const Scene first = load(file), later = load(file, {"animation.frame=36"});

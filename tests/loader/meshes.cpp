@@ -38,7 +38,7 @@ Vec3 moved(const Instance& instance, const Vec3& p) {
 
 }  // namespace
 
-TEST_CASE("a mesh file is read once, however often it is shown") {
+TEST_CASE("a mesh file is read once, however many instances show it") {
   const Folder folder;
   const std::string obj = folder.write("parts/a.obj", square + "mtllib a.mtl\nusemtl red\nf 1 2 3\n");
   const std::string mtl = folder.write("parts/a.mtl", "newmtl red\nKd 1 0 0\n");
@@ -74,7 +74,7 @@ smooth = 0
   CHECK(scene.instances[2].position.line == 13);
 }
 
-TEST_CASE("names are relative to the file that they stand in") {
+TEST_CASE("names are relative to the file that contains them") {
   const Folder folder;
   folder.write("parts/a.obj", square);
   folder.write("parts/b.toml", "[[mesh]]\nfile = 'a.obj'\n");
@@ -117,7 +117,7 @@ TEST_CASE("a fault in a mesh is an error at its key") {
   CHECK_THROWS_AS(parse_scene("[[mesh]]\nfile = 'a.obj'", "memory.toml"), InputError);
 }
 
-TEST_CASE("a map that leaves triangles without area is refused") {
+TEST_CASE("a transform that leaves triangles without area is refused") {
   const Folder folder;
   folder.write("a.obj", square + "v 0.5 3e-9 0\nf 1 2 5\n");
   const auto scaled = [&](const char* scale) {
@@ -130,7 +130,7 @@ TEST_CASE("a map that leaves triangles without area is refused") {
   CHECK(contains(scaled("[1000, 0.001, 1]"), "the transform leaves some of the triangles without area"));
 }
 
-TEST_CASE("warnings of mesh files are the scene's") {
+TEST_CASE("warnings of mesh files become warnings of the scene") {
   const Folder folder;
   const std::string obj = folder.write("a.obj", square + "f 1 1 2\n");
   const std::string file =
@@ -170,7 +170,7 @@ TEST_CASE("a mesh file alone is a scene that frames it") {
   }
 }
 
-TEST_CASE("overrides and a file's own camera and lights") {
+TEST_CASE("overrides apply to mesh files; a file's own camera and lights are used only if it is the scene") {
   const Folder folder;
   const std::string obj = folder.write("a.obj", square);
   const Override overrides[] = {
@@ -207,7 +207,7 @@ TEST_CASE("overrides and a file's own camera and lights") {
   CHECK(contains(shown.warnings[0].message, "its camera and lights are not used"));
 }
 
-TEST_CASE("a mesh file that cannot be read") {
+TEST_CASE("a mesh file that cannot be read is an error") {
   const Folder folder;
   CHECK(refusal(folder.write("bad.ply", "ply\nx\n")) ==
         (folder / "bad.ply") + ":2:1: error: `x` is not a statement of a PLY header");

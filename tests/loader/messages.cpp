@@ -33,7 +33,7 @@ std::string expected_for(std::filesystem::path scene) {
 
 }  // namespace
 
-TEST_CASE("a wrong scene is refused with all that is wrong with it") {
+TEST_CASE("a wrong scene is refused with all of its errors") {
   const auto scenes = scenes_in("rejected");
   REQUIRE(scenes.size() >= 20);
   for (const auto& scene : scenes) {
@@ -49,7 +49,7 @@ TEST_CASE("a wrong scene is refused with all that is wrong with it") {
   }
 }
 
-TEST_CASE("a scene that is legal but hardly meant is loaded with warnings") {
+TEST_CASE("a scene that is legal but probably not intended is loaded with warnings") {
   const auto scenes = scenes_in("warned");
   REQUIRE(scenes.size() >= 2);
   for (const auto& scene : scenes) {

@@ -37,7 +37,7 @@ constexpr std::string_view sphere = "center = [0, 0, 0]\nradius = 1\nmaterial = 
 
 }  // namespace
 
-TEST_CASE("a shape is called by its name, after those of its groups") {
+TEST_CASE("a shape's name follows the names of its groups") {
   const Scene scene =
       parse(fmt::format("[[sphere]]\n{0}[[sphere]]\nname = \"left eye\"\n{0}[[group]]\nname = \"cart\"\n"
                         "[[group.sphere]]\n{0}[[group.group]]\n[[group.group.sphere]]\nname = \"wheel\"\n{0}",
@@ -49,7 +49,7 @@ TEST_CASE("a shape is called by its name, after those of its groups") {
   CHECK(objects.describe(1) == "sphere \"left eye\", scene.toml:8");
 }
 
-TEST_CASE("the elements of a batch share a name and are numbered, or bring their own") {
+TEST_CASE("elements of a batch share a name and are numbered, or have names of their own") {
   const Scene scene = parse(
       "[[group]]\nname = \"cart\"\nbatch = { transform = [[], [{ translate = [9, 0, 0] }]] }\n"
       "[[group.sphere]]\nname = \"wheel\"\nradius = 1\nmaterial = \"wall\"\n"
@@ -62,7 +62,7 @@ TEST_CASE("the elements of a batch share a name and are numbered, or bring their
                                                  "sphere \"cart 2/front\"", "sphere \"cart 2/back\""});
 }
 
-TEST_CASE("messages begin with what they are about, and say it once for all copies") {
+TEST_CASE("messages begin with the object's name, and appear once for all copies") {
   CHECK(refusals(fmt::format(
             "[[sphere]]\nname = \"left eye\"\ncenter = [0, 0, 0]\nradius = -1\nmaterial = \"wall\"\n"
             "[[sphere]]\nname = \"nose\"\ncentre = [0, 0, 0]\nradius = 1\nmaterial = \"wal\"\n"
@@ -86,7 +86,7 @@ TEST_CASE("messages begin with what they are about, and say it once for all copi
             .starts_with("sphere \"cart 2/wheel\": "));
 }
 
-TEST_CASE("a name is text, and not empty") {
+TEST_CASE("a name is a string, and not empty") {
   CHECK(refusals(
             fmt::format("[[sphere]]\nname = \"\"\n{0}[[group]]\nname = 7\n[[group.sphere]]\n{0}", sphere)) ==
         std::vector<std::string>{"a name must not be empty; leave `name` out instead",
@@ -96,7 +96,7 @@ TEST_CASE("a name is text, and not empty") {
             .size() == 1);
 }
 
-TEST_CASE("texts are kept once, however many copies of a group there are") {
+TEST_CASE("texts of names are stored once, however many copies a group has") {
   std::string transforms;
   for (int i = 0; i < 1000; ++i) transforms += fmt::format("[{{ translate = [{}, 0, 0] }}],", i);
   const Scene scene =

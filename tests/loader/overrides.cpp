@@ -84,7 +84,7 @@ std::string glb_of(std::string json) {
 
 }  // namespace
 
-TEST_CASE("an override stands in for the file's value") {
+TEST_CASE("an override replaces the file's value") {
   const Scene scene =
       with({"image.width=32", "render.max_depth=3", "render.integrator=raycast", "camera.eye=[1, 2, 3]",
             "camera.eye.1=9", "camera . fov = 30 # degrees", "image.width=16"});
@@ -104,12 +104,12 @@ TEST_CASE("elements are named by index or by name") {
   CHECK(scene.materials[1]->base_color(Vec2{1.5, 0}) == Vec3(0.5));
 }
 
-TEST_CASE("an override mends a wrong value") {
+TEST_CASE("an override corrects a wrong value") {
   const Override mend{"image.width=5"};
   CHECK(parse_scene("[image]\nwidth = -5", "scene.toml", {&mend, 1}).image.width == 5);
 }
 
-TEST_CASE("a wrong override is refused, and says which it is") {
+TEST_CASE("a wrong override is refused, and the error names it") {
   const std::pair<const char*, const char*> cases[] = {
       {"rendr.max_depth=3", "unknown table `rendr`; did you mean [render]?"},
       {"render.max_dept=3", "unknown key `max_dept` in [render]; did you mean `max_depth`?"},
@@ -148,7 +148,7 @@ TEST_CASE("a wrong override is refused, and says which it is") {
   }
 }
 
-TEST_CASE("a file that an override names lies beside the scene, whatever kind of input the scene is") {
+TEST_CASE("a file in an override is relative to the scene, whatever kind of input the scene is") {
   const Folder folder;
   const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n";
   folder.write("in/other.obj", triangle);

@@ -9,7 +9,7 @@
 using namespace eyeray::engine;
 using namespace eyeray::engine::loader;
 
-TEST_CASE("`sppm` refuses these scenes of the suite, and says where and why") {
+TEST_CASE("`sppm` refuses these scenes of the suite; its errors state the position and the reason") {
   std::ifstream list("tests/loader/refused_by_sppm.txt");
   int scenes = 0;
   for (std::string line; std::getline(list, line); ++scenes) {

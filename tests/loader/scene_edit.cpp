@@ -17,7 +17,7 @@ std::string edited(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("a value is written over the old one, and all else stays") {
+TEST_CASE("a new value replaces the old one, and the rest of the file is unchanged") {
   CHECK(edited("[verify]\nmax_explained = 0.01\n") == "[verify]\nmax_explained = 0.00042\n");
   CHECK(edited("# kept\n[verify] # too\n  max_explained=1e-3 # and this\r\n[image]\nwidth = 8") ==
         "# kept\n[verify] # too\n  max_explained=0.00042 # and this\r\n[image]\nwidth = 8");
@@ -27,7 +27,7 @@ TEST_CASE("a value is written over the old one, and all else stays") {
         "[image]\nwidth = 8\n# max_explained = 3\n[verify]\nmax_explained = 0.00042");
 }
 
-TEST_CASE("a value that is not there is a new line of its table, or a new table at the end") {
+TEST_CASE("a missing value becomes a new line of its table, or a new table at the end") {
   CHECK(edited("") == "\n[verify]\nmax_explained = 0.00042\n");
   CHECK(edited("[image]\nwidth = 8") == "[image]\nwidth = 8\n\n[verify]\nmax_explained = 0.00042\n");
   CHECK(edited("[verify]\n[image]\nwidth = 8\n") ==
@@ -36,11 +36,11 @@ TEST_CASE("a value that is not there is a new line of its table, or a new table 
   CHECK(parse_scene(edited("[image]\nwidth = 8\n[verify]\n"), "scene.toml").verify.max_explained == 0.00042);
 }
 
-TEST_CASE("text that is no TOML is reported, and not changed") {
+TEST_CASE("invalid TOML is reported, and not changed") {
   CHECK_THROWS_AS(edited("v 1 2 3\nf 1 2 3\n"), Error);
 }
 
-TEST_CASE("a table that has no line of its own is left to its author") {
+TEST_CASE("a table without a line of its own is not edited") {
   CHECK_THROWS_WITH_AS(
       edited("verify = {}\n"),
       "write max_explained = 0.00042 into `verify` by hand: the table has no header on a line of its own",

@@ -46,7 +46,7 @@ struct Fixture {
 
 }  // namespace
 
-TEST_CASE("values that are written") {
+TEST_CASE("values in a table are read") {
   const Fixture t(R"(flag = false
 count = 9
 size = 1
@@ -76,7 +76,7 @@ must = [5, 6, 7])");
   CHECK(t.reader.vec3("must") == Vec3(5, 6, 7));
 }
 
-TEST_CASE("values that are not") {
+TEST_CASE("missing values have defaults") {
   const Fixture t("must = [5, 5, 5]");
   CHECK(t.messages().empty());
   CHECK(t.reader.boolean("flag") == true);
@@ -92,7 +92,7 @@ TEST_CASE("values that are not") {
   CHECK_FALSE(t.reader.has("maybe"));
 }
 
-TEST_CASE("wrong values: an error each, and a valid stand-in") {
+TEST_CASE("each wrong value is an error and gets a valid stand-in") {
   Fixture t(
       "flag = 1\ncount = 10\nsize = 0\nlabel = 3\ntint = \"rod\"\nuv = [1]\npoints = [1]\nstretch = [1, "
       "2]\nmaybe = nan");
@@ -122,7 +122,7 @@ TEST_CASE("wrong values: an error each, and a valid stand-in") {
   CHECK(t.log.sorted()[0].position.line == 1);
 }
 
-TEST_CASE("a number too small for float32 is no positive number") {
+TEST_CASE("a number that vanishes in float32 is not positive") {
   CHECK(Fixture("must = [5, 5, 5]\nsize = 1e-20").messages() ==
         std::vector<std::string>{"`size` is 1e-20, too small for float32 arithmetic (at least 1e-15)"});
 }

@@ -58,7 +58,7 @@ TEST_CASE("an empty scene has the defaults of the model") {
   CHECK(scene.render.ambient == model.render.ambient);
 }
 
-TEST_CASE("settings") {
+TEST_CASE("settings are read") {
   const Scene scene = parse(R"(
 [image]
 width = 65536
@@ -99,7 +99,7 @@ ambient = 0.5
   CHECK(test::camera_as<PerspectiveCamera>(wide).fov_axis == FovAxis::diagonal);
 }
 
-TEST_CASE("lights") {
+TEST_CASE("lights are read") {
   const Scene scene = parse(R"(
 [[light]]
 type = "point"
@@ -120,7 +120,7 @@ direction = [0, -3, 4]
   CHECK(sun.intensity == Vec3(1));
 }
 
-TEST_CASE("materials and textures") {
+TEST_CASE("materials and textures are read") {
   const Scene scene = parse(R"(
 [[material]]
 name = "checks"
@@ -143,7 +143,7 @@ ior = 1.75
   CHECK(scene.materials[2]->medium()->ior == 1.75);
 }
 
-TEST_CASE("shapes come in registry order, then in file order, each with its material and place") {
+TEST_CASE("shapes are in registry order, then in file order, each with its material and position") {
   const Scene scene = parse(R"(
 [[material]]
 name = "a"
@@ -188,7 +188,7 @@ TEST_CASE("transform steps are applied in the order written") {
   CHECK(near(transformed("[{ matrix = [[0, 0, 1, 5], [1, 0, 0, 6], [0, 1, 0, 7]] }]").max, Vec3(6, 8, 8)));
 }
 
-TEST_CASE("a batch is as many shapes as its lists are long") {
+TEST_CASE("a batch makes as many shapes as its lists have elements") {
   const Scene scene = parse(std::string(matter) + R"([[material]]
 name = "n"
 type = "mirror"
@@ -227,7 +227,7 @@ TEST_CASE("at most 255 materials let light through") {
                        InputError);
 }
 
-TEST_CASE("numbers arrive to the last bit") {
+TEST_CASE("numbers are read exactly, to the last bit") {
   const bool ok = rc::check("eye", [] {
     const auto coordinate =
         rc::gen::map(rc::gen::arbitrary<double>(), [](double x) { return std::fmod(x, 1e9); });

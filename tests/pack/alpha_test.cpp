@@ -60,7 +60,8 @@ Scene leafy_scene(Random& random, int count, int instances) {
 
 }  // namespace
 
-TEST_CASE("an alpha of the cutoff is there, below it is cut out; behind a cutout the next is hit") {
+TEST_CASE(
+    "an alpha below the cutoff is cut out, and the next surface is hit; an alpha at the cutoff is not") {
   Scene scene = test::empty_scene();
   scene.camera.eye = Vec3(0);
   scene.camera.target = Vec3(0, 0, -1);
@@ -118,7 +119,7 @@ TEST_CASE("cutouts: BVHs find what brute force finds, and in float64 too, to the
   }
 }
 
-TEST_CASE("cutouts on the GPU: in every search what the twin finds" * doctest::test_suite("long")) {
+TEST_CASE("cutouts: in every search the GPU finds what the twin finds" * doctest::test_suite("long")) {
   gpu::Device device({});
   Random random(4);
   for (const auto& [count, instances] : {std::pair(12, 0), {200, 0}, {200, 4}}) {

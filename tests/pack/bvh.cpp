@@ -183,7 +183,7 @@ TEST_CASE("hard scenes on the GPU: many more" * doctest::test_suite("long")) {
   hard_scenes_on_the_gpu(24);
 }
 
-TEST_CASE("the validation layers have nothing to say of BVHs, instances and either way to load them") {
+TEST_CASE("the validation layers report nothing about BVHs, instances and both ways to load them") {
   Scene scene = test::empty_scene();
   scene.image = {.width = 24, .height = 16};
   scene.camera.eye = Vec3(0, 0, 6);
@@ -211,7 +211,7 @@ TEST_CASE("the validation layers have nothing to say of BVHs, instances and eith
   }
 }
 
-TEST_CASE("a floor under many spheres stands in the linear list, whose leaves hold spheres alone") {
+TEST_CASE("a floor under many spheres is in the linear list; the BVH's leaves hold spheres alone") {
   Random random(5);
   Scene scene = test::empty_scene();
   const int material = test::add(scene, make_phong({}));

@@ -82,7 +82,7 @@ Expected expected(const Scene& scene, const shader::QueryRay& ray) {
 
 }  // namespace
 
-TEST_CASE("one-sided meshes are not hit from behind, whatever the way of searching") {
+TEST_CASE("one-sided meshes are not hit from behind, in any kind of search") {
   Random random(11);
   for (const int instances : {1, 3, 12}) {
     CAPTURE(instances);
@@ -112,7 +112,7 @@ TEST_CASE("one-sided meshes are not hit from behind, whatever the way of searchi
   }
 }
 
-TEST_CASE("one-sided meshes on the GPU: what the twin finds" * doctest::test_suite("long")) {
+TEST_CASE("one-sided meshes: the GPU finds what the twin finds" * doctest::test_suite("long")) {
   gpu::Device device({});
   Random random(12);
   for (const int instances : {1, 12}) {

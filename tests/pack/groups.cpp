@@ -95,9 +95,7 @@ double difference(const Answer& a, const Answer& b, double rounding, double size
 }  // namespace
 
 TEST_CASE(
-    "every kind of shape: instanced it is hit where copies are, with their ids, normals and uv; by the BVH "
-    "as by "
-    "brute force") {
+    "every kind of shape: instances have their copies' hits, ids, normals and uv, by BVH and brute force") {
   for (const shapes::ShapeType* type : shapes::types()) {
     CAPTURE(type->name);
     const std::string text = grouped(*type);

@@ -109,8 +109,7 @@ material = "mirror"
 
 }  // namespace
 
-TEST_CASE(
-    "a refitted BVH has the boxes of its items; of those that did not move, it is the BVH that it was") {
+TEST_CASE("a refitted BVH has its items' boxes; if no item moved, it is unchanged") {
   const std::vector<Box> at_first = boxes_of(1), later = boxes_of(1, 0.05f);
   BvhOptions options;
   for (const uint32_t first_lone : {uint32_t(many), uint32_t(many - 40)}) {
@@ -127,7 +126,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("what moved a little is refitted, what is elsewhere is built, and so is what is not the same") {
+TEST_CASE("a BVH is refitted after small movements, and rebuilt after large ones or if its items change") {
   BvhHistory history;
   const auto frame = [&](const std::vector<Box>& boxes, uint32_t first_lone = uint32_t(many)) {
     history.begin_scene();
@@ -150,7 +149,7 @@ TEST_CASE("what moved a little is refitted, what is elsewhere is built, and so i
   CHECK(frame(fewer, uint32_t(many - 40)).second);
 }
 
-TEST_CASE("frames with a history hit what frames without hit, to the last bit") {
+TEST_CASE("frames with and without a BVH history have the same hits, to the last bit") {
   executors::ExecutorOptions with;
   with.pack.history = std::make_shared<BvhHistory>();
   const Rect all{0, 0, 64, 48};

@@ -109,8 +109,7 @@ constexpr const char* aim_names[] = {"at random", "at edges", "at vertices"};
 }  // namespace
 
 TEST_CASE(
-    "closed meshes: no ray leaks through the BVH, wherever they are, whatever their size, of needles, as "
-    "instances" *
+    "closed meshes leak no ray through the BVH, at any position and size, as needles and instances too" *
     doctest::test_suite("long")) {
   gpu::Device device({});
   Random random(11);
@@ -153,9 +152,7 @@ TEST_CASE(
   MESSAGE(fmt::format("{} rays", all));
 }
 
-TEST_CASE(
-    "a ray that leaves a convex mesh outward does not hit it again, radius 1e-4 to 1e4, baked or an "
-    "instance") {
+TEST_CASE("a ray leaving a convex mesh outward never hits it again: radius 1e-4 to 1e4, baked or instanced") {
   gpu::Device device({});
   Random random(12);
   const Mesh mesh = icosphere(3, 0, random);

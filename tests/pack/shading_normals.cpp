@@ -206,7 +206,7 @@ Vec3 by_twin(const Scene& scene, const Ray& world) {
 
 }  // namespace
 
-TEST_CASE("vertex normals are interpolated in the object's space, however it comes to stand in the world") {
+TEST_CASE("vertex normals are interpolated in object space, however the object is placed in the world") {
   const TemporaryFolder folder;
   write_ply(folder / "roof.ply");
   for (const Case& of : cases) {
@@ -243,7 +243,8 @@ TEST_CASE("vertex normals are interpolated in the object's space, however it com
   }
 }
 
-TEST_CASE("what is left of stretched CSG objects looks where the gradient does, however they come to stand") {
+TEST_CASE(
+    "normals of stretched CSG objects follow the gradient, however the objects are placed in the world") {
   // A ball less a smaller ball; the equations of both give the expected normals.
   const auto csg = [](const std::string& table) {
     return fmt::format(

@@ -93,7 +93,7 @@ class LongTriangles {
 
 }  // namespace
 
-TEST_CASE("triangles cut in parts: 4 million grazing rays find what brute force finds, to the last bit" *
+TEST_CASE("4 million grazing rays at split triangles hit the same by BVH and brute force, to the last bit" *
           doctest::test_suite("long")) {
   std::atomic<int64_t> compared = 0, hits = 0, different = 0, parts = 0, triangles = 0;
   parallel_for(0, 500, [&](int seed) {
@@ -118,8 +118,7 @@ TEST_CASE("triangles cut in parts: 4 million grazing rays find what brute force 
   CHECK(different == 0);
 }
 
-TEST_CASE(
-    "where a part of a CSG object lets light through, nothing is cut: in two leaves it would count twice") {
+TEST_CASE("CSG objects with a transmitting part are not split: in two leaves they would count twice") {
   LongTriangles hard{1};
   const auto primitives = [&](bool split) {
     return pack::pack(hard.scene(), {.acceleration = Acceleration::bvh, .split = split}).primitives.size();

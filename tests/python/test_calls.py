@@ -15,7 +15,7 @@ SMALL = "tests/library/small.toml"
 LONG = ["image.pattern=random", "image.samples=65536"]
 
 
-def test_progress_and_cancellation_by_it():
+def test_progress_reports_and_cancels():
     seen = []
 
     def progress(share):
@@ -28,7 +28,7 @@ def test_progress_and_cancellation_by_it():
     assert eyeray.render(eyeray.Scene.read(SMALL), progress=lambda share: None).complete
 
 
-def test_what_progress_raises_comes_out():
+def test_exceptions_of_progress_propagate():
     with pytest.raises(KeyError, match="mine"):
         eyeray.render(eyeray.Scene.read(SMALL), progress=lambda share: {}["mine"])
     with pytest.raises(TypeError):
@@ -50,7 +50,7 @@ def test_cancellation_from_another_thread():
         eyeray.verify(eyeray.Scene.read(SMALL), cancellation=cancellation)
 
 
-def test_python_goes_on_meanwhile():
+def test_python_threads_run_during_a_render():
     turns, done = 0, threading.Event()
 
     def count():
@@ -177,7 +177,7 @@ def test_errors_of_devices():
     assert eyeray.Renderer(device="no such device").render(eyeray.Scene.read(SMALL), backend="twin").complete
 
 
-def test_the_environment_stays():
+def test_environment_variables_are_unchanged():
     before = dict(os.environ)
     eyeray.render(eyeray.Scene.read(SMALL))
     assert dict(os.environ) == before

@@ -26,7 +26,7 @@ def test_shapes_and_values():
         picture.aov("uv")
 
 
-def test_nothing_is_copied_and_nothing_dies():
+def test_arrays_are_not_copied_and_outlive_the_picture():
     picture = eyeray.render(eyeray.Scene.read(SMALL))
     first, second = picture.color, picture.color
     assert first.ctypes.data == second.ctypes.data and not first.flags.owndata
@@ -66,7 +66,7 @@ def test_backends_and_crop():
         eyeray.render(scene, crops=None)
 
 
-def test_files_are_the_programs(tmp_path):
+def test_files_equal_those_of_the_program(tmp_path):
     eyeray.render(eyeray.Scene.read(SMALL)).write(tmp_path / "ours.png")
     subprocess.run([os.environ["EYERAY_BINARY"], "render", SMALL, "-q", "-o", tmp_path / "theirs.png"], check=True)
     assert (tmp_path / "ours.png").read_bytes() == (tmp_path / "theirs.png").read_bytes()
@@ -94,7 +94,7 @@ def test_an_empty_picture_is_shown_as_none():
         empty.png()
 
 
-def test_numpy_takes_a_picture_for_its_colours():
+def test_numpy_converts_a_picture_to_its_colours():
     picture = eyeray.render(SMALL)
     assert np.array_equal(np.asarray(picture), picture.color) and np.mean(picture) == np.mean(picture.color)
     assert np.asarray(picture, np.float64).dtype == np.float64
@@ -112,7 +112,7 @@ def test_numpy_takes_a_picture_for_its_colours():
 TABLES = {"camera": {"eye": [0, 1, 4], "target": [0, 1, 0]}, "render": {"background": np.array([0.25, 0.5, 0.75])}}
 
 
-def test_files_and_dicts_are_rendered_at_once(tmp_path):
+def test_files_and_dicts_are_rendered_directly(tmp_path):
     for scene in (SMALL, pathlib.Path(SMALL), TABLES):
         picture = eyeray.render(scene, size=(32, np.int64(16)), spp=4, backend="twin")
         assert picture.color.shape == (16, 32, 3) and picture.samples_done == 4

@@ -24,7 +24,7 @@ def with_mesh(**arrays):
     return eyeray.Scene.build(TABLES | {"mesh": [{"material": "matte"} | arrays]})
 
 
-def test_dicts_are_what_the_file_is():
+def test_dicts_equal_their_file():
     scene = eyeray.Scene.build(TABLES)
     assert (scene.width, scene.height, scene.samples) == (64, 48, 1)
     assert np.array_equal(eyeray.render(scene).color, eyeray.render(eyeray.Scene.read(SMALL)).color)
@@ -105,12 +105,12 @@ def test_vertices_without_triangles():
     ({"sphere": [3]}, r"sphere\.0 must be a dict"),
     ({"camera": {3: 4}}, "a key must be a str, not int"),
 ])
-def test_what_no_scene_can_hold(tables, words):
+def test_values_that_no_scene_can_hold(tables, words):
     with pytest.raises(TypeError, match=words):
         eyeray.Scene.build(tables)
 
 
-def test_errors_say_where(tmp_path):
+def test_errors_have_positions(tmp_path):
     file = tmp_path / "bad.toml"
     file.write_text("[[sphere]]\ncenter = [0, 0, 0]\nradius = -1\nradios = 2\n")
     with pytest.raises(eyeray.InputError) as caught:
@@ -136,7 +136,7 @@ def test_strings_cannot_leave_their_quotes():
     assert [each.line for each in caught.value.diagnostics] == [4]
 
 
-def test_stubs_name_what_is_there():
+def test_stubs_match_the_module():
     stub = ast.parse(pathlib.Path("python/eyeray/_eyeray.pyi").read_text())
     named = {each.name: each for each in stub.body if isinstance(each, (ast.ClassDef, ast.FunctionDef))}
     native = eyeray._eyeray
@@ -152,7 +152,7 @@ def test_stubs_name_what_is_there():
                 assert all(f"{one}:" in words for one in given), (name, function.name)
 
 
-def test_what_holds_itself_or_is_very_deep_is_refused():
+def test_cyclic_and_very_deep_values_are_refused():
     ring = []
     ring.append(ring)
     loop = {}

@@ -35,7 +35,7 @@ Possible possible(const std::vector<ScreenTriangle>& triangles, bool tessellated
 
 }  // namespace
 
-TEST_CASE("at a shared edge either side may be seen, and nothing behind it") {
+TEST_CASE("at a shared edge either side may be visible, and nothing behind it") {
   auto triangles = halves(5.505, 1, 1, 2);
   triangles.push_back(wall(0.5, 3));
   const Possible here = possible(triangles);
@@ -45,13 +45,13 @@ TEST_CASE("at a shared edge either side may be seen, and nothing behind it") {
   CHECK_FALSE(here.allows_nothing());
 }
 
-TEST_CASE("where the edge is farther than corners are moved, one side alone is seen") {
+TEST_CASE("only one side is visible if the edge is farther away than the corners' tolerance") {
   const auto triangles = halves(5.52, 1, 1, 2);
   CHECK(possible(triangles).allows(1, 1));
   CHECK_FALSE(possible(triangles).allows(2, 1));
 }
 
-TEST_CASE("where a triangle ends, what is behind it may be seen, or nothing") {
+TEST_CASE("where a triangle ends, a surface behind it may be visible, or nothing") {
   auto triangles = halves(5.505, 1, 1, 2);
   triangles.pop_back();
   CHECK(possible(triangles).allows_nothing());
@@ -68,14 +68,14 @@ TEST_CASE("a fold ends a surface: both sides of its edge lie on the same side of
   CHECK(possible(triangles).allows_nothing());
 }
 
-TEST_CASE("a depth that is not the triangle's is not allowed") {
+TEST_CASE("a depth other than the triangle's is not allowed") {
   const std::vector<ScreenTriangle> triangles = {wall(1, 1)};
   CHECK(possible(triangles).allows(1, 1 + 0.9e-5));
   CHECK_FALSE(possible(triangles).allows(1, 1 + 3e-5));
   CHECK_FALSE(possible(triangles).allows(1, 1 - 3e-5));
 }
 
-TEST_CASE("a rasteriser may be farther off in a sliver, and beyond a corner; a ray may not") {
+TEST_CASE("a rasteriser may have a larger error than a ray in a sliver and beyond a corner") {
   // A sliver, a hundredth of a pixel wide, from depth 1 to 2.
   const std::vector<ScreenTriangle> sliver = {
       {{Vec3(-94.5, 5.495, 1), Vec3(-94.5, 5.505, 1), Vec3(105.5, 5.5, 2)}, 1}};
@@ -94,12 +94,12 @@ TEST_CASE("a rasteriser may be farther off in a sliver, and beyond a corner; a r
   CHECK(beyond(Viewer::rasteriser));
 }
 
-TEST_CASE("either of two triangles at equal depths may be seen") {
+TEST_CASE("either of two triangles at equal depths may be visible") {
   CHECK(possible({wall(1, 1), wall(1 - 1e-5, 2)}).allows(2, 1 - 1e-5));
   CHECK_FALSE(possible({wall(1, 1), wall(1 - 1e-4, 2)}).allows(2, 1 - 1e-4));
 }
 
-TEST_CASE("a tessellation's bound widens edges and depths, and counts only where it is asked for") {
+TEST_CASE("a tessellation's bound widens edges and depths, but only on request") {
   auto triangles = halves(5.7, 1, 1, 2);
   triangles.pop_back();
   triangles[0].bound = 0.05;
@@ -108,13 +108,13 @@ TEST_CASE("a tessellation's bound widens edges and depths, and counts only where
   CHECK(possible(triangles, true).allows(1, 1.04));
 }
 
-TEST_CASE("what is not drawn may hide all, and may not be behind what surely is there") {
+TEST_CASE("an undrawn surface may hide everything unless it is behind a certainly visible one") {
   CHECK(possible({wall(1, 1)}).may_hide_all(1.5));
   CHECK_FALSE(possible({wall(1, 1)}).may_hide_all(0.9));
   CHECK(possible({}).may_hide_all(0.001));
 }
 
-TEST_CASE("the judgement: equal, hidden, explained by its cause, or blamed on the one that is wrong") {
+TEST_CASE("a pixel is judged equal, hidden, explained by its cause, or blamed on the wrong side") {
   const View view = simple_view();
   const auto judged = [&](const Seen& traced, const Seen& drawn,
                           const std::vector<ScreenTriangle>& triangles) {

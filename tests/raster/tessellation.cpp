@@ -70,7 +70,7 @@ std::vector<std::pair<std::string, std::unique_ptr<Shape>>> curved_shapes(const 
 
 }  // namespace
 
-TEST_CASE("no point of a surface is farther from its triangles than the bound, nor they from it") {
+TEST_CASE("a surface and its triangles are within the bound of each other, at every point") {
   const Mat4 skewed = glm::rotate(glm::scale(Mat4(1.0), Vec3(1, 2, 0.7)), 0.6, Vec3(1, 2, 3));
   Random random(7);
   for (const Mat4& map : {Mat4(1.0), skewed}) {
@@ -117,7 +117,7 @@ TEST_CASE("no point of a surface is farther from its triangles than the bound, n
   }
 }
 
-TEST_CASE("a map's stretching is in the bound: twice as large, twice as far") {
+TEST_CASE("the bound includes a transform's scale: twice as large, twice the bound") {
   const auto shape = shapes::make_torus({0, 0, 0}, {0, 1, 0}, 0.8, 0.3);
   const auto plain = tessellate(shape->form(), Mat4(1.0), 0.01);
   const auto large = tessellate(shape->form(), glm::scale(Mat4(1.0), Vec3(2)), 0.02);
@@ -125,7 +125,7 @@ TEST_CASE("a map's stretching is in the bound: twice as large, twice as far") {
   CHECK(large->points[5] == 2.0 * plain->points[5]);
 }
 
-TEST_CASE("flat shapes are exact: all of the region, once") {
+TEST_CASE("tessellations of flat shapes are exact: they cover the region once") {
   const std::vector<std::vector<Vec3>> comb = {
       {{0, 0, 1}, {4, 0, 1}, {4, 3, 1}, {3, 1, 1}, {2, 3, 1}, {1, 1, 1}, {0, 3, 1}},
       {{0.5, 0.2, 1}, {3.5, 0.2, 1}, {2, 0.8, 1}}};
@@ -147,7 +147,7 @@ TEST_CASE("flat shapes are exact: all of the region, once") {
   CHECK(sides == doctest::Approx(22));
 }
 
-TEST_CASE("what is not tessellated says so") {
+TEST_CASE("shapes without a tessellation are reported as such") {
   CHECK_FALSE(tessellate(shapes::make_bilinear({Vec3(0, 0, 0), {1, 0, 0}, {1, 1, 1}, {0, 1, 0}})->form(),
                          Mat4(1.0), 0.1)
                   .has_value());

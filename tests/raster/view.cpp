@@ -34,7 +34,7 @@ std::vector<Camera> drawn_cameras() {
 
 }  // namespace
 
-TEST_CASE("a point on a pixel's ray falls on the pixel's centre, as near as its t says") {
+TEST_CASE("a point on a pixel's ray projects to the pixel's centre, at the nearness of its t") {
   Random random(1);
   for (const Camera& camera : drawn_cameras()) {
     const View view(camera, picture_size, part);
@@ -64,7 +64,8 @@ TEST_CASE("a nearer point has more nearness, and is displaced by more pixels") {
   }
 }
 
-TEST_CASE("a triangle about the eye is cut to what is before it; a cut edge is the same from both sides") {
+TEST_CASE(
+    "a triangle around the eye is clipped to the part in front; a cut edge is the same from both sides") {
   for (const Camera& camera : drawn_cameras()) {
     const View view(camera, picture_size, part);
     // Two triangles that share an edge, which passes from behind the eye far out of the picture.
@@ -90,7 +91,7 @@ TEST_CASE("a triangle about the eye is cut to what is before it; a cut edge is t
   }
 }
 
-TEST_CASE("a plane is drawn to its horizon, and not above it") {
+TEST_CASE("a plane is drawn up to its horizon, and not above it") {
   Camera camera = camera_of(cameras::make_projection(PerspectiveCamera{55}));
   camera.up = {0, 1, 0};
   const View view(camera, picture_size, {0, 0, 96, 72});
@@ -110,7 +111,7 @@ TEST_CASE("a plane is drawn to its horizon, and not above it") {
   CHECK(highest > 0.1);
 }
 
-TEST_CASE("a camera without a projection matrix is one sentence") {
+TEST_CASE("a camera without a projection matrix is refused in one sentence") {
   const auto refused = [](std::shared_ptr<const Projection> projection) {
     try {
       const View view(camera_of(std::move(projection)), picture_size, part);

@@ -74,7 +74,7 @@ Scene one_sided_squares() {
 
 }  // namespace
 
-TEST_CASE("the reference's rays of a mesh, of a crop, of parallel rays, hit what is drawn") {
+TEST_CASE("the reference's rays hit the rasterised triangles: of a mesh, in a crop, in parallel projection") {
   for (const char* name : {"meshes.toml", "orthographic.toml", "shapes/prism.toml"}) {
     CAPTURE(name);
     const Compared compared{load(name)};
@@ -98,7 +98,7 @@ TEST_CASE("one-sided meshes are drawn from their front alone, mirrored ones too"
   CHECK(hit_in(60) == 0);
 }
 
-TEST_CASE("neighbours' ids, another t, another place, a miss and a ghost are each found") {
+TEST_CASE("a neighbour's id, another t, another position, a miss and a ghost are each found") {
   const Compared compared{load("meshes.toml")};
   const auto fails = [&](const std::function<void(FirstHit&)>& damage, const char* reason) {
     CAPTURE(reason);
@@ -132,7 +132,7 @@ TEST_CASE("neighbours' ids, another t, another place, a miss and a ghost are eac
       "the ray hits a primitive that cannot be there");
 }
 
-TEST_CASE("one pixel is enough, far from any edge") {
+TEST_CASE("one wrong pixel far from any edge is enough to fail") {
   const Compared compared{load("shapes/box.toml")};
   compare::Frame damaged = compared.frame;
   const compare::RasterResult honest = compared.witness.compare(damaged, "honest");
@@ -143,7 +143,7 @@ TEST_CASE("one pixel is enough, far from any edge") {
   CHECK(result.pixel == compare::Pixel{48, 60});
 }
 
-TEST_CASE("what is not drawn is counted, and hides what is behind it; it does not show through") {
+TEST_CASE("undrawn surfaces are counted, and hide the surfaces behind them rather than show through") {
   const Compared compared{load("shapes/csg.toml")};
   const compare::RasterResult honest = compared.with([](FirstHit&) {});
   CHECK(honest.passes());

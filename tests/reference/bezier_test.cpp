@@ -59,7 +59,7 @@ TEST_CASE("bezier: the edge that is one point has the normal next to it") {
   CHECK(near(patch->surface(ray, *hit).normal_geometric, Vec3(0, -1, 0), 1e-9));
 }
 
-TEST_CASE("bezier: what is in front stays in front under a mirror") {
+TEST_CASE("bezier: the front stays in front under a mirror") {
   const auto patch = make_bezier(arch, glm::scale(Mat4(1.0), Vec3(-2, 1, 1)));
   const Ray down{{-0.5, 5, 0.4}, {0, -1, 0}};
   const auto hit = patch->intersect(down);
@@ -79,7 +79,8 @@ TEST_CASE("bezier: light loses the root of a patch's share at each crossing") {
   CHECK(flags == 0);
 }
 
-TEST_CASE("bezier: a patch that is 1e12 wide and bent within 1: its crossings end at the degree, and soon") {
+TEST_CASE(
+    "bezier: a patch 1e12 wide, and bent within 1, has no more crossings than its degree, and ends soon") {
   // A patch from a random scene. Rounding moves its points by 1e-4, so a ray that starts behind a crossing
   // finds itself before the crossing again.
   const std::array<Vec3, 16> net = {{{179.999999, 1, 0.2539326768112482},

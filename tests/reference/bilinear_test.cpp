@@ -32,7 +32,7 @@ TEST_CASE("bilinear: z = xy from above, along the patch, twice, and past it") {
   CHECK(distance(*patch, {{0.5, 0.5, 0.22}, {1, 1, 0.6}}) == -1);
 }
 
-TEST_CASE("bilinear: what is in front stays in front under a mirror") {
+TEST_CASE("bilinear: the front stays in front under a mirror") {
   const auto patch = make_bilinear(saddle, glm::scale(Mat4(1.0), Vec3(-2, 1, 1)));
   const Ray down{{-1, 0.25, 9}, {0, 0, -1}};
   const auto hit = patch->intersect(down);

@@ -56,7 +56,7 @@ TEST_CASE("an orthographic camera moves the origin") {
   CHECK(rays.ray({0, 0}).d == Vec3(0, 0, -1));
 }
 
-TEST_CASE("a fisheye's distance from the middle is the angle, up to its circle") {
+TEST_CASE("a fisheye's distance from the centre is proportional to the angle, up to its circle") {
   const Camera camera{.eye = {0, 0, 5}, .projection = make_projection(FisheyeCamera{240})};
   const reference::CameraRays rays(camera, {.width = 200, .height = 100});
   const double third = M_PI / 3;  // the angle at 25 pixels; at 50 it is 120°
@@ -70,7 +70,7 @@ TEST_CASE("a fisheye's distance from the middle is the angle, up to its circle")
   CHECK(reference::CameraRays(across, {.width = 200, .height = 100}).sees({180, 50}));
 }
 
-TEST_CASE("a panorama's places are longitude and latitude, a cylinder's longitude and height") {
+TEST_CASE("a panorama maps pixels to longitude and latitude, a cylinder to longitude and height") {
   const ImageSettings image{.width = 400, .height = 200};
   const Camera sphere{.eye = {0, 0, 5}, .projection = make_projection(PanoramaCamera{})};
   const reference::CameraRays all(sphere, image);
@@ -110,7 +110,7 @@ TEST_CASE("rays through a lens intersect in the plane in focus") {
   CHECK(near(Vec3(rays().lens_point({0.25, 1}), 0), Vec3(0, 0.5, 0), 1e-15));
 }
 
-TEST_CASE("a known picture stands upright") {
+TEST_CASE("a known picture is upright") {
   // Red is to the right of the middle, green above it, and blue to its left.
   Scene scene = test::empty_scene();
   scene.image = {.width = 9, .height = 9};

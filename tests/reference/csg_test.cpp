@@ -58,7 +58,7 @@ const Ray along_x{{-10, 0, 0}, {1, 0, 0}};
 
 }  // namespace
 
-TEST_CASE("stretches of a line are united, intersected and subtracted") {
+TEST_CASE("intervals of a line are united, intersected and subtracted") {
   const auto a = spans({{0, 2}, {4, 6}, {8, 9}}, 0);
   const auto b = spans({{1, 5}, {6, 7}}, 1);
   CHECK(text(unite(a, b)) == "a0-b7 a8-a9 ");
@@ -70,7 +70,7 @@ TEST_CASE("stretches of a line are united, intersected and subtracted") {
   CHECK(text(shapes::intersect({}, b)).empty());
 }
 
-TEST_CASE("at the same place the lower part is hit, and nothing thin is left") {
+TEST_CASE("of two coincident parts the lower one is hit, and no interval of length zero is left") {
   const auto a = spans({{0, 2}}, 0);
   CHECK(text(unite(a, spans({{0, 2}}, 1))) == "a0-a2 ");
   CHECK(text(unite(spans({{0, 2}}, 1), a)) == "a0-a2 ");
@@ -83,7 +83,7 @@ TEST_CASE("at the same place the lower part is hit, and nothing thin is left") {
   CHECK(text(subtract(a, spans({{2, 3}}, 1))) == "a0-a2 ");
 }
 
-TEST_CASE("a lens: entered by the one ball, left by the other, normals outward") {
+TEST_CASE("a lens is entered through one ball and left through the other, with outward normals") {
   const auto lens = make_csg(true, operands(make_sphere({-1, 0, 0}, 2), make_sphere({1, 0, 0}, 2)));
   CHECK(ends(*lens, along_x) == std::vector<double>{9, 11});
   const SurfacePoint front = surface_hit(*lens, along_x);
@@ -113,7 +113,7 @@ TEST_CASE("a subtracted shape shows its surface from within, in its own material
   CHECK(near(distance(*box, beside), 9, 1e-14));
 }
 
-TEST_CASE("a tube is crossed four times; CSG objects in CSG objects, also where they are taken away") {
+TEST_CASE("a tube is crossed four times; CSG objects contain CSG objects, subtracted ones too") {
   const auto tube = [] {
     return make_csg(false, operands(make_cylinder({0, -1, 0}, {0, 1, 0}, 2)),
                     operands(make_cylinder({0, -2, 0}, {0, 2, 0}, 1)));
@@ -128,7 +128,7 @@ TEST_CASE("a tube is crossed four times; CSG objects in CSG objects, also where 
   CHECK(near(surface_hit(*cut, {{0, 0, 0}, {1, 0, 0}}).normal, Vec3(1, 0, 0), 1e-14));
 }
 
-TEST_CASE("each closed shape says where a line is within it, whichever way the line is given") {
+TEST_CASE("each closed shape returns the intervals of a line within it, whichever way the line is given") {
   CHECK(ends(*make_torus({0, 0, 0}, {0, 1, 0}, 3, 1), along_x).size() == 4);
   const auto half = make_hyperboloid({0, -1, 0}, {0, 1, 0}, 1, 1, 0.5);
   CHECK(ends(*half, {{0.7, -5, 0}, {0, 1, 0}}).size() == 4);
@@ -139,7 +139,7 @@ TEST_CASE("each closed shape says where a line is within it, whichever way the l
   CHECK(make_paraboloid({0, 0, 0}, {0, 1, 0}, 1)->is_closed());
 }
 
-TEST_CASE("what a formula bounds: each crossing once, alternating, with a Lipschitz constant and without") {
+TEST_CASE("formula solids: each crossing counts once, alternating, with a Lipschitz constant and without") {
   // Sheets whose faces the ray crosses in pairs. The box's faces bound a sheet in which the box begins or
   // ends.
   const auto sheets = [](double lipschitz) {
@@ -170,7 +170,7 @@ TEST_CASE("what a formula bounds: each crossing once, alternating, with a Lipsch
   }
 }
 
-TEST_CASE("shadows: a CSG object counts once, by the densest of its surfaces on the way") {
+TEST_CASE("shadows: a CSG object counts once, by its densest surface on the ray") {
   Scene scene = test::empty_scene();
   add(scene, make_phong({}));
   add(scene, make_dielectric({.ior = 1.5, .shadow = 0.8}));
@@ -188,7 +188,7 @@ TEST_CASE("shadows: a CSG object counts once, by the densest of its surfaces on 
   CHECK(flags == 0);
 }
 
-TEST_CASE("the eye within a lens of glass is in its medium, and in what was taken from it, in none") {
+TEST_CASE("the eye is in the medium of a glass CSG object, but in none within a subtracted part") {
   Scene scene = test::empty_scene();
   add(scene, make_dielectric({.ior = 1.5}));
   add(scene, make_csg(false, operands(make_box(Vec3(-1), Vec3(1))), operands(make_sphere({0, 0, 0}, 0.5))),

@@ -57,7 +57,7 @@ TEST_CASE("diffuse light follows the cosine, and a point light the square of the
   CHECK(near(look(scene).color, Vec3(0.8 * 10 * 0.6), 1e-14));
 }
 
-TEST_CASE("the side that is seen is the side that is lit") {
+TEST_CASE("only the visible side of a surface is lit") {
   Scene scene = floor_seen_from({0, -1, 3}, make_phong({.diffuse = gray(1)}));
   add_sun(scene, {0, 1, 0}, Vec3(1));
   PixelSample sample = look(scene);
@@ -68,7 +68,7 @@ TEST_CASE("the side that is seen is the side that is lit") {
   CHECK(look(scene).color == Vec3(1));
 }
 
-TEST_CASE("highlights: Phong's lobe is about the mirrored light, Blinn's about the half vector") {
+TEST_CASE("highlights: Phong's lobe is around the mirrored light, Blinn's around the half vector") {
   // View from 30° off the normal, light at 20° on the other side: 10° between r and v, 5° between n and h.
   const auto at = [](double degrees) {
     return Vec3(0, std::cos(glm::radians(degrees)), std::sin(glm::radians(degrees)));
@@ -113,7 +113,7 @@ TEST_CASE("shadow rays lose their light to each shape that they hit") {
   CHECK(near(look(scene).color, Vec3(0.96), 1e-14));
 }
 
-TEST_CASE("checks lie where uv say") {
+TEST_CASE("checks follow the uv") {
   const TexturePtr checks = textures::make_checker(Vec3(1, 0, 0), Vec3(0, 0, 1), Vec2(2, 1));
   Scene scene = floor_seen_from({0, 1, 3}, make_phong({.diffuse = gray(0), .ambient = checks}));
   scene.render.ambient = Vec3(1);
@@ -130,7 +130,7 @@ TEST_CASE("checks lie where uv say") {
   CHECK(at(-0.5, 0.5) == Vec3(1, 0, 0));
 }
 
-TEST_CASE("raycast: no shadows, no reflections; a light at the eye if there is no other") {
+TEST_CASE("raycast has no shadows and no reflections, and a light at the eye if there is no other") {
   Scene scene = floor_seen_from({0, 3, 4}, make_mirror({.reflectance = gray(0.5)}));
   scene.render.integrator = IntegratorType::raycast;
   CHECK(near(look(scene).color, Vec3(0.5 * 0.6), 1e-15));

@@ -105,7 +105,7 @@ TEST_CASE("primitives count the shapes, then each instance's triangles") {
   CHECK(near(hit.position.z, 6, 1e-15));
 }
 
-TEST_CASE("of equal hits the lowest primitive wins: shapes, instances, triangles") {
+TEST_CASE("the lowest primitive wins among equal hits: shapes, instances, triangles") {
   for (const Acceleration acceleration : {Acceleration::bvh, Acceleration::brute_force}) {
     // The same square many times: from the sixth triangle of a mesh on, in instances, and as a shape.
     Mesh squares = make_mesh({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {-3, -1, 0}, {3, -1, 0}}, {});
@@ -223,7 +223,7 @@ TEST_CASE("media: the eye in a glass mesh, in glass in water, behind a pane of o
   CHECK(media_at({0, 0, 0}) == Media{});
 }
 
-TEST_CASE("media of globes at random are those of their equations") {
+TEST_CASE("the media of random globes agree with the globes' equations") {
   Dice dice;
   Scene scene = test::empty_scene();
   std::vector<Mat4> to_globe;
@@ -253,7 +253,7 @@ TEST_CASE("media of globes at random are those of their equations") {
   CHECK(inside > 300);
 }
 
-TEST_CASE("a first hit says what coordinates its t comes from") {
+TEST_CASE("a first hit names the coordinates of its t") {
   // t_scale is relative to the eye, and divided by the cosine of incidence.
   Scene scene = one_pixel({1, 0, 5}, {1, 3, 1});
   const int paint = add(scene, make_phong({}));

@@ -52,7 +52,7 @@ TEST_CASE("ellipsoid: each radius along its axis, normals by the gradient, bound
   CHECK(near(bounds.max, Vec3(std::sqrt(2.0), 1, 1), 1e-15));
 }
 
-TEST_CASE("a sphere under a map that is no similarity is what the map makes of it, uv included") {
+TEST_CASE("a sphere under a transform that is no similarity is the transformed surface, uv included") {
   const Mat4 map{{2, 0, 0, 0}, {1, 3, 0, 0}, {0, 0, -0.5, 0}, {5, 6, 7, 1}};
   const auto plain = make_sphere({1, 2, 3}, 0.7), mapped = make_sphere({1, 2, 3}, 0.7, map);
   Random random(3);

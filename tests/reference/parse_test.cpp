@@ -38,7 +38,7 @@ FirstHit surface_hit(Scene scene, const Vec3& from, const Vec3& target) {
 
 }  // namespace
 
-TEST_CASE("shapes are where their tables say") {
+TEST_CASE("shapes have the positions that their tables set") {
   const std::string sphere = R"(
     [[sphere]]
     center = [1, 0, 0]
@@ -71,7 +71,7 @@ TEST_CASE("shapes are where their tables say") {
   CHECK(corner.uv == Vec2(8, 9));
 }
 
-TEST_CASE("shapes refuse what they cannot be") {
+TEST_CASE("shapes refuse invalid values") {
   const std::string sphere = "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n";
   CHECK(refused(sphere) == "accepted");
   CHECK(refused(sphere + "transform = [{ scale = [2, -2, 2] }]") == "accepted");
@@ -116,7 +116,7 @@ TEST_CASE("shapes refuse what they cannot be") {
   CHECK(refused(slope + "transform = [{ scale = [1, 100, 1] }]") == "accepted");
 }
 
-TEST_CASE("materials take their keys, and their defaults") {
+TEST_CASE("materials read their keys, and have defaults for the others") {
   const Scene scene = parse_scene(R"(
     [[material]]
     name = 'plain'

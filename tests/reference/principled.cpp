@@ -156,7 +156,7 @@ TEST_CASE("a blend of paint and metal scatters the blend of their light, to ever
     }
 }
 
-TEST_CASE("rough metal mirrors by one microfacet as a separate integral does, and the rest evenly") {
+TEST_CASE("rough metal's single scattering agrees with a separate integral; the rest is uniform") {
   for (const double roughness : {0.4, 0.7, 1.0})
     for (const double cosine : {0.9, 0.4})
       for (const double color : {1.0, 0.5}) {

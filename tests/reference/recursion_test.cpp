@@ -75,7 +75,7 @@ TEST_CASE("a mirror's ray leaves at the angle of incidence") {
   CHECK(look(scene).color == Vec3(0.2, 0.4, 0.6));
 }
 
-TEST_CASE("depth and weight end the recursion") {
+TEST_CASE("depth and throughput end the recursion") {
   // Between two walls that glow with 1 and mirror a half, the eye sees 1 + ½ + ¼ + …
   Scene scene = one_pixel({0, 0, 0}, {0, 0, -1});
   scene.render.ambient = Vec3(1);
@@ -94,7 +94,7 @@ TEST_CASE("depth and weight end the recursion") {
   CHECK(look(scene).rays == 3);
 }
 
-TEST_CASE("rounding that takes another check at each mirror stays within the darkest and the brightest") {
+TEST_CASE("rounding that hits another check at each mirror stays within the darkest and the brightest") {
   // Between two walls that mirror a half, along a border of both their checks.
   const auto look_with = [](double x, rounding::TextureChoice choice) {
     Scene scene = one_pixel({x, 0.5, 0}, {x, 0.5, -1});
@@ -120,7 +120,7 @@ TEST_CASE("rounding that takes another check at each mirror stays within the dar
   }
 }
 
-TEST_CASE("the weight that ends the recursion counts absorption, and the greatest channel") {
+TEST_CASE("the throughput that ends the recursion includes absorption, and takes the greatest channel") {
   // A mirror deep in dark water: exp(−1) of the light is left on the way, and only of red.
   Scene scene = one_pixel({0, -1, 0}, {0, -2, 0});
   scene.render.background = Vec3(1);
@@ -138,7 +138,7 @@ TEST_CASE("the weight that ends the recursion counts absorption, and the greates
   CHECK(look(scene).color.y == doctest::Approx(std::exp(-27)));
 }
 
-TEST_CASE("glass of ior 1 cannot be seen") {
+TEST_CASE("glass of ior 1 is invisible") {
   Scene scene = one_pixel({0.3, 0.2, 5}, {0.1, -0.3, 0});
   scene.render.ambient = Vec3(1);
   const TexturePtr checks = textures::make_checker(Vec3(1), Vec3(0.25), Vec2(1e-3));
@@ -175,7 +175,7 @@ TEST_CASE("a glass sphere in a uniform world loses no light") {
   CHECK(near(look(scene).color, 0.04 * Vec3(1, 0.5, 0.25), 1e-15));
 }
 
-TEST_CASE("light dims with the way through the medium") {
+TEST_CASE("light is absorbed with the distance through the medium") {
   Scene scene = one_pixel({0, 0, 5}, {0, 0, 0});
   scene.render.background = Vec3(1);
   add(scene, make_sphere({0, 0, 0}, 1), add(scene, make_dielectric({.ior = 1, .absorption = {0, 1, 2}})));
@@ -244,7 +244,7 @@ TEST_CASE("a hollow glass ball: four surfaces, each between glass and air") {
   CHECK(look(scene).flags == 0);
 }
 
-TEST_CASE("media that overlap are left in any order") {
+TEST_CASE("overlapping media may be left in any order") {
   // The ray enters A, enters B, leaves A and leaves B. Between A and B nothing changes, because their iors
   // agree.
   Scene scene = one_pixel({0, 0, 5}, {0, 0, 0});
@@ -256,7 +256,7 @@ TEST_CASE("media that overlap are left in any order") {
   CHECK(near(look(scene).color, Vec3(0.96 * 0.96), 1e-12));
 }
 
-TEST_CASE("a fifth nested medium is not entered, and says so") {
+TEST_CASE("a fifth nested medium is not entered, and is flagged") {
   Scene scene = one_pixel({0, 0, 9}, {0, 0, 0});
   scene.render.background = Vec3(1);
   scene.render.max_depth = 20;
@@ -290,7 +290,7 @@ class GivesUp final : public Shape {
 
 }  // namespace
 
-TEST_CASE("a shape that gives up is no hit, and flagged where it might have been the nearest") {
+TEST_CASE("a shape at its iteration limit is no hit, and is flagged where it might have been the nearest") {
   Scene scene = one_pixel({0, 0, 5}, {0, 0, 0});
   scene.render.ambient = Vec3(1);
   const int white = add(scene, glowing(Vec3(1)));

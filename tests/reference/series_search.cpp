@@ -13,7 +13,7 @@ using namespace eyeray::engine;
 using namespace eyeray::engine::shapes;
 using test::Random;
 
-TEST_CASE("a Chebyshev series knows how far it stays from zero, and whether it turns") {
+TEST_CASE("a Chebyshev series bounds its distance from zero, and detects whether it is monotone") {
   const auto series = [](auto f) {
     std::array<double, ChebyshevSeries::points> values;
     for (size_t i = 0; i < values.size(); ++i) values[i] = f(ChebyshevSeries::sample_points()[i]);

@@ -95,7 +95,7 @@ TEST_CASE("a ray that leaves a surface does not hit it again") {
   check("needle", needles);
 }
 
-TEST_CASE("all that a ray crosses is crossed once, in order") {
+TEST_CASE("a ray crosses each of its surfaces once, in order") {
   Dice dice;
   for (int i = 0; i < 10000; ++i) {
     const double radius = dice.scale(-4, 4);
@@ -117,7 +117,7 @@ TEST_CASE("all that a ray crosses is crossed once, in order") {
   }
 }
 
-TEST_CASE("of equal hits the lowest primitive wins") {
+TEST_CASE("the lowest primitive wins among equal hits") {
   Scene scene = one_pixel({0, 0, 5}, {0, 0, 0});
   const int paint = add(scene, make_phong({}));
   add(scene, make_sphere({0, 0, -3}, 1), paint);
@@ -150,7 +150,7 @@ TEST_CASE("a surface that float32 cannot distinguish from the nearest one is coi
   CHECK(coincident(1e-4).primitive == 0);
 }
 
-TEST_CASE("crossings end, whatever a shape says") {
+TEST_CASE("crossings end, whatever a shape returns") {
   // A shape that is hit again and again: after each `step` along the ray, or at one point that no step gets
   // away from.
   struct Endless {

@@ -33,7 +33,7 @@ TEST_CASE("without a normal map a mesh gets no tangents") {
   CHECK(scene.meshes[0].tangents.empty());
 }
 
-TEST_CASE("tangents run along u; where the picture is mirrored, vertices are split") {
+TEST_CASE("tangents run along u; vertices are split where the picture is mirrored") {
   for (const bool mirrored : {false, true}) {
     Scene scene = squares(mirrored);
     scene.materials[0]->normal_map = NormalMap{textures::make_constant(Vec3(0.5, 0.5, 1)), 1};
@@ -51,7 +51,7 @@ TEST_CASE("tangents run along u; where the picture is mirrored, vertices are spl
   }
 }
 
-TEST_CASE("a tangent is perpendicular to the normal, and exists where uv give none") {
+TEST_CASE("a tangent is perpendicular to the normal, and exists even without usable uv") {
   Scene scene = squares(false);
   scene.materials[0]->normal_map = NormalMap{textures::make_constant(Vec3(0.5, 0.5, 1)), 1};
   for (Vec3& normal : scene.meshes[0].normals) normal = glm::normalize(Vec3(0.3, 0.2, 1));

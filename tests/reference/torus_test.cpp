@@ -6,7 +6,7 @@ using namespace eyeray::engine;
 using namespace eyeray::engine::shapes;
 using namespace eyeray::engine::test;
 
-TEST_CASE("torus: four crossings, one after the other, the hole and the pole") {
+TEST_CASE("torus: four successive crossings, the hole and the pole") {
   // About the x axis through (1, 2, 3): the tube runs at the distance 2 and is 0.5 thick.
   const auto torus = make_torus({1, 2, 3}, {2, 0, 0}, 2, 0.5);
   CHECK(near(distance(*torus, {{1, 12, 3}, {0, -1, 0}}), 7.5, 1e-13));
@@ -31,7 +31,7 @@ TEST_CASE("torus: four crossings, one after the other, the hole and the pole") {
   CHECK(near(torus->bounds().max, Vec3(1.5, 4.5, 5.5), 1e-14));
 }
 
-TEST_CASE("torus: uv, and outside stays outside under a mirror that stretches") {
+TEST_CASE("torus: uv and the outside are kept under a mirror that stretches") {
   const auto torus = make_torus({0, 0, 0}, {0, 1, 0}, 2, 0.5);
   CHECK(near(Vec3(surface_hit(*torus, {{9, 0, 0}, {-1, 0, 0}}).uv, 0), Vec3(0.5, 0.5, 0), 1e-14));
   CHECK(near(Vec3(surface_hit(*torus, {{0, 0, 9}, {0, 0, -1}}).uv, 0), Vec3(0.25, 0.5, 0), 1e-14));

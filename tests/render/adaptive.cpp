@@ -46,7 +46,7 @@ RenderOptions until(double noise, int rows, int width) {
 
 }  // namespace
 
-TEST_CASE("pixels stop where they are good: at once, after what their variance wants, or at the most") {
+TEST_CASE("pixels stop at the first judgement, at the samples that their variance needs, or at the limit") {
   // A pixel needs (1.96 σ / (target · 0.51))² samples, where σ² = 0.9²/12, and stops at the next judgement.
   constexpr int wanted = 512;
   for (const int most : {16384, 300}) {
@@ -104,7 +104,7 @@ TEST_CASE("the reported noise is the actual noise") {
   CHECK(double(within) / all == doctest::Approx(0.95).epsilon(0.005));
 }
 
-TEST_CASE("the noise of bands is that of the whole picture, however few rows they are asked to have") {
+TEST_CASE("bands have the noise of the whole picture, however few rows are requested") {
   const Scene scene = scene_of(70, 33, 16);
   std::vector<float> whole;
   for (const int rows : {33, 20, 1}) {
@@ -122,7 +122,7 @@ TEST_CASE("the noise of bands is that of the whole picture, however few rows the
   }
 }
 
-TEST_CASE("what is dark is measured against what the picture shows as 1") {
+TEST_CASE("dark pixels are measured against the brightness that the picture shows as 1") {
   film::Film sums;
   for (const double exposure : {0.0, 3.0}) {
     sums.reset(8, 8, film::parse_channels("noise"), std::exp2(-exposure));
@@ -137,7 +137,7 @@ TEST_CASE("what is dark is measured against what the picture shows as 1") {
   }
 }
 
-TEST_CASE("a picture that stops where it is good is the same in bands' own blocks, and resumed anywhere") {
+TEST_CASE("adaptive sampling gives the same picture in bands with their own blocks, and resumed anywhere") {
   const TemporaryFolder folder;
   const std::string file = folder / "a";
   const Scene scene = scene_of(70, 33, 2048);
@@ -168,7 +168,7 @@ TEST_CASE("a picture that stops where it is good is the same in bands' own block
   }
 }
 
-TEST_CASE("what is left is covered once, by few rectangles") {
+TEST_CASE("the unfinished area is covered once, by few rectangles") {
   film::Film sums;
   sums.reset(100, 50, film::parse_channels("noise"));
   sums.finish({16, 8, 32, 16});

@@ -26,7 +26,7 @@ RenderOptions in_bands(const Scene& scene, int rows, Rect crop = {}) {
 
 }  // namespace
 
-TEST_CASE("bands make the same picture, bit by bit, by every executor") {
+TEST_CASE("bands make the same picture, bit by bit, with every executor") {
   const Scene scene = parse_scene(glass_over_floor, "scene.toml");
   for (const Backend backend : {Backend::gpu, Backend::twin, Backend::reference}) {
     const auto executor = make_executor(backend, scene, {});
@@ -48,7 +48,7 @@ TEST_CASE("bands make the same picture, bit by bit, by every executor") {
   }
 }
 
-TEST_CASE("rows are handed on from the top down, each once, in a crop too") {
+TEST_CASE("rows are delivered from the top down, each once, in a crop too") {
   const Scene scene = scene_of(40, 30, 4);
   const Rect crop{3, 5, 20, 21};
   for (const int rows : {1, 4, 100}) {
@@ -96,7 +96,7 @@ TEST_CASE("progress reports the band, the sample, and the share of the work done
   CHECK(seen.back() == std::pair(2, 3));
 }
 
-TEST_CASE("an interrupted picture of several bands is none") {
+TEST_CASE("an interrupted picture of several bands is empty") {
   const Scene scene = scene_of(10, 7, 4);
   for (const int stop : {0, 3, 4, 11}) {
     FakeExecutor executor([&](int call) { return call != stop; });

@@ -9,7 +9,7 @@
 using namespace eyeray::engine;
 using render::Brightness;
 
-TEST_CASE("samples are counted by brightness, and numbers that are none are not bright") {
+TEST_CASE("samples are counted by brightness; NaN and negative values do not count as bright") {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN(),
                    infinity = std::numeric_limits<double>::infinity();
   std::vector<PixelSample> samples(7);

@@ -55,7 +55,7 @@ bool refused(const Scene& scene, int band_rows, const std::string& file) {
 
 }  // namespace
 
-TEST_CASE("interrupted anywhere and resumed, a picture is the uninterrupted one") {
+TEST_CASE("a picture interrupted anywhere and resumed equals the uninterrupted one") {
   const TemporaryFolder folder;
   const std::string file = folder / "a";
   const Scene scene = scene_of(9, 7, 4);
@@ -88,7 +88,8 @@ TEST_CASE("interrupted anywhere and resumed, a picture is the uninterrupted one"
   }
 }
 
-TEST_CASE("interrupted within a sample of a band, too" * doctest::test_suite("long")) {
+TEST_CASE("a picture interrupted within a sample of a band equals the uninterrupted one" *
+          doctest::test_suite("long")) {
   // The picture is so wide that a band takes several calls.
   const TemporaryFolder folder;
   const std::string file = folder / "a";
@@ -105,7 +106,7 @@ TEST_CASE("interrupted within a sample of a band, too" * doctest::test_suite("lo
   CHECK(within);
 }
 
-TEST_CASE("a render that fails leaves its checkpoint, and one that is killed the last that was due") {
+TEST_CASE("a failed render leaves its checkpoint; a killed one leaves the last checkpoint that was due") {
   const TemporaryFolder folder;
   const std::string file = folder / "a";
   const Scene scene = scene_of(9, 7, 4);
@@ -138,7 +139,7 @@ TEST_CASE("a render that fails leaves its checkpoint, and one that is killed the
   CHECK(same_rendering(render_rest(scene, 3, killed / "a"), whole));
 }
 
-TEST_CASE("from the last sample on, the checkpoint has all but the handing on") {
+TEST_CASE("after the last sample, a resumed render delivers its rows without sampling") {
   const TemporaryFolder folder;
   const std::string file = folder / "a";
   const Scene scene = scene_of(9, 7, 4);
@@ -162,7 +163,7 @@ TEST_CASE("from the last sample on, the checkpoint has all but the handing on") 
   }
 }
 
-TEST_CASE("what another render left is refused, and what differs is named") {
+TEST_CASE("another render's checkpoint is refused, and the error names the differences") {
   const TemporaryFolder folder;
   const std::string file = folder / "a";
   render_part(scene_of(9, 7, 4), 3, file, 5);
@@ -188,7 +189,7 @@ TEST_CASE("what another render left is refused, and what differs is named") {
   CHECK_THROWS_AS(Checkpoint::resume(folder.path(), identity, seldom), Error);
 }
 
-TEST_CASE("cut anywhere or with any byte changed, a checkpoint is refused" * doctest::test_suite("long")) {
+TEST_CASE("a checkpoint cut anywhere or with any byte changed is refused" * doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const std::string file = folder / "a";
   const Scene scene = scene_of(9, 7, 4);
@@ -221,7 +222,7 @@ TEST_CASE("cut anywhere or with any byte changed, a checkpoint is refused" * doc
   CHECK_THROWS_AS(render_rest(scene, 3, file), Error);
 }
 
-TEST_CASE("a checkpoint that lies with the right checksum is refused") {
+TEST_CASE("a checkpoint with false values and the right checksum is refused") {
   const TemporaryFolder folder;
   const std::string file = folder / "a";
   const Scene scene = scene_of(9, 7, 4);
@@ -253,7 +254,7 @@ TEST_CASE("a checkpoint that lies with the right checksum is refused") {
   CHECK_FALSE(refused(scene, 3, file));
 }
 
-TEST_CASE("a checkpoint that cannot be written costs the checkpoint, not the render") {
+TEST_CASE("an unwritable checkpoint is reported, and the render goes on") {
   const TemporaryFolder folder;
   const std::string inner = folder / "inner";
   std::filesystem::create_directory(inner);

@@ -23,7 +23,7 @@ Ray ray_at(const Scene& scene, double x, double y) {
 
 }  // namespace
 
-TEST_CASE("the pixels' centres are where the corners were, by every camera") {
+TEST_CASE("the pixels' centres are where the corners were, for every camera") {
   Scene scene = test::empty_scene();
   scene.camera.eye = {1, 2, 3};
   scene.image = {.width = 7, .height = 5, .samples = 16, .pattern = SamplePattern::jittered};
@@ -48,7 +48,7 @@ TEST_CASE("the pixels' centres are where the corners were, by every camera") {
   }
 }
 
-TEST_CASE("a pixel is the mean of its corners, however the rows come") {
+TEST_CASE("a pixel is the mean of its corners, however the rows are delivered") {
   const int width = 4, height = 6;
   const film::Channels channels = film::parse_channels("hits,flags");
   film::Rows all(0, width, height, channels);

@@ -107,7 +107,7 @@ TEST_CASE("channels are the means of a pixel's samples") {
   CHECK(rows.flags == flags);
 }
 
-TEST_CASE("a channel has the same values whatever is summed beside it, and after its sums were stored") {
+TEST_CASE("a channel's values do not depend on other channels, nor on storing its sums") {
   const std::vector<Samples> all = random_samples();
   const Channels channels = all_of_samples();
   const Film film = film_of(channels, all);

@@ -22,7 +22,7 @@ std::string warning(int count, float value, double exposure = 0) {
 
 }  // namespace
 
-TEST_CASE("a picture of nothing but background, or beyond white, is named") {
+TEST_CASE("a picture of background alone, or of overexposed pixels, is reported") {
   CHECK(warning(5, 0).find("cannot be distinguished from the background") != std::string::npos);
   CHECK(warning(5000, 0.5f).find("cannot be distinguished from the background") != std::string::npos);
   CHECK(warning(20, 0) == "");

@@ -58,7 +58,7 @@ Rendering picture_of(const Scene& scene, executors::Backend backend) {
 
 }  // namespace
 
-TEST_CASE("samples show all moments, all about as often, and soon some of everywhere") {
+TEST_CASE("samples cover all moments about equally often, and their mean approaches the middle soon") {
   for (const int moments : {1, 2, 7, 16, 60}) {
     for (const int samples : {60, 64, 100, 16384}) {
       CAPTURE(moments);
@@ -85,7 +85,7 @@ TEST_CASE("samples show all moments, all about as often, and soon some of everyw
   CHECK(seen.size() == 16);
 }
 
-TEST_CASE("an edge that passes is blurred over its way, by as much as it was there") {
+TEST_CASE("a moving edge is blurred along its way, in proportion to its time at each pixel") {
   // The shutter is open for half a frame, a quarter before and after. The edge moves 4 pixels: from column 14
   // to column 18.
   const Scene scene = passing_wall(0.5, 64, 256);
@@ -101,7 +101,7 @@ TEST_CASE("an edge that passes is blurred over its way, by as much as it was the
   CHECK(sharp.color.pixel(16, 1)[0] == 1);
 }
 
-TEST_CASE("each sample is that of its moment, bit by bit, on every backend; AOVs are of the middle") {
+TEST_CASE("each sample equals a still of its moment, bit by bit, on every backend; AOVs show the middle") {
   constexpr int steps = 4, samples = 8;
   const Scene scene = passing_wall(1, steps, samples);
   const Rect all{0, 0, 32, 4};
@@ -125,7 +125,7 @@ TEST_CASE("each sample is that of its moment, bit by bit, on every backend; AOVs
   }
 }
 
-TEST_CASE("a scene in which nothing moves, or whose shutter is never open, shows one moment") {
+TEST_CASE("a scene without motion, or whose shutter is never open, shows one moment") {
   CHECK(passing_wall(0.5, 4, 4).animation.at);
   CHECK_FALSE(passing_wall(0, 4, 4).animation.at);
   const Scene still = loader::parse_scene("[animation]\nshutter = 0.5\n", "scene.toml");

@@ -11,7 +11,7 @@
 using namespace eyeray::engine;
 using namespace eyeray::engine::render;
 
-TEST_CASE("the shards' parts are all of the picture, and no pixel twice") {
+TEST_CASE("the shards' parts cover the picture, and no pixel twice") {
   test::Random random(5);
   for (int i = 0; i < 60; ++i) {
     const Rect area{random.below(100), random.below(100), 1 + random.below(300), 1 + random.below(90)};
@@ -44,7 +44,7 @@ TEST_CASE("the shards' parts are all of the picture, and no pixel twice") {
   }
 }
 
-TEST_CASE("every shard has as many tiles, to within one, and they lie all over the picture") {
+TEST_CASE("shards' numbers of tiles differ by at most one, and their tiles are spread over the picture") {
   for (const int shards : {1, 2, 7, 64}) {
     const Tiling tiling(1920, 1080, shards);
     CHECK(tiling.count() >= 3 * shards);
@@ -61,7 +61,7 @@ TEST_CASE("every shard has as many tiles, to within one, and they lie all over t
   }
 }
 
-TEST_CASE("the order is what parts on disk were made by") {
+TEST_CASE("the order of tiles matches parts that are already on disk") {
   // A part states only the number of its share, so its tiles must be the same in every version that reads its
   // layout.
   const Tiling tiling(256, 64, 4);
@@ -71,7 +71,7 @@ TEST_CASE("the order is what parts on disk were made by") {
   for (size_t i = 0; i < expected.size(); ++i) CHECK(tiling.owner(int(i)) == expected[i]);
 }
 
-TEST_CASE("the last tile of a row and of the picture is what is left") {
+TEST_CASE("the last tile of a row and of the picture takes the remaining pixels") {
   const Tiling tiling(70, 45, 9);
   CHECK(tiling.tile_width() == 32);
   CHECK(tiling.columns() == 3);

@@ -103,7 +103,7 @@ bool is_preview(const Json& rows) {
 
 }  // namespace
 
-TEST_CASE("the twin shows the picture until the kernel is there, which changes no bit of it") {
+TEST_CASE("the twin shows the picture until the kernel is ready, which changes no bit of it") {
   Served served;
   served.ask(1, "material.0.diffuse.formula.parameters.stripes=5", true);
   const std::vector<Json> rows = served.rows(1);

@@ -38,7 +38,7 @@ Kinds kinds_of(const Scene& scene) {
 
 }  // namespace
 
-TEST_CASE("every shape of the registry has a scene of its name, in which it is") {
+TEST_CASE("every shape of the registry occurs in a scene of its name") {
   for (uint32_t kind = 0; kind < shapes::types().size(); ++kind) {
     const std::string file = "scenes/shapes/" + std::string(shapes::types()[kind]->name) + ".toml";
     CAPTURE(file);
@@ -50,8 +50,7 @@ TEST_CASE("every shape of the registry has a scene of its name, in which it is")
 }
 
 TEST_CASE(
-    "every material of the registry is on some shape of some scene, every texture, light and camera in one, "
-    "and no scene warns") {
+    "some scene has each texture, light and camera type, and each material on a shape; no scene warns") {
   Kinds used;
   std::set<std::string_view> lights;
   std::set<uint32_t> cameras;

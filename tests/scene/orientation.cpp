@@ -50,7 +50,7 @@ const Object objects[] = {{"white", {0, 0, 0}, 0},
 
 }  // namespace
 
-TEST_CASE("orientation: red is right, green is up, blue is near, by every executor") {
+TEST_CASE("orientation: red is right, green is up, blue is near, with every executor") {
   const Scene scene = load_scene("scenes/orientation.toml");
   for (const Backend backend : backends) {
     CAPTURE(backend_names[int(backend)]);

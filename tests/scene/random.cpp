@@ -84,7 +84,7 @@ bool agree(const ReferenceComparison& comparison) {
 
 }  // namespace
 
-TEST_CASE("scenes with extreme values: a clear error or a sound picture") {
+TEST_CASE("a scene with extreme values gives a clear error or a sound picture") {
   const int count = test::amount(2'000, 10'000, 10'000);
   Failures failures;
   std::atomic<int> refused = 0, rendered = 0, with_hits = 0, reached_iteration_limit = 0;
@@ -152,7 +152,7 @@ material = "mirror"
 }
 
 // A direction that the coat chooses below the body's horizon has a density, but contributes no light.
-TEST_CASE("a path that brings nothing has a colour after a flight through fog") {
+TEST_CASE("a path that contributes no light has a colour after a flight through fog") {
   for (const std::string integrator : {"path", "sppm"}) {
     CAPTURE(integrator);
     Scene scene = parse_scene("render = { integrator = \"" + integrator + "\" }\n" + R"(
@@ -189,7 +189,7 @@ material = "lacquer"
   }
 }
 
-TEST_CASE("extreme scenes: the GPU and the twin, bit by bit") {
+TEST_CASE("extreme scenes: the GPU and the twin agree, bit by bit") {
   const int count = test::amount(4, 16, 16);
   int compared = 0;
   for (int i = 0; compared < count; ++i) {
@@ -211,7 +211,7 @@ TEST_CASE("extreme scenes: the GPU and the twin, bit by bit") {
   }
 }
 
-TEST_CASE("scenes at random: the twin agrees with the reference, the GPU with the twin") {
+TEST_CASE("random scenes: the twin agrees with the reference, the GPU with the twin") {
   const int count = test::amount(60, 300, 300);
   Failures failures;
   int compared = 0, explained = 0, creases = 0, on_gpu = 0;

@@ -75,7 +75,7 @@ Image render_color(const Scene& scene, Backend backend) {
 
 }  // namespace
 
-TEST_CASE("an interrupted picture has whole samples: what a pixel shows is the mean of those that it got") {
+TEST_CASE("an interrupted picture has whole samples: each pixel is the mean of its finished samples") {
   const Scene scene = cooperative_scene();
 
   // Find out how many pieces a sample takes.
@@ -127,7 +127,7 @@ TEST_CASE("an interrupted picture has whole samples: what a pixel shows is the m
   CHECK(uneven);
 }
 
-TEST_CASE("a crop is that part of the whole picture, bit by bit, by every executor") {
+TEST_CASE("a crop equals that part of the whole picture, bit by bit, with every executor") {
   const Scene scene = parse(mirror_over_floor, {"image.samples=4", "image.pattern=jittered"});
   for (const Backend backend : backends) {
     CAPTURE(backend_names[int(backend)]);
@@ -185,7 +185,7 @@ TEST_CASE("jittered samples depend on the seed, and on nothing else") {
   }
 }
 
-TEST_CASE("rays are counted: eye, shadow and mirrored ones") {
+TEST_CASE("rays are counted: camera, shadow and mirrored ones") {
   // Scenes in which all pixels show the floor.
   const auto floor = [](std::initializer_list<const char*> changes) {
     Scene scene = parse(mirror_over_floor, changes);

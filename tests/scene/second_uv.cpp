@@ -83,7 +83,7 @@ bool same_colors(const Frame& a, const Frame& b) {
 
 }  // namespace
 
-TEST_CASE("which of a mesh's two uv is its second does not show") {
+TEST_CASE("swapping a mesh's two uv sets, and their uses, does not change the picture") {
   for (const IntegratorType integrator :
        {IntegratorType::whitted, IntegratorType::path, IntegratorType::raycast}) {
     CAPTURE(int(integrator));

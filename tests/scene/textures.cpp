@@ -82,7 +82,7 @@ Scene patchwork(Random& random, int across, int down) {
 
 }  // namespace
 
-TEST_CASE("images at random: the GPU is the twin, bit by bit, and the reference within tolerance") {
+TEST_CASE("random images: the GPU agrees with the twin bit by bit, with the reference within tolerance") {
   Random random(11);
   int pixels = 0;
   int explained = 0;
@@ -110,7 +110,7 @@ TEST_CASE("images at random: the GPU is the twin, bit by bit, and the reference 
   MESSAGE(fmt::format("{} pixels, {} of them explained", pixels, explained));
 }
 
-TEST_CASE("more texels than a storage buffer shows are read as texel buffers, or refused with the numbers") {
+TEST_CASE("more texels than a storage buffer holds are read as texel buffers, or refused with the numbers") {
   Random random(1);
   Scene scene = patchwork(random, 1, 1);
   const auto image = std::make_shared<ImageTexture>();

@@ -16,7 +16,7 @@
 
 using namespace eyeray::engine;
 
-TEST_CASE("the directional albedo of GGX: 1 − ln 2 at roughness 1, and its table beside the integral") {
+TEST_CASE("GGX's directional albedo is 1 − ln 2 at roughness 1, and its table agrees with the integral") {
   CHECK(tables::ggx_albedo(1, 1).once == doctest::Approx(1 - std::log(2.0)).epsilon(1e-4));
   double worst = 0, sum = 0;
   int count = 0;
@@ -33,7 +33,7 @@ TEST_CASE("the directional albedo of GGX: 1 − ln 2 at roughness 1, and its tab
   CHECK(sum / count < 2e-4);
 }
 
-TEST_CASE("what a smooth mirror loses by other microfacets, next to nothing, float32 has too") {
+TEST_CASE("a smooth mirror's tiny loss to other microfacets is accurate in float32") {
   const records::PackedScene scene = test::scene_with_albedos();
   const shader::Binding binding(twin::view_of(scene));
   double worst = 0;
@@ -48,7 +48,7 @@ TEST_CASE("what a smooth mirror loses by other microfacets, next to nothing, flo
   CHECK(worst < 2e-5);
 }
 
-TEST_CASE("the directional albedo of rough glass: its table beside the integral") {
+TEST_CASE("the table of rough glass's directional albedo agrees with the integral") {
   double worst = 0;
   for (const auto& [from, to] :
        {std::pair(1.0, 1.5), {1.5, 1.0}, {1.0, 1.33}, {1.33, 1.0}, {2.4, 1.0}, {1.0, 1.1}, {1.1, 1.0}})
@@ -60,7 +60,7 @@ TEST_CASE("the directional albedo of rough glass: its table beside the integral"
   CHECK(worst < 4e-3);
 }
 
-TEST_CASE("metals mirror as tables say, and their mean is the integral") {
+TEST_CASE("metals have their tabulated reflectance, and its mean is the integral") {
   // At normal incidence, the reflectance is ((n − 1)² + k²) / ((n + 1)² + k²).
   for (const optics::Metal& metal : optics::metals) {
     const optics::Fresnel fresnel = optics::conductor(metal.n, metal.k);

@@ -95,7 +95,7 @@ double cross(const Hit& hit) {
 
 }  // namespace
 
-TEST_CASE("a normal map bends as the reference says, by uv and by a mesh's tangents") {
+TEST_CASE("a normal map bends normals as in the reference, by uv and by a mesh's tangents") {
   Random random{3};
   for (int i = 0; i < 20'000; ++i) {
     const Hit hit = some_hit(random, i % 2 == 0);
@@ -125,7 +125,7 @@ TEST_CASE("a coat is bent by its own normal map alone") {
   }
 }
 
-TEST_CASE("bumps bend as the reference says, and by Blinn's formula") {
+TEST_CASE("bumps bend normals as in the reference, and by Blinn's formula") {
   Random random{4};
   const auto image = std::make_shared<ImageTexture>();
   image->width = image->height = 8;
@@ -144,8 +144,7 @@ TEST_CASE("bumps bend as the reference says, and by Blinn's formula") {
   }
 }
 
-TEST_CASE(
-    "what bent normals mirror to the viewer stays above the surface, and what is not too low is let be") {
+TEST_CASE("bent normals reflect the viewer's ray above the surface; high enough normals are unchanged") {
   Random random{5};
   int low = 0, high = 0;
   for (int i = 0; i < 20'000; ++i) {

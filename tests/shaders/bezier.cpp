@@ -38,7 +38,7 @@ TEST_CASE("between two sections, (u, v) is the cubic with their values and slope
   }
 }
 
-TEST_CASE("an arc is doubted that turns as near to zero as z may lead off it, and no other") {
+TEST_CASE("an arc is doubtful only if it turns nearer to zero than z's error") {
   // z is lowest half-way, at depth − 0.45, with an error of a sixteenth of `more`.
   CHECK_FALSE(doubted(0.45f + 1.1f / 16, 1));
   CHECK(doubted(0.45f + 0.9f / 16, 1));

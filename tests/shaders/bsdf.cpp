@@ -196,7 +196,7 @@ constexpr double cosines[] = {1, 0.8, 0.4, 0.1, 0.02};
 
 }  // namespace
 
-TEST_CASE("a shader's BSDF is the reference's, in value and in density") {
+TEST_CASE("a shader's BSDF agrees with the reference, in value and in density") {
   const records::PackedScene scene = scene_with_albedos();
   const shader::Binding binding(twin::view_of(scene));
   Random random(1);
@@ -236,7 +236,7 @@ TEST_CASE("a shader's BSDF is the reference's, in value and in density") {
   }
 }
 
-TEST_CASE("a viewer whom normals turn away from is seen at the cosine that albedos are asked for") {
+TEST_CASE("a viewer behind the normal is seen at the smallest cosine at which albedos are evaluated") {
   const Vec3 normal(0, 0, 1);
   const reference::LocalFrame frame(normal);
   const shader::LocalFrame local = shader::frame_around(glm::vec3(normal));
@@ -253,11 +253,12 @@ TEST_CASE("a viewer whom normals turn away from is seen at the cosine that albed
   }
 }
 
-TEST_CASE("a shader's samples fall as the reference's density says, and that is 1 in all: chi-squared") {
+TEST_CASE("a shader's samples follow the reference's density, which integrates to 1: chi-squared") {
   check_samples({0.35, 1.0}, {1.0, 0.6, grazing}, 60'000);
 }
 
-TEST_CASE("… at more roughnesses and angles" * doctest::test_suite("long")) {
+TEST_CASE("a shader's samples follow the reference's density at more roughnesses and angles" *
+          doctest::test_suite("long")) {
   check_samples({0.2, 0.5, 1.0}, {1.0, 0.75, 0.35, 0.1, grazing}, 1'000'000);
 }
 
@@ -292,7 +293,7 @@ TEST_CASE("a white furnace stays white: rough and smooth, matte, metal and plast
   }
 }
 
-TEST_CASE("light goes both ways alike: f(o, i) is a photon's f(i, o), of glass by the square of the index") {
+TEST_CASE("BSDFs are reciprocal: f(o, i) is a photon's f(i, o), for glass by the square of the index") {
   Random random(3);
   for (const double roughness : {0.1, 0.5, 1.0}) {
     for (const Named& example : examples(roughness)) {
@@ -324,7 +325,7 @@ TEST_CASE("light goes both ways alike: f(o, i) is a photon's f(i, o), of glass b
 }
 
 TEST_CASE(
-    "a coat has its own horizon: it mirrors what is below the body's, and the body no light from behind it") {
+    "a coat has its own horizon: it reflects below the body's, and hides the body from light behind it") {
   Bsdf bsdf = plastic(0.5, 0.3, 1);
   bsdf.coat_roughness = 0.1;
   bsdf.coat_normal = glm::normalize(Vec3(0.8, 0, 1));

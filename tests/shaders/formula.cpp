@@ -48,7 +48,7 @@ const std::vector<Function> functions{
 
 }  // namespace
 
-TEST_CASE("functions of formulas are as exact as their file says") {
+TEST_CASE("functions of formulas are as accurate as their file states") {
   const int trials = test::amount(20'000, 200'000, 2'000'000);
   for (const Function& function : functions) {
     Random random(5);

@@ -5,7 +5,7 @@
 
 using namespace eyeray::engine;
 
-TEST_CASE("a crossing is a later one than the one before, whatever rounding makes of it") {
+TEST_CASE("each crossing is later than the one before, however rounding moves it") {
   const shader::ObjectRay ray{{}, {0, 0, 1}, 0};
   for (const float before : {0.0f, 1e-30f, -1e-30f, 1e-3f, -1e-3f, 1.0f, -1.0f, 3e6f, -3e6f}) {
     CAPTURE(before);

@@ -95,7 +95,7 @@ TEST_CASE("atan_yx is within 4e-7 of atan2 in every octant") {
   CHECK(shader::atan_yx(1.0f, 0.0f) == doctest::Approx(1.5707963));
 }
 
-TEST_CASE("random numbers lie in [0, 1), are even, and differ in every argument") {
+TEST_CASE("random numbers lie in [0, 1), are uniform, and differ in every argument") {
   double sum = 0;
   for (uint32_t i = 0; i < 1'000'000; ++i) {
     const float r = shader::random_number(i, 3, 1, 7);
@@ -111,7 +111,7 @@ TEST_CASE("random numbers lie in [0, 1), are even, and differ in every argument"
   CHECK(here != shader::random_number(10, 20, 30, 41));
 }
 
-TEST_CASE("media: what is entered is left again, also out of order; a fifth overflows and is flagged") {
+TEST_CASE("media: an entered medium can be left again, also out of order; a fifth overflows and is flagged") {
   uint32_t flags = 0;
   uint32_t media = 0;
   for (uint32_t medium = 1; medium <= 4; ++medium) media = shader::enter_medium(media, medium, flags);

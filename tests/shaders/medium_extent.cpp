@@ -88,7 +88,7 @@ TEST_CASE("the length of a ray in a medium is the integral of its density") {
   CHECK(inside > 100);
 }
 
-TEST_CASE("a path flies as far as it draws: each length's distance has that length") {
+TEST_CASE("a flight's distance has the optical length that was drawn for it") {
   Random random(2);
   int inside = 0;
   for (int i = 0; i < test::amount(2000, 20000, 200000); ++i) {
@@ -114,7 +114,8 @@ TEST_CASE("a path flies as far as it draws: each length's distance has that leng
   CHECK(inside > 1000);
 }
 
-TEST_CASE("rays to infinity: finite where the medium ends or thins out, else nothing comes through") {
+TEST_CASE(
+    "rays to infinity have a finite length in a bounded or thinning medium, else they transmit nothing") {
   const Vec3 up(0, 1, 0), across(1, 0, 0), down(0, -1, 0), slanted = glm::normalize(Vec3(3, 1, 2));
   const auto both = [](const MediumExtent& extent, const Vec3& o, const Vec3& d, double expected) {
     CAPTURE(expected);

@@ -145,8 +145,7 @@ double sent_elsewhere(double roughness, double cosine) {
 }  // namespace
 
 // docs/rendering.md states these figures.
-TEST_CASE(
-    "glass of high roughness mirrors as much as the documents say, beside random walks on the microsurface") {
+TEST_CASE("glass of high roughness differs from random walks on the microsurface as documented") {
   struct Expected {
     double roughness, degrees, more;
   };
@@ -160,7 +159,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("white metal of high roughness sends light almost where random walks on the microsurface do") {
+TEST_CASE("white metal of high roughness scatters light almost as random walks on the microsurface do") {
   for (const double roughness : {0.3, 0.7, 1.0})
     for (const double degrees : {20.0, 45.0, 70.0}) {
       const double share = sent_elsewhere(roughness, std::cos(degrees * M_PI / 180));

@@ -25,8 +25,7 @@ shader::Primitive make_plane(const Vec3& normal, double d) {
 
 }  // namespace
 
-TEST_CASE(
-    "2 million rays that leave a plane, at distances up to 1e4: none hits it again, every hit is on it") {
+TEST_CASE("2 million rays leave a plane at distances up to 1e4: none hits it again, every hit is on it") {
   std::atomic<int> rehits = 0;
   std::atomic<int> off = 0;
   std::atomic<int> left = 0;

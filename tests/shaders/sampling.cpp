@@ -53,7 +53,7 @@ TEST_CASE("shaders and reference draw the same Sobol' numbers, bit by bit") {
   CHECK(differ == 0);
 }
 
-TEST_CASE("each elementary interval has one of the first 2^k Sobol' numbers, of any pixel") {
+TEST_CASE("each elementary interval has one of the first 2^k Sobol' numbers, for any pixel") {
   int wrong = 0;
   for (uint32_t pixel = 0; pixel < 300; ++pixel) {
     const uint32_t k = pixel % 9;
@@ -70,7 +70,7 @@ TEST_CASE("each elementary interval has one of the first 2^k Sobol' numbers, of 
   CHECK(wrong == 0);
 }
 
-TEST_CASE("two pairs, and the two numbers of one, do not depend on each other") {
+TEST_CASE("two pairs, and the two numbers of a pair, are uncorrelated") {
   constexpr int count = 1 << 16;
   for (const auto& [first, second] : {std::pair(4u, 5u), std::pair(5u, 9u), std::pair(6u, 7u)}) {
     double sums[3] = {};
@@ -86,7 +86,7 @@ TEST_CASE("two pairs, and the two numbers of one, do not depend on each other") 
   }
 }
 
-TEST_CASE("places on emitters and their densities are those of the reference") {
+TEST_CASE("points on emitters and their densities agree with the reference") {
   Random random(2);
   double apart = 0, denser = 0;
   for (int i = 0; i < test::amount(6'000, 40'000, 40'000); ++i) {
@@ -136,7 +136,7 @@ TEST_CASE("places on emitters and their densities are those of the reference") {
   CHECK(denser < 4e-6);
 }
 
-TEST_CASE("light from all around, its density and places in it are those of the reference") {
+TEST_CASE("an environment's radiance, density and sampled directions agree with the reference") {
   Random random(3);
   for (const auto& size :
        {std::pair(1, 1), std::pair(1, 7), std::pair(5, 1), std::pair(33, 16), std::pair(700, 900)}) {
@@ -222,7 +222,7 @@ constexpr double blackman_harris[] = {0.35875, 0.48829, 0.14128, 0.01168};
 
 }  // namespace
 
-TEST_CASE("a pixel's filter: shaders and reference take a sample to the same place") {
+TEST_CASE("pixel filters: shaders and reference map a sample to the same position") {
   Random random(11);
   for (const PixelFilter filter : {PixelFilter::gaussian, PixelFilter::blackman_harris}) {
     shader::Frame frame{};
@@ -246,8 +246,7 @@ TEST_CASE("a pixel's filter: shaders and reference take a sample to the same pla
   }
 }
 
-TEST_CASE(
-    "a Gauss filter's places: as many in each ring and sector, and the variance of the truncated bell") {
+TEST_CASE("a Gaussian filter's points are uniform by ring and sector, with the truncated bell's variance") {
   constexpr uint32_t count = 400'000;
   std::vector<int> cells(16 * 16);
   double squares = 0;
@@ -265,7 +264,7 @@ TEST_CASE(
   CHECK(squares == doctest::Approx(2 * (1 - 4.5 * std::exp(-4.5) / (1 - std::exp(-4.5)))).epsilon(0.01));
 }
 
-TEST_CASE("a Blackman-Harris filter's places: as many in each cell, and its variance") {
+TEST_CASE("a Blackman-Harris filter's points are uniform over equally likely cells, with its variance") {
   constexpr uint32_t count = 400'000;
   const auto below = [&](double x) {
     double share = 0.5 + x;

@@ -77,7 +77,7 @@ shader::Shaft around(const std::vector<shader::Ray>& rays, float t_max, float re
 
 }  // namespace
 
-TEST_CASE("a shaft around 32 rays hits every box that one of them hits, and not half of the others") {
+TEST_CASE("a shaft around 32 rays hits every box that a ray hits, and fewer than half of the others") {
   Random random(5);
   int met = 0;
   int missed = 0;

@@ -143,7 +143,7 @@ const Vec3 points[] = {
 
 }  // namespace
 
-TEST_CASE("places on rectangles, triangles and parallelograms are even by solid angle") {
+TEST_CASE("points on rectangles, triangles and parallelograms are uniform by solid angle") {
   CHECK(is_rectangle({corner, along, upright}));
   CHECK(!is_rectangle({corner, along, across}));
   for (const Vec3& from : points) {
@@ -154,7 +154,7 @@ TEST_CASE("places on rectangles, triangles and parallelograms are even by solid 
   }
 }
 
-TEST_CASE("their density is 1 / solid angle, by closed forms") {
+TEST_CASE("the density on flat emitters is 1 / solid angle, by closed forms") {
   Random random(9);
   const auto anywhere = [&](double reach) {
     return Vec3(random.uniform(-reach, reach), random.uniform(-reach, reach), random.uniform(-reach, reach));
@@ -194,7 +194,7 @@ TEST_CASE("their density is 1 / solid angle, by closed forms") {
   CHECK(apart < 4e-6);
 }
 
-TEST_CASE("what is seen under next to nothing, or from its own plane, is chosen by area") {
+TEST_CASE("an emitter of tiny solid angle, or seen from its own plane, is sampled by area") {
   const EmitterForm forms[] = {ParallelogramForm{corner, along, upright},
                                ParallelogramForm{corner, along, across},
                                TriangleForm{{corner, corner + along, corner + across}}};
@@ -215,7 +215,7 @@ TEST_CASE("what is seen under next to nothing, or from its own plane, is chosen 
   }
 }
 
-TEST_CASE("a sampled point of an area light is never outside of it, from wherever it is sampled") {
+TEST_CASE("a sampled point of an area light is never outside of it, whatever the shading point") {
   Random random(11);
   int beside = 0;
   for (int i = 0; i < 200'000; ++i) {

@@ -50,7 +50,7 @@ Exact exact_hit(const shader::Primitive& sphere, const shader::Ray& ray) {
 
 }  // namespace
 
-TEST_CASE("rays at a unit sphere: no wrong answer but at the very rim, whatever the distance") {
+TEST_CASE("rays at a unit sphere are wrong only at the very rim, whatever the distance") {
   for (const double distance : {1.5, 1e1, 1e2, 1e3, 1e4}) {
     std::atomic<int> wrong = 0;
     std::atomic<int> hits = 0;
@@ -93,8 +93,7 @@ TEST_CASE("rays at a unit sphere: no wrong answer but at the very rim, whatever 
   }
 }
 
-TEST_CASE(
-    "2 million rays that leave a sphere, radius 1e-4 to 1e4: none hits it again, none misses its far side") {
+TEST_CASE("2 million rays leave a sphere, radius 1e-4 to 1e4: none hits it again or misses its far side") {
   std::atomic<int> first_misses = 0;
   std::atomic<int> rehits = 0;
   std::atomic<int> lost = 0;
@@ -133,7 +132,7 @@ TEST_CASE(
   CHECK(lost == 0);
 }
 
-TEST_CASE("a sphere that is smaller than the rounding of its distance has a normal all the same") {
+TEST_CASE("a sphere smaller than the rounding of its distance still has a normal") {
   const shader::Primitive sphere = make_sphere({0, 0, -6}, 1e-12);
   const shader::Ray ray = shader::make_ray({0, 0, 0}, {0, 0, -1});
   shader::Hit hit{};

@@ -76,7 +76,9 @@ TEST_CASE("(0, 0) is the lower left corner, (1, 1) the upper right, and the file
   check({-7, 7}, red);
 }
 
-TEST_CASE("a row of texels goes on beyond its edges as `wrap` says, and bilinear mixes row_image the seam") {
+TEST_CASE(
+    "a row of texels continues beyond its edges as `wrap` sets, and bilinear filtering mixes across the "
+    "seam") {
   // Codes 0, 1/5 … 1, once in a row, and once in a column from bottom to top.
   std::vector<Texel> row, column;
   for (int i = 0; i < 6; ++i) {
@@ -115,7 +117,7 @@ TEST_CASE("a row of texels goes on beyond its edges as `wrap` says, and bilinear
   }
 }
 
-TEST_CASE("a border belongs to the texel of the greater u or v, in mirrored copies too") {
+TEST_CASE("a border belongs to the texel of greater u or v, in mirrored copies too") {
   Random random(2);
   for (const Wrap wrap : wraps) {
     std::vector<Texel> texels;
@@ -134,7 +136,7 @@ TEST_CASE("a border belongs to the texel of the greater u or v, in mirrored copi
   }
 }
 
-TEST_CASE("codes stand for what IEC 61966-2-1 says, or for shares of 255") {
+TEST_CASE("codes are decoded by IEC 61966-2-1, or as shares of 255") {
   for (const bool srgb : {true, false}) {
     Vec3 last(-1);
     for (int code = 0; code < 256; ++code) {
@@ -201,7 +203,7 @@ TEST_CASE("200 000 points of random images: the shader agrees with the formulas 
   CHECK(worst <= 1);
 }
 
-TEST_CASE("no uv whatever leaves the image") {
+TEST_CASE("no uv leads outside the image") {
   // A scene of three images, the middle one without red: any red comes from a texel of its neighbours.
   constexpr float inf = std::numeric_limits<float>::infinity();
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
@@ -262,8 +264,7 @@ TEST_CASE("images of the same texels share them; equal textures are one") {
   CHECK(shader::image_flags(packer.scene.textures[2]) == shader::image_flags(packer.scene.textures[0]));
 }
 
-TEST_CASE(
-    "patterns in space: 400 000 places, shader and reference agree but at steps; each is as it was made") {
+TEST_CASE("patterns in space: shader and reference agree at 400 000 points except at steps, as constructed") {
   const Scene scene = loader::load_scene("scenes/solid_patterns.toml");
   Random random(21);
   const Vec3 eye(3, -2, 5);

@@ -99,7 +99,7 @@ int leaks(const ClosedMesh& mesh, const Vec3& centre, const Vec3& reach, Aim aim
 
 }  // namespace
 
-TEST_CASE("closed meshes: 0 of 12 million rays leak, at the origin, far away, tiny, and of needles" *
+TEST_CASE("closed meshes: 0 of 12 million rays leak, at the origin, far away, tiny, and as needles" *
           doctest::test_suite("long")) {
   constexpr int count = 1'000'000;
   const struct {
@@ -126,7 +126,7 @@ TEST_CASE("closed meshes: 0 of 12 million rays leak, at the origin, far away, ti
   }
 }
 
-TEST_CASE("the same test sees Moeller and Trumbore leak") {
+TEST_CASE("the same test detects leaks of Moeller and Trumbore's method") {
   const ClosedMesh mesh = closed_mesh({0, 0, 0}, 1, 1);
   for (const Aim aim : {Aim::edges, Aim::vertices}) {
     const int escaped =
@@ -190,7 +190,7 @@ TEST_CASE("a ray along an edge of a sliver hits the sliver, or nothing, by both 
   }
 }
 
-TEST_CASE("2 million rays that leave a triangle, size 1e-4 to 1e4: none hits it again") {
+TEST_CASE("2 million rays leave a triangle, size 1e-4 to 1e4: none hits it again") {
   for (const Intersect intersect :
        {&shader::triangle_intersect_woop, &shader::triangle_intersect_moller_trumbore}) {
     std::atomic<int> rehits = 0;

@@ -90,7 +90,7 @@ std::string reason_for(const std::string& file) {
 
 }  // namespace
 
-TEST_CASE("parts are read as they were written, and make the picture in any order") {
+TEST_CASE("parts are read as written, and make the picture in any order") {
   for (const auto& [count, height] : {std::pair(1, area.height), std::pair(2, area.height), std::pair(5, 300),
                                       std::pair(30, area.height)}) {
     const TemporaryFolder folder;
@@ -133,7 +133,7 @@ TEST_CASE("parts are read as they were written, and make the picture in any orde
   }
 }
 
-TEST_CASE("a flipped bit is found wherever it is") {
+TEST_CASE("a flipped bit is found in every byte") {
   const TemporaryFolder folder;
   const std::string file = write_part(folder, header_of_shard({1, 4}));
   const std::string sound = read_text(file);
@@ -147,7 +147,7 @@ TEST_CASE("a flipped bit is found wherever it is") {
   }
 }
 
-TEST_CASE("sound bytes in a wrong place are found") {
+TEST_CASE("valid bytes at a wrong position are found") {
   const TemporaryFolder folder;
   PartHeader header = header_of_shard({0, 2});
   header.identity[0].value = "65x48";
@@ -183,7 +183,7 @@ TEST_CASE("sound bytes in a wrong place are found") {
   CHECK(reason_for(file) == "it is damaged: its checksum is wrong");
 }
 
-TEST_CASE("a part that was not finished is not there, and one before it is as it was") {
+TEST_CASE("an unfinished part leaves no file, and keeps the one before it") {
   const TemporaryFolder folder;
   const PartHeader header = header_of_shard({0, 1});
   const render::ShardTiles tiles(area, header.shard);
@@ -220,7 +220,7 @@ TEST_CASE("a part that changes while it is merged is found") {
   }
 }
 
-TEST_CASE("a part that ends early, goes on, or is none is refused with the reason") {
+TEST_CASE("a part that is too short, too long or no part is refused with the reason") {
   const TemporaryFolder folder;
   const std::string file = write_part(folder, header_of_shard({0, 3}));
   const std::string sound = read_text(file);
@@ -255,7 +255,7 @@ TEST_CASE("random bytes under right checksums are an error, not a crash") {
   CHECK(refused > 500);
 }
 
-TEST_CASE("a header that says what no picture has is refused") {
+TEST_CASE("a header with values that no picture has is refused") {
   const auto refused = [](const auto& change) {
     PartHeader header = header_of_shard({0, 3});
     change(header);
@@ -282,7 +282,7 @@ TEST_CASE("a header that says what no picture has is refused") {
   CHECK(refused([](PartHeader& header) { header.tone.curve = image::ToneCurve(99); }));
 }
 
-TEST_CASE("a number that its place cannot hold is refused, and not wrapped around or cut off") {
+TEST_CASE("a number outside its field's range is refused, not wrapped around or truncated") {
   const auto changed = [](std::string text, const std::string& from, const std::string& to) {
     const size_t start = text.find(from);
     REQUIRE(start != std::string::npos);
@@ -303,7 +303,7 @@ TEST_CASE("a number that its place cannot hold is refused, and not wrapped aroun
   CHECK(totals_of(changed(totals, "\"rays\":0", "\"rays\":18446744073709551615")).rays == ~uint64_t{0});
 }
 
-TEST_CASE("all that is wrong with a set is named at once") {
+TEST_CASE("all faults of a set are named at once") {
   const TemporaryFolder folder;
   std::vector<std::filesystem::path> files;
   for (const int i : {0, 1, 4, 5}) files.emplace_back(write_part(folder, header_of_shard({i, 8})));
@@ -346,7 +346,7 @@ TEST_CASE("all that is wrong with a set is named at once") {
   CHECK(refused_as(PartSet(files).faults()) == ExitCode::bad_input);
 }
 
-TEST_CASE("of parts of two pictures, as many of each, the first one named is meant; devices may differ") {
+TEST_CASE("among equally many parts of two pictures, the first one named decides; devices may differ") {
   const TemporaryFolder folder;
   PartHeader other = header_of_shard({1, 2});
   other.samples = 5;

@@ -83,7 +83,7 @@ const Words slow{"--backend", "twin", "-s", "240x160", "--spp", "64", "-D", "ima
 
 }  // namespace
 
-TEST_CASE("an array makes the picture of one machine, and says how far it is") {
+TEST_CASE("an array makes the picture of one machine, and reports its progress") {
   ArrayOf array(quick);
   array.add(array.merged());
   const Json first = array.report({"--", "--comment=mine"});
@@ -102,7 +102,7 @@ TEST_CASE("an array makes the picture of one machine, and says how far it is") {
   CHECK(array.run().code == 2);
 }
 
-TEST_CASE("cancelled and requeued, an array goes on by the same command" * doctest::test_suite("long")) {
+TEST_CASE("a cancelled or requeued array continues with the same command" * doctest::test_suite("long")) {
   ArrayOf array(slow);
   array.add(array.merged());
   const Json first = array.report();
@@ -121,7 +121,7 @@ TEST_CASE("cancelled and requeued, an array goes on by the same command" * docte
   CHECK(array.is_whole());
 }
 
-TEST_CASE("near its limit on time a share waits in the queue again" * doctest::test_suite("long")) {
+TEST_CASE("a share near its time limit is requeued" * doctest::test_suite("long")) {
   ArrayOf array({"--backend", "twin", "-s", "640x480", "--spp", "65536"});
   array.add(array.merged());
   // With a time limit of one minute, a warning 60 s before the end comes at once.
@@ -135,7 +135,7 @@ TEST_CASE("near its limit on time a share waits in the queue again" * doctest::t
   array.ended();
 }
 
-TEST_CASE("a node without Vulkan says so where the command says it does") {
+TEST_CASE("a node without Vulkan reports it in the file that the command names") {
   ArrayOf array({});
   array.add(array.merged());
   array.report({}, {{"EYERAY_VULKAN_LOADER", "/nowhere/libvulkan.so.1"}});
@@ -145,7 +145,7 @@ TEST_CASE("a node without Vulkan says so where the command says it does") {
   CHECK(read_text(array.work("1.output")).find("Vulkan") != std::string::npos);
 }
 
-TEST_CASE("the folder of an array may have any name without a backslash") {
+TEST_CASE("an array's folder may have any name without a backslash") {
   for (const std::string name : {"-x", "100%j", "it's %%A"}) {
     CAPTURE(name);
     ArrayOf array(quick, name);
@@ -181,7 +181,7 @@ keyframes = [[0, 1], [10, 0.2]]
   CHECK(array.ended().at("done") == true);
 }
 
-TEST_CASE("without Slurm, and with words that are eyeray's own, it ends at once") {
+TEST_CASE("without Slurm, or with options that eyeray sets itself, the command ends at once") {
   const SceneFolder folder;
   Words command{"slurm", folder.scene(), "--shards", "2", "--folder", folder / "work"};
   const ProcessResult nothing = run_eyeray(command, {{"PATH", "/nowhere"}});

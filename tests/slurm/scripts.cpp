@@ -79,7 +79,7 @@ bool wait_until(Process& job, const std::function<bool()>& condition) {
 
 }  // namespace
 
-TEST_CASE("a share that is ended, killed and begun again goes on, and leaves nothing but its part") {
+TEST_CASE("an ended or killed share continues when started again, and leaves only its part") {
   const FakeSlurm slurm;
   Jobs jobs;
   jobs.array.render_words.insert(jobs.array.render_words.end(), {"--checkpoint-every", "0.02"});
@@ -132,7 +132,7 @@ TEST_CASE("a share that is ended, killed and begun again goes on, and leaves not
   CHECK((read_text(jobs.folder / "whole.pfm") == read_text(jobs.folder / "merged.pfm")));
 }
 
-TEST_CASE("a job's program gets the words that were given, from any folder, whatever they hold") {
+TEST_CASE("a job's program gets its arguments unchanged, from any folder, whatever they contain") {
   for (const std::string& text : nasty_strings) {
     if (text.find('\0') != std::string::npos) continue;  // no argument can contain it
     CAPTURE(text);

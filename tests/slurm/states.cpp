@@ -66,7 +66,7 @@ bool contains(const std::string& text, const std::string& words) {
 
 }  // namespace
 
-TEST_CASE("only missing shares are submitted, and the merge behind them, until all is there") {
+TEST_CASE("only missing shares are submitted, followed by the merge, until all are there") {
   Farm farm;
   CHECK(farm.submit() == std::vector<std::string>{"1", "2"});
   prepare(farm.array);
@@ -114,7 +114,7 @@ TEST_CASE("only missing shares are submitted, and the merge behind them, until a
   CHECK_FALSE(std::filesystem::exists(farm.file("merged")));
 }
 
-TEST_CASE("where Slurm is missing, refuses or does not answer, its own words are the error") {
+TEST_CASE("if Slurm is missing, refuses or does not answer, its own message is the error") {
   Farm farm;
   farm.slurm.write("most", "0");
   CHECK(farm.failure(ExitCode::file_io) == "Slurm's sbatch fails: sbatch: error: no more");
@@ -126,7 +126,7 @@ TEST_CASE("where Slurm is missing, refuses or does not answer, its own words are
   CHECK(contains(farm.failure(ExitCode::file_io), "squeue is not installed here"));
 }
 
-TEST_CASE("ten thousand shares are arrays of as many as Slurm takes, and each is theirs once") {
+TEST_CASE("ten thousand shares become arrays of the largest size that Slurm takes, each share once") {
   const Farm farm(10000);
   farm.submit();
   const std::vector<std::string> submitted = farm.slurm.submitted();
@@ -141,7 +141,7 @@ TEST_CASE("ten thousand shares are arrays of as many as Slurm takes, and each is
   CHECK(contains(submitted[11], "--dependency=afterok:1:2:3:4:5:6:7:8:9:10:11 "));
 }
 
-TEST_CASE("a folder with other files, another picture's or one that cannot be made is refused") {
+TEST_CASE("a folder with other files or another picture, or one that cannot be made, is refused") {
   Farm farm;
   farm.submit();
   write_text(farm.file("share.sh"), "#!/bin/sh\n# edited\n");

@@ -34,7 +34,7 @@ Mat4 turned() {
 
 }  // namespace
 
-TEST_CASE("a box above the floor: its faces'") {
+TEST_CASE("a box above the floor lights it with the irradiance of its faces") {
   const Vec3 size(0.4, 0.2, 0.3);
   Scene scene = floor(1024);
   add(scene, make_box(-size, size, turned()), emissive(scene));
@@ -56,7 +56,7 @@ TEST_CASE("a box above the floor: its faces'") {
   check(scene, shown(sum));
 }
 
-TEST_CASE("an ellipsoid and a sheared one above the floor") {
+TEST_CASE("an ellipsoid and a sheared ellipsoid light the floor below by their closed forms") {
   Mat4 shear(1.0);
   shear[1].x = 0.5;
   for (const Mat4& map : {turned(), turned() * shear}) {
@@ -75,7 +75,7 @@ TEST_CASE("an ellipsoid and a sheared one above the floor") {
   }
 }
 
-TEST_CASE("a cylinder, and a tube that stands upright, above the floor") {
+TEST_CASE("a cylinder and an upright tube light the floor below by their closed forms") {
   Mat4 shear(1.0);
   shear[1].x = 0.5;
   for (const Mat4& map : {turned(), turned() * shear}) {
@@ -102,7 +102,7 @@ TEST_CASE("a cylinder, and a tube that stands upright, above the floor") {
   check(tube, shown(M_PI * (0.25 / 1.25 - 0.25 / 9.25)));
 }
 
-TEST_CASE("inside an emitting body: L / (1 − ρ)") {
+TEST_CASE("inside an emitting body the radiance is L / (1 − ρ)") {
   const auto inside = [](std::unique_ptr<Shape> body) {
     Scene scene = patch({0.1, 0.2, 0.15}, {0.1, -0.3, -0.4}, 256);
     scene.render.max_depth = 64;
@@ -164,7 +164,7 @@ TEST_CASE("a one-sided area light shines in front, and is dark from behind") {
   check(behind, 0);
 }
 
-TEST_CASE("area lights next to the floor: Lambert's formula, with little noise") {
+TEST_CASE("area lights next to the floor follow Lambert's formula, with little noise") {
   const auto lit = [](std::unique_ptr<Shape> shape, const std::vector<Vec3>& corners) {
     Scene scene = floor(64);
     scene.camera.eye = {0.15, 0.04, 0.1};
@@ -193,7 +193,7 @@ TEST_CASE("area lights next to the floor: Lambert's formula, with little noise")
   lit(make_triangle({.vertices = {a, b, c}}), {a, b, c});
 }
 
-TEST_CASE("a textured area light: each part is as bright as its texel") {
+TEST_CASE("each part of a textured area light is as bright as its texel") {
   const Vec3 a(-0.5, 0.6, 0.2), u(1.2, 0.5, 0.2), v(0.6, 0.3, 1);
   const double left = irradiance_of({a, a + u / 2.0, a + u / 2.0 + v, a + v}),
                right = irradiance_of({a + u / 2.0, a + u, a + u + v, a + u / 2.0 + v});
@@ -253,7 +253,7 @@ TEST_CASE("a textured area light: each part is as bright as its texel") {
   check(globe, shown(4 * M_PI * 0.25 / 4), 1e-4);
 }
 
-TEST_CASE("area lights of an instanced group: each where it stands") {
+TEST_CASE("area lights of an instanced group shine at each instance") {
   Scene scene = floor(1024);
   const int material = emissive(scene);
   Group group;

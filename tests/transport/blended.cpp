@@ -22,7 +22,7 @@ constexpr IntegratorType with_shadows[] = {IntegratorType::whitted, IntegratorTy
 
 }  // namespace
 
-TEST_CASE("blended layers are seen over each other and over the background") {
+TEST_CASE("blended layers cover each other and the background") {
   for (const IntegratorType integrator : all) {
     CAPTURE(int(integrator));
     Scene scene = patch({0, 0, 4}, {0, 0, 0}, 4096);
@@ -67,7 +67,7 @@ TEST_CASE("instances of one mesh blend independently of each other") {
   }
 }
 
-TEST_CASE("blended layers let light through, and what is seen through one is also lit through it") {
+TEST_CASE("blended layers transmit light to a floor that is seen directly or through the same layers") {
   for (const IntegratorType integrator : with_shadows) {
     CAPTURE(int(integrator));
     for (const bool seen_through : {false, true}) {
@@ -84,7 +84,7 @@ TEST_CASE("blended layers let light through, and what is seen through one is als
   }
 }
 
-TEST_CASE("a mirror shows blended layers, and rays behind it decide anew") {
+TEST_CASE("a mirror shows blended layers, and reflected rays decide anew whether to hit them") {
   for (const IntegratorType integrator : with_shadows) {
     CAPTURE(int(integrator));
     Scene scene = patch({0, 0, 4}, {0, 0, 0}, 4096);
@@ -97,7 +97,7 @@ TEST_CASE("a mirror shows blended layers, and rays behind it decide anew") {
   }
 }
 
-TEST_CASE("a blended area light shines by its alpha; one behind panes too") {
+TEST_CASE("a blended area light shines in proportion to its alpha, behind panes too") {
   for (const bool pane : {false, true}) {
     CAPTURE(pane);
     Scene scene = floor(4096);

@@ -14,7 +14,7 @@ using namespace eyeray::engine::materials;
 using namespace eyeray::engine::test;
 using executors::Backend;
 
-TEST_CASE("point and directional lights: as Whitted's, L = ρ I cos θ / d²") {
+TEST_CASE("point and directional lights agree with Whitted's: L = ρ I cos θ / d²") {
   Scene scene = floor(4);
   add_point_light(scene, {0, 2, 0}, Vec3(3), Falloff::inverse_square);
   check(scene, albedo * 3 / 4, 1e-5);
@@ -23,7 +23,7 @@ TEST_CASE("point and directional lights: as Whitted's, L = ρ I cos θ / d²") {
   check(scene, albedo * (3.0 / 4 + 0.5 * std::sqrt(0.5)));
 }
 
-TEST_CASE("a sun of an angle brings what it brings without, and is seen; beside an environment too") {
+TEST_CASE("a sun's angular size keeps its irradiance and makes it visible; beside an environment too") {
   for (const double degrees : {0.05, 0.533, 40.0}) {
     CAPTURE(degrees);
     Scene scene = floor();
@@ -41,7 +41,7 @@ TEST_CASE("a sun of an angle brings what it brings without, and is seen; beside 
   }
 }
 
-TEST_CASE("a spot: I s² cos θ / d², s from one angle's cosine to the other's") {
+TEST_CASE("a spot has I s² cos θ / d², where s goes from one angle's cosine to the other's") {
   const double inner = 0.3, outer = 0.7;
   const auto seen = [&](double angle, double distance) {
     const double s = (std::cos(angle) - std::cos(outer)) / (std::cos(inner) - std::cos(outer));
@@ -63,7 +63,7 @@ TEST_CASE("a sphere above the horizon: E = π L R² cos θ / d²") {
   check(scene, shown(M_PI * 0.7 * 0.7 * 0.8 / 4));
 }
 
-TEST_CASE("a distant, small sphere, whose cone is nothing in 1 − cos") {
+TEST_CASE("a distant, small sphere is lit correctly although its cone's 1 − cos vanishes") {
   Scene scene = floor(16);
   add(scene, make_sphere({0, 1000, 0}, 0.01), emissive(scene, 1e6));
   check(scene, shown(M_PI * 1e6 * 1e-10), 1e-5);
@@ -134,7 +134,7 @@ TEST_CASE("opposite and adjacent faces of a closed cube: their form factors") {
   }
 }
 
-TEST_CASE("a background that is the same everywhere, and half of it behind a wall") {
+TEST_CASE("a uniform background lights a floor, and half of it beside a wall") {
   Scene open = floor();
   open.render.background = Vec3(2);
   check(open, albedo * 2);
@@ -145,7 +145,7 @@ TEST_CASE("a background that is the same everywhere, and half of it behind a wal
   check(walled, albedo * 1, 2e-3);
 }
 
-TEST_CASE("an environment that is the same everywhere is a background, of whatever size") {
+TEST_CASE("a uniform environment lights like a background, whatever its size") {
   for (const auto& size : {std::pair(1, 1), std::pair(1, 5), std::pair(7, 1), std::pair(16, 8)}) {
     const int width = size.first, height = size.second;
     CAPTURE(width);
@@ -185,7 +185,7 @@ TEST_CASE("an environment L cosⁿ θ above the horizon: E = 2π L / (n + 2); an
   check(scene, shown(2 * M_PI * 3 / 32), 1e-3);
 }
 
-TEST_CASE("an environment and area lights beside it, whatever probability each has") {
+TEST_CASE("an environment and area lights add up, whatever the probability of each") {
   for (const double share : {0.1, 0.5, 0.95}) {
     Scene scene = floor(1024);
     const auto around = environment(16, 8, [](const Vec3&) { return Vec3(0.5); });
@@ -199,7 +199,7 @@ TEST_CASE("an environment and area lights beside it, whatever probability each h
   }
 }
 
-TEST_CASE("one bright texel of many is found, and no more than it is") {
+TEST_CASE("a single bright texel is found, and has its exact irradiance") {
   Scene scene = floor();
   image::Image picture(64, 32, 3);
   std::fill_n(picture.pixel(40, 9), 3, 5000.0f);
@@ -215,7 +215,7 @@ TEST_CASE("one bright texel of many is found, and no more than it is") {
   check(scene, shown(5000 * (2 * M_PI / 64) * (M_PI / 32) * sum * (2.0 / steps) / 3), 1e-4);
 }
 
-TEST_CASE("two endless walls that face each other: L₁ = L / (1 − ρ₁ρ₂), L₂ = ρ₂ L₁") {
+TEST_CASE("two endless facing walls: L₁ = L / (1 − ρ₁ρ₂), L₂ = ρ₂ L₁") {
   Scene scene = patch({0, 0.5, 0}, {0.1, 0, 0.1}, 1024);
   scene.render.max_depth = 64;
   add(scene, make_plane({0, 0, 0}, {0, 1, 0}),
@@ -226,7 +226,7 @@ TEST_CASE("two endless walls that face each other: L₁ = L / (1 − ρ₁ρ₂)
   check(scene, 0.6 / (1 - 0.5 * 0.6), 1e-4);
 }
 
-TEST_CASE("inside a sphere: emitted light, and a point's") {
+TEST_CASE("inside a sphere, emitted light and a point's light agree with closed forms") {
   Scene own = patch({0.1, 0.2, 0.3}, {0.1, 0, -2}, 256);
   own.render.max_depth = 64;
   add(own, make_sphere({0, 0, 0}, 2), add(own, make_phong({.diffuse = gray(0.6), .emission = gray(1)})));
@@ -240,7 +240,7 @@ TEST_CASE("inside a sphere: emitted light, and a point's") {
   check(point, 0.6 / M_PI * (direct + 0.6 * mean / (1 - 0.6)), 1e-4);
 }
 
-TEST_CASE("glass takes nothing: a ball of it in a furnace, and a pane before an area light") {
+TEST_CASE("glass loses no light: a ball of it in a furnace, and a pane before an area light") {
   Scene ball = patch({0, 0, 4}, {0.3, 0.4, 0}, 1024);
   ball.render.background = Vec3(1);
   ball.render.max_depth = 64;
@@ -268,7 +268,7 @@ TEST_CASE("an area light between two mirrors shows Σ rⁿ") {
   check(scene, std::pow(0.9, 12), 1e-4);
 }
 
-TEST_CASE("a white ball in the sun behind the eye: two thirds of it") {
+TEST_CASE("a white ball lit by a sun behind the eye has two thirds of the frontal radiance on average") {
   Scene scene = patch({0, 0, 4}, {0, 0, 0}, 64);
   scene.camera.projection = cameras::make_projection(OrthographicCamera{.size = 1});
   add(scene, make_sphere({0, 0, 0}, 1), add(scene, make_phong({.diffuse = gray(albedo)})));
@@ -277,7 +277,7 @@ TEST_CASE("a white ball in the sun behind the eye: two thirds of it") {
     CHECK(estimate(scene, backend).mean == doctest::Approx(M_PI / 4 * 2.0 / 3 * albedo).epsilon(1e-3));
 }
 
-TEST_CASE("N area lights on a ring are N times one; one behind a wall is none") {
+TEST_CASE("N area lights on a ring are N times one; one behind a wall adds nothing") {
   const auto ring = [](int emitters, int hidden) {
     Scene scene = floor(1024);
     const int material = emissive(scene);
@@ -297,7 +297,7 @@ TEST_CASE("N area lights on a ring are N times one; one behind a wall is none") 
   check(ring(7, 2), 5 * one);
 }
 
-TEST_CASE("half a sphere behind an edge is half its light") {
+TEST_CASE("a sphere half behind an edge gives half its light") {
   Scene scene = floor(1024);
   add(scene, make_sphere({0, 2, 0}, 0.5), emissive(scene));
   add(scene, make_parallelogram({0, 1, -50}, {50, 0, 0}, {0, 0, 100}),
@@ -306,7 +306,7 @@ TEST_CASE("half a sphere behind an edge is half its light") {
   check(scene, shown(M_PI * 0.25 / 4) / 2, 1e-3);
 }
 
-TEST_CASE("a thin lens: a straight bright edge out of focus, (arccos x − x √(1 − x²)) / π") {
+TEST_CASE("a thin lens blurs a straight bright edge by (arccos x − x √(1 − x²)) / π") {
   // The eye looks along −z. Rays that intersect at (0, 0, −focus) are spread over a disk in the plane z = −2.
   const auto edge = [](double e, const Aperture& aperture) {
     Scene scene = patch({0, 0, 0}, {0, 0, -1}, 1024);
@@ -335,7 +335,7 @@ TEST_CASE("a thin lens: a straight bright edge out of focus, (arccos x − x √
   check(triangle(4.0 / 3), 1 - 1.25 * 1.25 / (1.5 * 1.5), 1e-4);
 }
 
-TEST_CASE("a normal map of one color is a tilted surface; on a slope bumps are one") {
+TEST_CASE("a normal map of one colour tilts the surface, and so do bumps on a slope") {
   const Vec3 to_light = glm::normalize(Vec3(0.3, 1, -0.5)), tilted = glm::normalize(Vec3(0.3, 0.9, 0.2));
   for (const IntegratorType integrator : {IntegratorType::path, IntegratorType::whitted}) {
     Scene scene = floor(4);

@@ -11,7 +11,7 @@
 using namespace eyeray::engine;
 using namespace eyeray::engine::test;
 
-TEST_CASE("whole shares are all numbers together, one at least of what has a share") {
+TEST_CASE("whole shares use up all numbers, and each positive share gets at least one") {
   Random random(1);
   for (int round = 0; round < 200; ++round) {
     std::vector<double> shares(size_t(1 + random.below(3000)));
@@ -59,7 +59,7 @@ TEST_CASE("every cell with light at a corner can be chosen, and no other") {
   }
 }
 
-TEST_CASE("shares are by light and solid angle") {
+TEST_CASE("shares are proportional to light and solid angle") {
   const auto map = environment(8, 4, [](const Vec3&) { return Vec3(1); });
   const EnvironmentCells& cells = map->cells();
   for (int row = 0; row <= 4; ++row) {
@@ -71,7 +71,7 @@ TEST_CASE("shares are by light and solid angle") {
   }
 }
 
-TEST_CASE("a black environment is never chosen; another always, or by its share beside lights") {
+TEST_CASE("a black environment is never chosen; others always, or by their share beside lights") {
   const auto black = environment(4, 2, [](const Vec3&) { return Vec3(0); });
   CHECK_FALSE(black->cells().lit());
   CHECK(environment_numbers(black.get(), false) == 0);

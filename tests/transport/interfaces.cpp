@@ -7,7 +7,7 @@
 using namespace eyeray::engine;
 using namespace eyeray::engine::test;
 
-TEST_CASE("interfaces: the light of a sun and of a point is weakened as Beer and Lambert say") {
+TEST_CASE("interfaces: the light of a sun and of a point is absorbed by the Beer-Lambert law") {
   const double sun = 0.5, slanted = std::sqrt(2.0), absorption = 0.3;
   for (const bool inside : {false, true}) {
     CAPTURE(inside);
@@ -27,7 +27,7 @@ TEST_CASE("interfaces: the light of a sun and of a point is weakened as Beer and
 }
 
 // ∫ σₛ / 4π · e^(−σₜ t) · e^(−σₜ h) · π I dt through a box of depth 2, at h = 1 below its top.
-TEST_CASE("interfaces: the light of a sun that a box of air scatters once") {
+TEST_CASE("interfaces: a box of air scatters a sun's light once as its integral gives") {
   const double scattering = 0.3, extinction = 0.4, sun = 2;
   Scene scene = patch({0, 0, 3}, {0, 0, 0}, 1024);
   add(scene, make_box({-1, -1, -1}, {1, 1, 1}),
@@ -37,7 +37,7 @@ TEST_CASE("interfaces: the light of a sun that a box of air scatters once") {
         1e-4);
 }
 
-TEST_CASE("interfaces: all light of an area light comes through, whichever strategy finds it") {
+TEST_CASE("interfaces transmit all light of an area light, whichever strategy finds it") {
   for (const int slabs : {1, 6}) {
     CAPTURE(slabs);
     Scene scene = floor(slabs == 6 ? 2560 : 256);

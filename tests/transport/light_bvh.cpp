@@ -48,7 +48,7 @@ LightChoice choice_of(std::span<const LightBounds> lights) {
 
 }  // namespace
 
-TEST_CASE("each light that has power is one leaf, at the end of its trail") {
+TEST_CASE("each light with power is one leaf, at the end of its trail") {
   Random random(1);
   for (const size_t count : {2u, 3u, 17u, 1000u, 30'000u}) {
     Lights lights(random, count);
@@ -86,7 +86,7 @@ TEST_CASE("each light that has power is one leaf, at the end of its trail") {
   }
 }
 
-TEST_CASE("a node's sphere is around its lights, its cone around their normals, its power theirs") {
+TEST_CASE("a node's sphere bounds its lights, its cone their normals, and its power is their sum") {
   Random random(2);
   const Lights lights(random, 500);
   const LightBvh bvh = light_bvh(lights.bounds);
@@ -119,7 +119,7 @@ TEST_CASE("a node's sphere is around its lights, its cone around their normals, 
   CHECK(uncounted == 0);
 }
 
-TEST_CASE("what may light a point is important to it, and to each node above") {
+TEST_CASE("a light that may reach a point has importance there, as have all nodes above it") {
   Random random(3);
   int forgotten = 0, lit = 0;
   for (int scene = 0; scene < 40; ++scene) {
@@ -149,7 +149,7 @@ TEST_CASE("what may light a point is important to it, and to each node above") {
   CHECK(forgotten == 0);
 }
 
-TEST_CASE("lights are picked as often as their shares say") {
+TEST_CASE("lights are picked as often as their shares") {
   Random random(4);
   const Lights lights(random, 40);
   const LightChoice choice = choice_of(lights.bounds);
@@ -178,7 +178,7 @@ TEST_CASE("lights are picked as often as their shares say") {
   }
 }
 
-TEST_CASE("however lights are chosen, the picture is the same") {
+TEST_CASE("the picture is the same, however lights are chosen") {
   const auto heap = [](LightSampler sampler) {
     Scene scene = one_pixel({0.4, 0.9, 0.5}, {0, 0, 0});
     scene.image = {.width = 8, .height = 8, .samples = 512, .pattern = SamplePattern::sobol};

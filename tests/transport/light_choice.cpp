@@ -12,7 +12,7 @@ using namespace eyeray::engine::shapes;
 using namespace eyeray::engine::materials;
 using namespace eyeray::engine::test;
 
-TEST_CASE("lights are chosen by power, and all shares are one together") {
+TEST_CASE("lights are chosen by power, and all shares add up to one") {
   Scene scene = empty_scene();
   add_point_light(scene, {0, 5, 0}, Vec3(1 / M_PI), Falloff::inverse_square);
   const int bright = emissive(scene, 4);
@@ -31,7 +31,7 @@ TEST_CASE("lights are chosen by power, and all shares are one together") {
     CHECK(choice.share(i) == doctest::Approx(15.0 / 16 * powers[i] / sum + 1.0 / 64).epsilon(1e-5));
 }
 
-TEST_CASE("a spot's power is that of its cone") {
+TEST_CASE("a spot's power is that of its cone's light") {
   Scene scene = empty_scene();
   add_spot(scene, {{0, 5, 0}, {0, -1, 0}, Vec3(1), 0.2, 0.5});
   add_point_light(scene, {0, 5, 0}, Vec3(1), Falloff::inverse_square);
@@ -46,7 +46,7 @@ TEST_CASE("a spot's power is that of its cone") {
   CHECK(light_choice(scene).share(0) == doctest::Approx(15.0 / 16 * part + 1.0 / 32).epsilon(1e-5));
 }
 
-TEST_CASE("emitters that cannot be sampled are reported: with holes, or of other shapes") {
+TEST_CASE("emitters that cannot be sampled are reported: those with holes, and other shapes") {
   Scene scene = empty_scene();
   add(scene, make_torus({0, 0, 0}, {0, 1, 0}, 1, 0.2), emissive(scene, 1));
   const int checkered =

@@ -21,7 +21,7 @@ double integral(double from, double to, const Function& f) {
 
 }  // namespace
 
-TEST_CASE("absorption around all: light is weakened to the eye, and from an area light") {
+TEST_CASE("a medium everywhere absorbs light on its way to the eye and from a light") {
   Scene scene = patch({0.4, 0.9, 0.5}, {0, 0, 0}, 4);
   scene.medium.absorption = Vec3(0.3, 0, 0);
   add(scene, make_plane({0, 0, 0}, {0, 1, 0}), add(scene, make_phong({.diffuse = gray(0.8)})));
@@ -29,7 +29,7 @@ TEST_CASE("absorption around all: light is weakened to the eye, and from an area
   check(scene, 0.8 * 3 / 4 * std::exp(-0.3 * (2 + glm::length(scene.camera.eye))), 1e-5);
 }
 
-TEST_CASE("an area light and a floor within an absorbing medium: their light too is weakened") {
+TEST_CASE("a light and a floor within an absorbing medium: the light is absorbed too") {
   Scene scene = patch({0.4, 0.9, 0.5}, {0, 0, 0}, 4);
   add(scene, make_sphere({0, 0, 0}, 10), add(scene, make_dielectric({.absorption = Vec3(0.3)})));
   add(scene, make_disk({0, 0, 0}, {0, 1, 0}, 5), add(scene, make_phong({.diffuse = gray(0.8)})));
@@ -37,7 +37,7 @@ TEST_CASE("an area light and a floor within an absorbing medium: their light too
   check(scene, 0.8 * 3 / 4 * std::exp(-0.3 * (2 + glm::length(scene.camera.eye))), 1e-5);
 }
 
-TEST_CASE("a white medium in a furnace is not seen, whatever it scatters") {
+TEST_CASE("a white medium in a furnace is invisible, whatever it scatters") {
   for (const double ior : {1.0, 1.5}) {
     for (const double g : {0.0, 0.8, -0.5}) {
       CAPTURE(ior);
@@ -52,7 +52,7 @@ TEST_CASE("a white medium in a furnace is not seen, whatever it scatters") {
   }
 }
 
-TEST_CASE("a white medium within an area light: shadow rays and paths share one light") {
+TEST_CASE("a white medium within an area light keeps radiance 1: shadow rays and paths share the light") {
   for (const double g : {0.0, 0.9, -0.7}) {
     CAPTURE(g);
     Scene scene = patch({0.1, 0.2, 0.3}, {0.1, 0, -2}, 1024);
@@ -65,7 +65,7 @@ TEST_CASE("a white medium within an area light: shadow rays and paths share one 
 }
 
 // ∫ σₛ p(cos θ) e^(−σ (t + d)) π I / d² dt along a ray that passes a point light at distance 1.
-TEST_CASE("light of a point that fog scatters once") {
+TEST_CASE("fog scatters a point's light once as its integral gives") {
   for (const double g : {0.0, 0.7, -0.4}) {
     CAPTURE(g);
     const double scattering = 0.2, absorption = 0.1, ahead = 3;
@@ -85,7 +85,7 @@ TEST_CASE("light of a point that fog scatters once") {
 
 // Chandrasekhar, Radiative Transfer, 1950: 1/H(μ) = √(1 − ϖ) + ½ϖ ∫ μ' H(μ') / (μ + μ') dμ'. If light comes
 // evenly from everywhere, the half space returns 1 − H(μ) √(1 − ϖ).
-TEST_CASE("half of space, filled with an evenly scattering medium, in light from everywhere") {
+TEST_CASE("a half space that scatters uniformly, lit from everywhere, has Chandrasekhar's reflectance") {
   const double mu = 0.6, root = std::sqrt(1 - albedo);
   constexpr int steps = 400;
   std::vector<double> h(steps, 1.0);

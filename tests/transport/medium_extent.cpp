@@ -36,7 +36,7 @@ double to_infinity(const MediumExtent& extent, const Vec3& o, const Vec3& d) {
 
 }  // namespace
 
-TEST_CASE("a sun shines on a floor through what absorbs, weakened on its way and to the eye") {
+TEST_CASE("an absorbing medium weakens a sun's light on its way to a floor and to the eye") {
   const double absorption = 0.3;
   const Vec3 to_sun = glm::normalize(Vec3(0.4, 1, -0.3));
   for (const Case& each : extents())
@@ -55,7 +55,7 @@ TEST_CASE("a sun shines on a floor through what absorbs, weakened on its way and
 }
 
 // ∫ σₛ ρ(t) p(cos θ) e^(−σₜ (L(t) + L to the sun)) π I dt.
-TEST_CASE("the light of a sun that a medium scatters once") {
+TEST_CASE("a medium with an extent scatters a sun's light once as its integral gives") {
   const double scattering = 0.3, absorption = 0.1, sun = 2;
   const Vec3 to_sun = glm::normalize(Vec3(-0.5, 1, 0.4));
   const Vec3 eye(-6, 0.5, 1), d = glm::normalize(Vec3(6, 0.8, -0.4));
@@ -78,7 +78,7 @@ TEST_CASE("the light of a sun that a medium scatters once") {
     }
 }
 
-TEST_CASE("a white medium with an extent is not seen in a furnace") {
+TEST_CASE("a white medium with an extent is invisible in a furnace") {
   for (const Case& each : extents())
     for (const bool environment_light : {false, true}) {
       CAPTURE(each.name);
@@ -96,7 +96,7 @@ TEST_CASE("a white medium with an extent is not seen in a furnace") {
     }
 }
 
-TEST_CASE("a sun is weakened by [medium] between interfaces too, and not within another medium") {
+TEST_CASE("[medium] absorbs a sun's light between interfaces too, but not within another medium") {
   const double absorption = 0.3;
   Scene scene = floor(16);
   scene.medium.absorption = Vec3(absorption);
@@ -108,7 +108,7 @@ TEST_CASE("a sun is weakened by [medium] between interfaces too, and not within 
 }
 
 // A mirror turns a vertical sun's light towards a wall: only photons find that light.
-TEST_CASE("photons of a sun are weakened before they start, on their way, and to the eye") {
+TEST_CASE("a sun's photons are absorbed before their start, on their way, and to the eye") {
   const double absorption = 0.2;
   for (const bool box : {false, true}) {
     CAPTURE(box);

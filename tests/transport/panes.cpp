@@ -6,7 +6,7 @@
 using namespace eyeray::engine;
 using namespace eyeray::engine::test;
 
-TEST_CASE("panes: R' = 2R / (1 + R), and what is left goes straight on, seen and as light") {
+TEST_CASE("panes reflect R' = 2R / (1 + R) and transmit the rest straight on, to the eye and from lights") {
   const double r = 0.04, mirrored = 2 * r / (1 + r), through = 1 - mirrored;
   Scene furnace = patch({0, 0, 4}, {0.3, 0.4, 0}, 64);
   furnace.render.background = Vec3(1);
@@ -48,7 +48,7 @@ TEST_CASE("panes: R' = 2R / (1 + R), and what is left goes straight on, seen and
   }
 }
 
-TEST_CASE("panes: light of no size passes any number of them") {
+TEST_CASE("panes: light of point lights and suns passes any number of them") {
   for (const int panes : {8, 9, 40}) {
     CAPTURE(panes);
     Scene behind = floor(256);
@@ -61,7 +61,7 @@ TEST_CASE("panes: light of no size passes any number of them") {
   }
 }
 
-TEST_CASE("frosted glass and frosted panes take nothing in a furnace") {
+TEST_CASE("frosted glass and frosted panes lose no light in a furnace") {
   for (const bool thin : {false, true}) {
     CAPTURE(thin);
     Scene ball = patch({0, 0, 4}, {0.3, 0.4, 0}, 144);

@@ -98,7 +98,7 @@ bool holds(const PhotonTarget& outer, const PhotonTarget& inner) {
 
 }  // namespace
 
-TEST_CASE("aimed photons bring what others bring, to glass and past it, with less noise there") {
+TEST_CASE("aimed photons carry the same flux as others, to glass and past it, with less noise there") {
   for (const Aiming aiming : all_lights) {
     CAPTURE(int(aiming));
     // The photons' random numbers are independent, so that standard errors are known.
@@ -117,7 +117,7 @@ TEST_CASE("aimed photons bring what others bring, to glass and past it, with les
   }
 }
 
-TEST_CASE("a point sends its solid angle's share towards a ball, and a sun its disk's") {
+TEST_CASE("photons towards a ball carry a point light's share by solid angle, and a sun's by disk") {
   const std::span one(balls.data(), 1);
   const auto check_at_ball = [&](Aiming aiming, double expected) {
     CAPTURE(int(aiming));
@@ -154,7 +154,7 @@ TEST_CASE("targets are spheres around glass, mirrors, smooth metal and panes, in
   CHECK(targets_of(scene).size() == 2);
 }
 
-TEST_CASE("of many targets those near each other share a sphere, and each is in one") {
+TEST_CASE("neighbouring targets share a sphere if there are many, and each is in one") {
   Scene scene = floor();
   const int glass = add(scene, make_dielectric({.ior = 1.5}));
   std::vector<PhotonTarget> all;

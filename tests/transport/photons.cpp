@@ -65,7 +65,7 @@ double brought(const reference::PhotonMap& map, int depth) {
 
 }  // namespace
 
-TEST_CASE("light scattered by one surface is as in paths: no photon counts twice") {
+TEST_CASE("light scattered by one surface agrees with paths: no photon counts twice") {
   Scene scene = by_photons(floor(), 256, 0.1, 64, 0);
   add_point_light(scene, {0, 2, 0}, Vec3(3), Falloff::inverse_square);
   check_photons(scene, albedo * 3 / 4, 1e-4);
@@ -74,7 +74,7 @@ TEST_CASE("light scattered by one surface is as in paths: no photon counts twice
   check_photons(scene, albedo * 3 / 4, 1e-4);
 }
 
-TEST_CASE("a sun through a slab of glass: E = π I cos θ (1 − R)²") {
+TEST_CASE("a sun through a slab of glass has E = π I cos θ (1 − R)²") {
   for (const double degrees : {0.0, 40.0}) {
     CAPTURE(degrees);
     const double theta = glm::radians(degrees);
@@ -89,7 +89,7 @@ TEST_CASE("a sun through a slab of glass: E = π I cos θ (1 − R)²") {
   }
 }
 
-TEST_CASE("a point in a white ball: L = (ρ/π)(E + ρ Ē / (1 − ρ))") {
+TEST_CASE("a point light in a white ball has L = (ρ/π)(E + ρ Ē / (1 − ρ))") {
   Scene ball = by_photons(patch({0, 0, 0}, {0, 0, -1}), 1 << 14, 0.18, 32, 200);
   add(ball, make_sphere({0, 0, 0}, 1), add(ball, make_phong({.diffuse = gray(0.5)})));
   add_point_light(ball, {0.3, 0.1, 0}, Vec3(1), Falloff::inverse_square);
@@ -98,7 +98,7 @@ TEST_CASE("a point in a white ball: L = (ρ/π)(E + ρ Ē / (1 − ρ))") {
   check_photons(ball, 0.5 / M_PI * (direct + 0.5 * M_PI / (1 - 0.5)), 0.02);
 }
 
-TEST_CASE("in a ball that shines: L / (1 − ρ); where it is full of what absorbs, L e^(−σR) / (1 − ρ T)" *
+TEST_CASE("in an emitting ball L / (1 − ρ); if it is filled with an absorbing medium, L e^(−σR) / (1 − ρ T)" *
           doctest::test_suite("long")) {
   for (const double absorption : {0.0, 0.4}) {
     CAPTURE(absorption);
@@ -112,18 +112,19 @@ TEST_CASE("in a ball that shines: L / (1 − ρ); where it is full of what absor
   }
 }
 
-TEST_CASE("a wall lights a floor as paths say it does; bias falls with the radius") {
+TEST_CASE("a wall lights a floor by photons as by paths; bias falls with the radius") {
   check_wall(WallLight::sun, Backend::twin, 1 << 14, 64, 0.02);
 }
 
-TEST_CASE("a wall lights a floor as with paths, whatever the area light" * doctest::test_suite("long")) {
+TEST_CASE("a wall lights a floor by photons as by paths, whatever the area light" *
+          doctest::test_suite("long")) {
   for (const WallLight light : {WallLight::sphere, WallLight::ring, WallLight::parallelogram, WallLight::box,
                                 WallLight::triangle, WallLight::spot, WallLight::environment, WallLight::sun})
     for (const Backend backend : {Backend::twin, Backend::reference})
       check_wall(light, backend, 1 << 13, 256, 0.1);  // an environment's shadow rays are the noisiest
 }
 
-TEST_CASE("photons bring what lights send: none is lost on the way, in glass and mirrors too") {
+TEST_CASE("photons carry all emitted flux: none is lost on the way, in glass and mirrors too") {
   const auto closed = [](bool with_glass) {
     Scene scene = by_photons(patch({0, 0, 0}, {0, 0, -1}), 1 << 14, 0.1, 1, 200);
     add(scene, make_sphere({0, 0, 0}, 2), add(scene, make_phong({.diffuse = gray(0.5)})));
@@ -153,7 +154,7 @@ TEST_CASE("photons bring what lights send: none is lost on the way, in glass and
         doctest::Approx(sent * (1 + scattered)).epsilon(0.006));
 }
 
-TEST_CASE("the radius shrinks as the first sample's, times the root of Π (i + 2/3) / (i + 1)") {
+TEST_CASE("the radius is the first sample's, times the root of Π (i + 2/3) / (i + 1)") {
   const Scene scene = by_photons(floor(), 1024, 0.25, 1, 2);
   const PhotonSettings settings = photon_settings(scene);
   CHECK(settings.count == 1024);

@@ -135,7 +135,8 @@ TEST_CASE("in thermal equilibrium photons show 1 on both sides of glass") {
   check_equilibrium({Between::glass, Between::rough}, 1 << 12, 0.1);
 }
 
-TEST_CASE("… of any glass, nested, hollow, rough and thin" * doctest::test_suite("long")) {
+TEST_CASE("in thermal equilibrium photons show 1 in any glass: nested, hollow, rough and thin" *
+          doctest::test_suite("long")) {
   check_equilibrium(
       {Between::glass, Between::nested, Between::hollow, Between::principled, Between::interface,
        Between::frosted, Between::rough, Between::opal, Between::frosted_pane},
@@ -147,7 +148,7 @@ TEST_CASE("a disk in a ball of glass is as bright by photons as by paths") {
     check_as_paths(disk_in_ball, backend, 1 << 13, 0.2, 32, 0.06, 0.03, picture);
 }
 
-TEST_CASE("glass that shines lights what lies in it and around it as by paths") {
+TEST_CASE("emitting glass lights objects in it and around it by photons as by paths") {
   for (const Backend backend : {Backend::twin, Backend::reference})
     for (const double disk : {upper, lower}) {
       CAPTURE(disk);
@@ -155,13 +156,14 @@ TEST_CASE("glass that shines lights what lies in it and around it as by paths") 
     }
 }
 
-TEST_CASE("frosted glass mirrors and transmits by photons as by paths" * doctest::test_suite("long")) {
+TEST_CASE("frosted glass reflects and transmits by photons as by paths" * doctest::test_suite("long")) {
   const auto below = [] { return frosted_slab({0.5, -1, 0.3}, {0, 0, 0}); };
   const auto above = [] { return frosted_slab({-1.2, 1.2, 0.3}, {0, 0.3, 0}); };
   check_as_paths(below, Backend::twin, 1 << 16, 0.25, 64, 0.06, 0.03, {0, 0, 2, 2});
   check_as_paths(above, Backend::twin, 1 << 16, 0.25, 64, 0.06, 0.03, {0, 0, 2, 2});
 }
 
-TEST_CASE("light through a frosted ball falls on a floor as by paths" * doctest::test_suite("long")) {
+TEST_CASE("light through a frosted ball lights a floor by photons as by paths" *
+          doctest::test_suite("long")) {
   check_as_paths(below_frosted_ball, Backend::twin, 1 << 16, 0.05, 64, 0.05, 0.03, picture);
 }

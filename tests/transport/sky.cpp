@@ -38,7 +38,7 @@ Vec3 irradiance(const Sky& sky) {
 
 }  // namespace
 
-TEST_CASE("the sun's light is dimmed as by the air above") {
+TEST_CASE("the sun's light is dimmed by the air above it") {
   const Vec3 depth = Vec3(0.005802, 0.013558, 0.033100) * 8.0 * std::exp(-0.2 / 8) +
                      0.004440 * 1.2 * std::exp(-0.2 / 1.2) + Vec3(0.000650, 0.001881, 0.000085) * 15.0;
   const auto sun = sky_at(90).sun;
@@ -73,7 +73,7 @@ TEST_CASE("the sky is finite, the same on both sides of the sun, blue above and 
   CHECK(at(evening, 88, 1).x > 3 * at(evening, 88, 180).x);
 }
 
-TEST_CASE("a sky brings a share of the sun's light, less than the air takes from it") {
+TEST_CASE("a sky scatters down a share of the sun's light, less than the air removes") {
   for (const double degrees : {80.0, 45.0, 15.0}) {
     CAPTURE(degrees);
     const Sky sky = sky_at(degrees);
@@ -91,7 +91,7 @@ TEST_CASE("a sky brings a share of the sun's light, less than the air takes from
   }
 }
 
-TEST_CASE("a sky is turned to its sun") {
+TEST_CASE("a sky is rotated to its sun") {
   const Sky sky = make_sky({.to_sun = glm::normalize(Vec3(1, 1, 0))});
   // The map's middle shows the sun: towards +x, a quarter turn to the right of −z.
   CHECK(sky.map->turn() == doctest::Approx(0.75));

@@ -34,7 +34,7 @@ std::vector<double> picture_of(Scene& scene, Backend backend, double height = 5)
 
 }  // namespace
 
-TEST_CASE("a coarse smooth ball is lit as a round one: by Lambert's cosine, up to the terminator") {
+TEST_CASE("a coarse smooth ball is lit like a round one: by Lambert's cosine, up to the terminator") {
   const Vec3 to_sun = glm::normalize(Vec3(1, 0.4, 0.2));
   const Mat4 small = glm::scale(Mat4(1.0), Vec3(0.5));
   for (const auto integrator : {IntegratorType::whitted, IntegratorType::path, IntegratorType::sppm})

@@ -27,7 +27,7 @@ Parts page_with(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("nasty text stays in the page's JSON, and is what it was") {
+TEST_CASE("nasty text stays in the page's JSON, and is unchanged") {
   const Parts plain = page_with("plain");
   for (const std::string& text : test::nasty_strings) {
     CAPTURE(text);

@@ -106,14 +106,16 @@ PhotonFailures failing_photons(int seeds, float bias) {
 
 }  // namespace
 
-TEST_CASE("photons that pixels share: no seed fails, and a hundredth too much does with every seed") {
+TEST_CASE(
+    "photons shared by pixels: no seed fails without bias, every seed fails with a bias of a hundredth") {
   const PhotonFailures failures = failing_photons(6, 1.01f);
   CHECK(failures.sound == 0);
   CHECK(failures.biased == 6);
 }
 
-TEST_CASE("… of a thousand seeds at most five, and of a bias of a hundredth 950; many, were none shared" *
-          doctest::test_suite("long")) {
+TEST_CASE(
+    "photons shared by pixels: at most 5 of 1000 seeds fail, 950 with bias; many if treated as unshared" *
+    doctest::test_suite("long")) {
   const PhotonFailures failures = failing_photons(1000, 1.01f);
   MESSAGE(failures.sound << " of 1000 seeds fail, with a bias " << failures.biased << "; were none shared "
                          << failures.alone);
@@ -122,12 +124,12 @@ TEST_CASE("… of a thousand seeds at most five, and of a bias of a hundredth 95
   CHECK(failures.alone > 5);
 }
 
-TEST_CASE("where nothing is wrong no seed fails; walls that are a thousandth brighter fail with every seed") {
+TEST_CASE("without a fault no seed fails; walls a thousandth brighter fail with every seed") {
   CHECK(failing(10, usual) == 0);
   CHECK(failing(5, brighter) == 5);
 }
 
-TEST_CASE("… of a thousand seeds at most five, one being expected; and 95 of 100" *
+TEST_CASE("at most 5 of 1000 seeds fail without a fault, one being expected; with one, 95 of 100 do" *
           doctest::test_suite("long")) {
   const int false_alarms = failing(1000, usual), found = failing(100, brighter);
   MESSAGE(false_alarms << " of 1000 seeds fail; a bias of a thousandth is found with " << found << " of 100");

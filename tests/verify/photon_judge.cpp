@@ -40,7 +40,7 @@ const Scene& box() {
 
 }  // namespace
 
-TEST_CASE("a photon that no rounding explains fails, though many may part") {
+TEST_CASE("a photon that no rounding explains fails, though many may diverge") {
   const verify::JudgedPhotons sound = judge(box(), [](auto&) {});
   CHECK(sound.tally.sent == 4096);
   CHECK(sound.tally.unexplained == 0);
@@ -65,7 +65,7 @@ TEST_CASE("a photon that no rounding explains fails, though many may part") {
   CHECK_FALSE(displaced.tally.passes());
 }
 
-TEST_CASE("where surfaces coincide float32 takes either, and the reference knows of it") {
+TEST_CASE("float32 may hit either of two coincident surfaces, and the reference allows both") {
   // Light from below reaches the floor and the shape that stands on it at the same point.
   const verify::JudgedPhotons judged = judge(scene_of("scenes/cameras/formula.toml"), [](auto&) {});
   CHECK(judged.tally.diverged > 4);
@@ -74,7 +74,7 @@ TEST_CASE("where surfaces coincide float32 takes either, and the reference knows
   CHECK(judged.tally.passes());
 }
 
-TEST_CASE("a photon at a corner, which few roundings lead where float32 takes it, is explained") {
+TEST_CASE("a photon at a corner, which few roundings send where float32 does, is explained") {
   Scene scene =
       loader::load_scene("scenes/sppm/box.toml", std::vector<loader::Override>{{"render.seed=101"}});
   const verify::JudgedPhotons judged = judge(scene, [](auto&) {});
@@ -82,7 +82,7 @@ TEST_CASE("a photon at a corner, which few roundings lead where float32 takes it
   CHECK(judged.tally.unexplained == 0);
 }
 
-TEST_CASE("more photons than may part fail, explained or not") {
+TEST_CASE("more diverged or displaced photons than allowed fail, explained or not") {
   compare::PhotonTally tally;
   tally.sent = 100'000;
   tally.depth = 8;
