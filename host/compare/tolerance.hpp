@@ -32,8 +32,8 @@ double hit_excess(const FirstHit& value, const FirstHit& reference, const Tolera
 inline constexpr double counts_tolerance = 0x1p-23;
 double counts_excess(const Counts& value, const Counts& reference);
 
-// The first value along the life of a ray, in the order of Seam, that is out of tolerance. A first hit that is
-// explained is passed over: a later value is wrong for another reason.
+// The first value along the life of a ray, in the order of Seam, that is out of tolerance. A first hit that
+// is explained is passed over: a later value is wrong for another reason.
 Seam first_seam(const WorstPixel& pixel, const Tolerances& tolerances, bool hit_is_explained);
 
 }  // namespace eyeray::engine::compare
