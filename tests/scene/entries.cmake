@@ -58,14 +58,21 @@ list(FILTER EDGES INCLUDE REGEX "^scenes/edges/")
 list(FILTER EDGES EXCLUDE REGEX "/(formulas|intervals|sheet|coarse_glass|tight_bound)")
 set(quick ${SCENES})
 list(FILTER quick EXCLUDE REGEX "^scenes/edges/|/(gallery|group_shapes|mandelbulb|sculpture|shapes/csg|shapes/implicit)")
-eyeray_verify(scenes.small scene STAND_IN ${quick} -s 48x36)
-eyeray_verify(scenes.edges scene STAND_IN ${EDGES})
+eyeray_verify(scenes.small scene QUICK ${quick} -s 48x36)
+eyeray_verify(scenes.edges scene QUICK ${EDGES})
 
-# Every scene as its file defines it.
+# Scenes as their files define them: the slow ones and every sixth other one with `--full`, all each night.
+set(number 0)
 foreach(scene IN LISTS SCENES)
   string(REGEX REPLACE "^scenes/(.*)\\.toml$" "\\1" name ${scene})
   string(REPLACE "/" "." name ${name})
-  eyeray_verify(scene.${name} scene ${scene})
+  math(EXPR of_six "${number} % 6")
+  set(when NIGHTLY)
+  if(of_six EQUAL 0 OR NOT scene IN_LIST quick AND NOT scene IN_LIST EDGES)
+    set(when "")
+  endif()
+  eyeray_verify(scene.${name} scene ${when} ${scene})
+  math(EXPR number "${number} + 1")
 endforeach()
 
 # Ways of finding hits that small pictures would not use.
