@@ -16,6 +16,17 @@ size_t line_start(const std::string& text, uint32_t line) {
   return at;
 }
 
+// The byte of a position; columns count characters from 1.
+size_t byte_at(const std::string& text, const toml::source_position& position) {
+  size_t at = line_start(text, position.line);
+  for (uint32_t column = position.column; column > 1; --column) {
+    ++at;
+    while (at < text.size() && (uint8_t(text[at]) & 0xC0u) == 0x80u)
+      ++at;  // the rest of a character in UTF-8
+  }
+  return at;
+}
+
 }  // namespace
 
 std::string with_value(std::string text, const std::string& table, const std::string& key,
@@ -43,9 +54,8 @@ std::string with_value(std::string text, const std::string& table, const std::st
     return header_end == std::string::npos ? text + line + '\n' : text.insert(header_end, line);
   }
 
-  // Find the value: it ends at a space, a comma, a brace, a comment or the end of the line.
-  const size_t name = text.find(key, line_start(text, old->source().begin.line));
-  const size_t begin = text.find_first_not_of(" \t=", name + key.size());
+  // The value ends at a space, a comma, a brace, a comment or the end of the line.
+  const size_t begin = byte_at(text, old->source().begin);
   const size_t end = std::min(text.find_first_of(" \t\r\n,}#", begin), text.size());
   return text.replace(begin, end - begin, value);
 }

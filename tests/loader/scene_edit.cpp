@@ -25,6 +25,9 @@ TEST_CASE("a new value replaces the old one, and the rest of the file is unchang
   CHECK(edited("verify.max_explained = 0.01") == "verify.max_explained = 0.00042");
   CHECK(edited("[image]\nwidth = 8\n# max_explained = 3\n[verify]\nmax_explained = 0") ==
         "[image]\nwidth = 8\n# max_explained = 3\n[verify]\nmax_explained = 0.00042");
+  CHECK(edited("[verify]\n\"max_explained\" = 0.01\n") == "[verify]\n\"max_explained\" = 0.00042\n");
+  CHECK(edited("verify = { \"é max_explained = 1\" = 2, max_explained = 0.01 }") ==
+        "verify = { \"é max_explained = 1\" = 2, max_explained = 0.00042 }");
 }
 
 TEST_CASE("a missing value becomes a new line of its table, or a new table at the end") {
