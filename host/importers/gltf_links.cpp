@@ -220,7 +220,7 @@ struct LinkRule {
 constexpr LinkRule link_rules[] = {
     {"nodes", "nodes of several parents",
      [](const Links& links, const Json&, size_t i) { return links.tree.parents(i) > 1; }},
-    {"nodes", "nodes below themselves",
+    {"nodes", "nodes in or below a loop",
      [](const Links& links, const Json&, size_t i) { return links.tree.is_in_loop(i); }},
     {"nodes", "nodes with a skin, weights or instances but no mesh, which have no effect",
      [](const Links&, const Json& node, size_t) {

@@ -187,9 +187,10 @@ TEST_CASE("rules of glTF: nodes, skins, and what accessors and views hold") {
       {"nodes below each other that are not shown",
        [](GltfFile& file) {
          file.json["nodes"].push_back({{"children", {3}}});
-         file.json["nodes"].push_back({{"children", {2}}});
+         file.json["nodes"].push_back({{"children", {2, 4}}});
+         file.json["nodes"].push_back(Json::object());
        },
-       "nodes below themselves: 2, the first nodes[2]"},
+       "nodes in or below a loop: 3, the first nodes[2]"},
       {"a skin without a mesh", set("/nodes/1/skin", 0),
        "nodes with a skin, weights or instances but no mesh, which have no effect: 1, the first nodes[1]"},
       {"weights without a mesh", set("/nodes/1/weights", {1}),
