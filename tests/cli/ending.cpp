@@ -85,6 +85,7 @@ TEST_CASE("exceeding the file size limit is a file error, and leaves no file") {
 
 TEST_CASE("each signal that ends a render keeps its checkpoint, and shows in the exit code") {
   for (const int signal : {SIGHUP, SIGTERM}) {
+    std::signal(signal, SIG_DFL);  // the render inherits that; nohup would ignore SIGHUP
     const SceneFolder folder;
     LongRender render(folder);
     render.send_signal(signal);
