@@ -140,7 +140,7 @@ TEST_CASE("dev's page works in a browser as the manual states" * doctest::test_s
   REQUIRE(dev.says("open "));
   const std::string words = dev.process().err();
   const size_t from = words.find("http://");
-  const std::string address = words.substr(from, words.find('\n', from) - from);
+  const std::string address = words.substr(from, words.find_first_of(" \n", from) - from);
   const ProcessResult result = run_process(
       {"node", "tests/cli/page/drive_dev.mjs", address, folder / "shaders", folder.path()}, {}, 900);
   CAPTURE(result.err);

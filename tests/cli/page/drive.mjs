@@ -51,6 +51,7 @@ await page.keyboard.press('s');
 assert.equal(await pressed('#split'), 'true');
 const half = await stage();
 assert.notEqual(half, pictures.get('gpu'));
+await page.locator('#stage').scrollIntoViewIfNeeded();
 const box = await page.locator('#stage').boundingBox();
 const middle = [box.x + box.width / 2, box.y + box.height / 2];
 await page.mouse.move(...middle);
