@@ -2,15 +2,10 @@
 // where the page does not do what docs/report.md says of it.
 import assert from 'node:assert/strict';
 import { pathToFileURL } from 'node:url';
-import { chromium } from 'playwright-core';
+import { launch } from './browser.mjs';
 
 const [file, folder] = process.argv.slice(2);
-const browser = await chromium.launch({
-  executablePath: '/usr/bin/chromium',
-  args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
-         '--disable-component-update', '--disable-sync', '--disable-dev-shm-usage'],
-  timeout: 300_000,
-});
+const browser = await launch();
 
 async function open(colorScheme) {
   const page = await browser.newPage({ colorScheme, viewport: { width: 1280, height: 900 } });

@@ -2,15 +2,10 @@
 // with the reason where the page does not do what docs/dev-loop.md says of it.
 import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
-import { chromium } from 'playwright-core';
+import { launch } from './browser.mjs';
 
 const [address, shaders, folder] = process.argv.slice(2);
-const browser = await chromium.launch({
-  executablePath: '/usr/bin/chromium',
-  args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
-         '--disable-component-update', '--disable-sync', '--disable-dev-shm-usage'],
-  timeout: 300_000,
-});
+const browser = await launch();
 const page = await browser.newPage({ colorScheme: 'light', viewport: { width: 1280, height: 900 } });
 page.setDefaultTimeout(300_000);
 page.on('pageerror', error => { throw error; });

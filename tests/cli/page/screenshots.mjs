@@ -4,24 +4,23 @@ import { mkdtempSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'n
 import { tmpdir } from 'node:os';
 import { resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
-import { chromium } from 'playwright-core';
+import { launch } from './browser.mjs';
 
 const [eyeray, folder] = process.argv.slice(2).map(path => resolve(path));
 // eyeray runs here, so that the pages show short paths.
 const scratch = mkdtempSync(`${tmpdir()}/eyeray-pages-`), shaders = 'my-shaders';
 symlinkSync(resolve('scenes'), `${scratch}/scenes`);
 process.chdir(scratch);
-const browser = await chromium.launch({
-  executablePath: '/usr/bin/chromium',
-  args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
-         '--disable-component-update', '--disable-sync', '--disable-dev-shm-usage'],
-  timeout: 300_000,
-});
+const browser = await launch();
 async function open(url, height) {
   const page = await browser.newPage({ colorScheme: 'light', viewport: { width: 1200, height } });
   page.setDefaultTimeout(300_000);
   await page.goto(url);
   return page;
+}
+function run(code, ...options) {
+  const { status, stderr } = spawnSync(eyeray, options);
+  if (status !== code) throw new Error(`eyeray ${options.join(' ')}: exit code ${status}, not ${code}: ${stderr}`);
 }
 function edit(file, from, to) {
   const path = `${shaders}/${file}`, code = readFileSync(path, 'utf8');
@@ -29,7 +28,7 @@ function edit(file, from, to) {
   writeFileSync(path, code.replace(from, to));
 }
 
-spawnSync(eyeray, ['shaders', '--export', shaders]);
+run(0, 'shaders', '--export', shaders);
 const dev = spawn(eyeray, ['dev', 'scenes/whitted.toml', '-s', '640x480', '--shaders', shaders, '--timeout', '60']);
 const address = await new Promise(found => {
   let text = '';
@@ -52,7 +51,7 @@ edit('shapes/sphere.glsl', 'return discrimnant', 'return discriminant');
 
 edit('lights/light.glsl', 'LIGHTS(SAMPLE_OF)', 'LIGHTS(SAMPLE_OF)\n  s.color = s.color * 0.98f;');
 const scenes = ['cornell', 'orientation', 'shapes/sphere', 'whitted'].map(name => `scenes/${name}.toml`);
-spawnSync(eyeray, ['verify', ...scenes, '--shaders', shaders, '--quiet', '-s', '480x360', '--report', 'report']);
+run(1, 'verify', ...scenes, '--shaders', shaders, '--quiet', '-s', '480x360', '--report', 'report');
 const report = await open(`${pathToFileURL('report/index.html').href}#2,gpu,split,difference`, 1060);
 await report.locator('#pictures button[aria-pressed=true]').waitFor();
 await report.screenshot({ path: `${folder}/report.png` });
