@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <regex>
 
 #include "host/core/error.hpp"
 #include "host/core/termination.hpp"
+#include "host/core/text_scanner.hpp"
 
 namespace fs = std::filesystem;
 
@@ -41,11 +41,11 @@ TimedRun run_povray(const fs::path& scene, int width, int height, const fs::path
   TimedRun run;
   run.seconds.emplace_back("whole process", result.seconds);
   run.whole_processor = run.tracing_processor = result.processor_seconds;
-  std::smatch match;
-  const std::regex trace_time(R"(Trace Time:[^(]*\(([0-9.]+) seconds\))");
-  if (!std::regex_search(result.err, match, trace_time))
-    throw Error(ExitCode::file_io, "povray did not say its trace time:\n{}", result.err);
-  run.tracing = std::stod(match[1]);
+  TextScanner log(result.err);
+  const bool has_time = log.before("Trace Time:") && log.before("(");
+  const std::optional<double> seconds = has_time ? log.number() : std::nullopt;
+  if (!seconds) throw Error(ExitCode::file_io, "povray did not say its trace time:\n{}", result.err);
+  run.tracing = *seconds;
   run.seconds.emplace_back("trace", run.tracing);
   run.device = "POV-Ray, two threads";
   return run;
@@ -139,15 +139,15 @@ TimedRun run_cycles(const fs::path& script, int samples, int seed, const fs::pat
   TimedRun run;
   run.seconds.emplace_back("whole process", result.seconds);
   run.whole_processor = result.processor_seconds;
-  std::smatch match;
-  if (std::regex_search(result.out, match, std::regex("eyeray: cpu ([0-9.e+-]+) wall ([0-9.e+-]+)"))) {
-    run.tracing_processor = std::stod(match[1]);
-    run.tracing = std::stod(match[2]);
+  TextScanner log(result.out);
+  if (log.before("eyeray: cpu ")) {
+    run.tracing_processor = log.number().value_or(0);
+    if (log.skip(" wall ")) run.tracing = log.number().value_or(0);
   }
   if (run.tracing == 0 || !fs::exists(output))
     throw Error(ExitCode::file_io, "blender rendered nothing:\n{}{}", result.out, result.err);
-  std::regex_search(result.out, match, std::regex("^Blender [0-9.]+"));
-  run.device = match.empty() ? "Blender" : match.str();
+  TextScanner name(result.out);
+  run.device = name.skip("Blender ") ? "Blender " + std::string(name.word(".")) : "Blender";
   return run;
 }
 

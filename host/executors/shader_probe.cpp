@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <regex>
 #include <sstream>
+
+#include "host/core/text_scanner.hpp"
 
 namespace eyeray::engine::executors {
 namespace {
@@ -30,18 +31,36 @@ ProbedValue::Type type_of(uint32_t type) {
   return type == PROBE_FLOAT ? real : type == PROBE_BOOL ? boolean : integer;
 }
 
+// NAME of each `PROBE(NAME, …)` in a line.
+std::vector<std::string_view> probed_names(std::string_view line) {
+  std::vector<std::string_view> names;
+  TextScanner scanner(line);
+  while (!scanner.rest().empty()) {
+    if (scanner.word() != "PROBE") {
+      scanner.skip(scanner.rest().substr(0, 1));
+      continue;
+    }
+    scanner.skip_spaces();
+    if (!scanner.skip("(")) continue;
+    scanner.skip_spaces();
+    const std::string_view name = scanner.word();
+    scanner.skip_spaces();
+    if (!name.empty() && !(name[0] >= '0' && name[0] <= '9') && name[0] != '_' && scanner.skip(","))
+      names.push_back(name);
+  }
+  return names;
+}
+
 }  // namespace
 
 ShaderProbe::ShaderProbe(const std::map<std::string, std::string, std::less<>>& files) {
-  static const std::regex probe(R"(\bPROBE\s*\(\s*([A-Za-z]\w*)\s*,)");
   for (const auto& [file, text] : files) {
     std::istringstream lines(text);
     uint32_t number = 0;
     for (std::string line; std::getline(lines, line);) {
       ++number;
-      if (line.find("PROBE") == std::string::npos) continue;
-      for (std::sregex_iterator it(line.begin(), line.end(), probe), end; it != end; ++it)
-        positions_[(*it)[1]].push_back({file, number});
+      for (const std::string_view name : probed_names(line))
+        positions_[std::string(name)].push_back({file, number});
     }
   }
 }

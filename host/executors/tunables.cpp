@@ -4,34 +4,23 @@
 
 #include <algorithm>
 #include <optional>
-#include <regex>
+
+#include "host/core/text_scanner.hpp"
+#include "host/executors/control.hpp"
 
 namespace eyeray::engine::executors {
 namespace {
 
-// Groups: 1: the space before the declaration, 2: type, 3: name, 4: value, 5: comment, 6: kind of control, 7:
-// the control's numbers.
-const std::regex declaration(
-    R"(^(\s*)const\s+(float|int|bool|vec3)\s+(\w+)\s*=\s*(.*?);(\s*//\s*@(slider|color|checkbox)\b\s*(.*))$)");
-
-std::vector<double> numbers_in(const std::string& text) {
-  static const std::regex number(R"([-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?)");
-  std::vector<double> numbers;
-  for (std::sregex_iterator i(text.begin(), text.end(), number), end; i != end; ++i)
-    numbers.push_back(std::stod(i->str()));
-  return numbers;
-}
-
 // The value of a text as simple as "0.5f", "true" or "vec3(1, 0.5f, 0)"; nothing for other text.
-std::optional<Tunable::Value> value_of(Tunable::Type type, const std::string& text) {
-  static const std::regex scalar(R"(\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?[fF]?\s*)");
+std::optional<Tunable::Value> value_of(Tunable::Type type, std::string_view text) {
   if (type == Tunable::Type::boolean) {
     if (text != "true" && text != "false") return std::nullopt;
     return Tunable::Value{text == "true" ? 1.0 : 0.0};
   }
   if (type != Tunable::Type::vector) {
-    if (!std::regex_match(text, scalar)) return std::nullopt;
-    return Tunable::Value{numbers_in(text)[0]};
+    if (text.ends_with('f') || text.ends_with('F')) text.remove_suffix(1);
+    const std::optional<double> number = number_of(text);
+    return number ? std::optional(Tunable::Value{*number}) : std::nullopt;
   }
   if (!text.starts_with("vec3(") || !text.ends_with(")")) return std::nullopt;
   const std::vector<double> numbers = numbers_in(text.substr(5));
@@ -69,17 +58,43 @@ std::string read_from_buffer(Tunable::Type type, size_t index) {
   return "";
 }
 
-Tunable::Type type_named(const std::string& name) {
+Tunable::Type type_named(std::string_view name) {
   if (name == "float") return Tunable::Type::floating;
   if (name == "int") return Tunable::Type::integer;
   return name == "bool" ? Tunable::Type::boolean : Tunable::Type::vector;
 }
 
 // True if a control of this kind moves values of this type.
-bool fits(const std::string& control, Tunable::Type type) {
+bool fits(std::string_view control, Tunable::Type type) {
   if (control == "color") return type == Tunable::Type::vector;
   if (control == "checkbox") return type == Tunable::Type::boolean;
   return type == Tunable::Type::floating || type == Tunable::Type::integer;
+}
+
+// `const TYPE NAME = VALUE;` with a control after it.
+struct Declaration {
+  std::string_view indent, type, name, value, comment;
+  Control control;
+};
+std::optional<Declaration> declaration_in(std::string_view line) {
+  const auto control = control_in(line, "//");
+  if (!control || !control->value.ends_with(';')) return std::nullopt;
+  Declaration found{};
+  found.control = *control;
+  TextScanner scanner(control->value.substr(0, control->value.size() - 1));
+  found.comment = line.substr(control->value.size());
+  scanner.skip_spaces();
+  found.indent = line.substr(0, line.size() - scanner.rest().size() - found.comment.size() - 1);
+  if (scanner.one_of({"const"}).empty()) return std::nullopt;
+  scanner.skip_spaces();
+  found.type = scanner.one_of({"float", "int", "bool", "vec3"});
+  scanner.skip_spaces();
+  found.name = scanner.word();
+  scanner.skip_spaces();
+  if (found.type.empty() || found.name.empty() || !scanner.skip("=")) return std::nullopt;
+  scanner.skip_spaces();
+  found.value = scanner.rest();
+  return found;
 }
 
 }  // namespace
@@ -103,19 +118,18 @@ std::string Tunables::apply(const std::string& file, std::string_view text) {
     std::string line(text.substr(begin, end - begin));
     begin = end + 1;
     ++line_number;
-    std::smatch match;
-    if (std::regex_match(line, match, declaration)) {
-      Tunable tunable{file + ":" + match[3].str(), file, match[3], line_number,
-                      type_named(match[2]),        0,    1,        {}};
-      const std::vector<double> range = numbers_in(match[7]);
+    if (const auto declared = declaration_in(line)) {
+      const std::string name(declared->name);
+      Tunable tunable{file + ":" + name, file, name, line_number, type_named(declared->type), 0, 1, {}};
+      const std::vector<double>& range = declared->control.range;
       if (range.size() == 2) tunable.low = range[0], tunable.high = range[1];
-      const std::optional<Tunable::Value> written = value_of(tunable.type, match[4]);
-      if (written && fits(match[6], tunable.type) && tunable.low < tunable.high) {
+      const std::optional<Tunable::Value> written = value_of(tunable.type, declared->value);
+      if (written && fits(declared->control.kind, tunable.type) && tunable.low < tunable.high) {
         tunable.written = *written;
         const size_t index = index_of(tunable.id);
         if (as_constants || index >= most)
-          line = fmt::format("{}const {} {} = {};{}", match[1].str(), match[2].str(), tunable.name,
-                             in_glsl(tunable.type, value(tunable)), match[5].str());
+          line = fmt::format("{}const {} {} = {};{}", declared->indent, declared->type, tunable.name,
+                             in_glsl(tunable.type, value(tunable)), declared->comment);
         else
           line = fmt::format("#define {} {}", tunable.name, read_from_buffer(tunable.type, index));
         if (std::ranges::find(found_, tunable.id, &Tunable::id) == found_.end()) found_.push_back(tunable);

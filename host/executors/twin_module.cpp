@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
-#include <regex>
+#include <optional>
 #include <sstream>
 
 #include "host/core/atomic_file.hpp"
@@ -19,6 +19,7 @@
 #include "host/core/input_file.hpp"
 #include "host/core/make_folder.hpp"
 #include "host/core/private_folder.hpp"
+#include "host/core/text_scanner.hpp"
 #include "host/executors/cpp_compiler.hpp"
 #include "host/executors/shader_files.hpp"
 
@@ -89,24 +90,49 @@ fs::path absolute_or_empty(const fs::path& folder) {
   return folder.empty() ? folder : fs::absolute(folder).lexically_normal();
 }
 
+// `FILE:LINE:COLUMN: error: MESSAGE`, as compilers write it; `COLUMN:` may be missing, and `fatal` come
+// before `error`.
+struct CompilerError {
+  std::string_view file;
+  int line = 0, column = 0;
+  std::string_view message;
+};
+std::optional<CompilerError> compiler_error(std::string_view text) {
+  TextScanner scanner(text);
+  auto position = scanner.before(": error: ");
+  if (!position) position = scanner.before(": fatal error: ");
+  if (!position) return std::nullopt;
+  CompilerError error{.file = *position, .message = scanner.rest()};
+  // The line, and the column after it.
+  for (int i = 0; i < 2; ++i) {
+    const size_t colon = error.file.rfind(':');
+    const auto number =
+        colon == std::string_view::npos ? std::nullopt : number_of(error.file.substr(colon + 1));
+    if (!number) break;
+    error.column = error.line;
+    error.line = int(*number);
+    error.file = error.file.substr(0, colon);
+  }
+  return error.line > 0 ? std::optional(error) : std::nullopt;
+}
+
 // The compiler's errors, with the files' names as their owner knows them.
 std::vector<Diagnostic> diagnostics_in(const std::string& log, const fs::path& folder,
                                        const fs::path& sources) {
-  static const std::regex error(R"(^(.+?):(\d+):(?:(\d+):)? (?:fatal )?error: (.*)$)");
   std::vector<Diagnostic> found;
   std::istringstream lines(log);
   for (std::string line; std::getline(lines, line) && found.size() < most_diagnostics;) {
-    std::smatch match;
-    if (!std::regex_match(line, match, error)) continue;
-    const fs::path file = match[1].str();
+    const std::optional<CompilerError> error = compiler_error(line);
+    if (!error) continue;
+    const fs::path file = error->file;
     const fs::path of_user = file.lexically_relative(absolute_or_empty(folder));
     Diagnostic diagnostic;
-    diagnostic.position = {file.string(), std::stoi(match[2]), match[3].matched ? std::stoi(match[3]) : 0};
+    diagnostic.position = {file.string(), error->line, error->column};
     if (!folder.empty() && !of_user.empty() && *of_user.begin() != "..")
       diagnostic.position.file = (folder / of_user).string();
     else if (const fs::path own = file.lexically_relative(sources / "shaders"); *own.begin() != "..")
       diagnostic.position.file = own.string();
-    diagnostic.message = match[4];
+    diagnostic.message = error->message;
     std::error_code failed;
     if (fs::is_regular_file(file, failed))
       show_source_line(diagnostic, line_of(read_file(file), diagnostic.position.line));

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <regex>
 #include <span>
 #include <sstream>
 #include <string_view>
@@ -13,6 +12,7 @@
 #include "host/build/build_facts.hpp"
 #include "host/core/diagnostic.hpp"
 #include "host/core/error.hpp"
+#include "host/core/text_scanner.hpp"
 #include "host/program/help.hpp"
 
 namespace eyeray::engine::program {
@@ -24,18 +24,35 @@ std::string words_before(const CLI::App& command) {
   return parent ? words_before(*parent) + command.get_name() + " " : "";
 }
 
+// The parts of a text that the `*`s of `pattern` stand for; nothing if the text is of another form.
+std::vector<std::string> parts(std::string_view text, std::string_view pattern) {
+  std::vector<std::string> found;
+  TextScanner rest(text), fixed(pattern);
+  if (!rest.skip(*fixed.before("*"))) return {};
+  while (const auto next = fixed.before("*")) {
+    const auto part = rest.before(*next);
+    if (!part) return {};
+    found.emplace_back(*part);
+  }
+  if (!rest.rest().ends_with(fixed.rest())) return {};
+  found.emplace_back(rest.rest().substr(0, rest.rest().size() - fixed.rest().size()));
+  return found;
+}
+
 // CLI11's message in plain words.
 std::string plain_words(const std::string& text) {
-  static const std::pair<std::regex, const char*> rules[] = {
-      {std::regex(R"(^(.+): 1 required .+ missing$)"), "$1 needs a value"},
-      {std::regex(R"(^(.+): At Most 1 required but received (\d+)$)"), "$1 is given $2 times"},
-      {std::regex(R"(^(.+) was given a disallowed flag override$)"), "--$1 takes no value"},
-      {std::regex(R"(^(.+) excludes (.+)$)"), "$1 and $2 exclude each other"},
-      {std::regex(R"(^Could not convert: (.+?) = ([^]*)$)"), "$1 does not take the value '$2'"},
-      // The texts of option_values.hpp, which follow the option's name.
-      {std::regex(R"(^([\w-]+): (must be [^]*)$)"), "$1 $2"}};
-  for (const auto& [pattern, words] : rules)
-    if (std::regex_match(text, pattern)) return std::regex_replace(text, pattern, words);
+  static constexpr std::pair<const char*, const char*> rules[] = {
+      {"*: 1 required * missing", "{} needs a value"},
+      {"*: At Most 1 required but received *", "{} is given {} times"},
+      {"* was given a disallowed flag override", "--{} takes no value"},
+      {"* excludes *", "{} and {} exclude each other"},
+      {"Could not convert: * = *", "{} does not take the value '{}'"},
+      {"*: must be *", "{} must be {}"}};  // the texts of option_values.hpp, which follow the option's name
+  for (const auto& [pattern, words] : rules) {
+    const std::vector<std::string> found = parts(text, pattern);
+    if (found.empty()) continue;
+    return fmt::format(fmt::runtime(words), found.front(), found.back());
+  }
   return text;
 }
 

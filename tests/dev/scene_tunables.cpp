@@ -1,6 +1,8 @@
 // Tests of the values of a scene that controls move, and of their keys.
 #include "host/dev/scene_tunables.hpp"
 
+#include <string>
+
 #include "tests/support/doctest.hpp"
 
 using namespace eyeray::engine::dev;
@@ -76,4 +78,16 @@ TEST_CASE("values that no control can change are ignored") {
     const auto found = scene_tunables(line);
     CHECK(found.empty());
   }
+}
+
+TEST_CASE("a line may have any length") {
+  const std::string centers = "batch = { center = [" + std::string(1'000'000, '1') + "] }\n";
+  const auto found = scene_tunables("[[sphere]]\n" + centers + "radius = 1  # @slider 0 3\n");
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].key == "sphere.0.radius");
+}
+
+TEST_CASE("a number that no double holds gets no control") {
+  CHECK(scene_tunables("a = 1e999  # @slider 0 1").empty());
+  CHECK(scene_tunables("a = 0.5  # @slider 0 1e999")[0].high == 1);
 }

@@ -64,6 +64,13 @@ TEST_CASE("other constants stay as they are") {
   CHECK(tunables.found().empty());
 }
 
+TEST_CASE("a line of a shader may have any length") {
+  const std::string text = "const float X = 1.0; // " + std::string(1'000'000, '0') + "\n";
+  Tunables tunables;
+  CHECK(tunables.apply("a.glsl", text + "const float Y = 1.0; // @slider 0 2\n") ==
+        text + "#define Y tunables[0].x\n");
+}
+
 TEST_CASE("an executor's next sample and photons use the values chosen now") {
   const Scene scene = loader::load_scene(
       "scenes/sppm/points.toml",
