@@ -16,14 +16,15 @@ if(EYERAY_FUZZ)
 endif()
 
 # Headers that most files include are parsed once for each set of options, in the builds of .ci/run. tests/architecture checks that a file includes
-# the ones of these headers whose names it uses. eyeray_precompiled(TARGET [OPTIONS -O0 …] [HEADERS …] [LINK …]): a target's own options, what its
-# files include beside, and the libraries that have it.
+# the ones of these headers whose names it uses. eyeray_precompiled(TARGET [OPTIONS -O0 …] [NAME … HEADERS … LINK …]): a target's own options, what its
+# files include beside, the libraries that have it, and a name for these headers. A header with many templates costs each file that includes it a second,
+# precompiled or not: it belongs to the files alone that use it.
 function(eyeray_precompiled target)
   if(NOT EYERAY_PRECOMPILED)
     return()
   endif()
-  cmake_parse_arguments(arg "" "" "OPTIONS;HEADERS;LINK" ${ARGN})
-  string(REPLACE ";" "" owner "headers${arg_OPTIONS}")
+  cmake_parse_arguments(arg "" "NAME" "OPTIONS;HEADERS;LINK" ${ARGN})
+  string(REPLACE ";" "" owner "headers${arg_NAME}${arg_OPTIONS}")
   if(NOT TARGET ${owner})
     file(CONFIGURE OUTPUT ${owner}.cpp CONTENT "")
     add_library(${owner} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${owner}.cpp)
@@ -78,37 +79,44 @@ function(eyeray_in_batches target)
   endwhile()
 endfunction()
 
-# eyeray_layer(NAME [COMPUTES] LINK …): the static library of every *.cpp in host/NAME, or in benchmarks/NAME. With sanitizers in the code, optimising takes a
-# compiler longer than all else it does, and pays only for layers that compute, and for fuzzers.
+# How our own files are compiled. Optimising takes compilers most of their time. With sanitizers in the code it pays only for layers that compute, and
+# for fuzzers. It pays little for what serves: programs, and layers that read and write some text for each picture.
+function(eyeray_compiled target speed link)
+  set(options "")
+  if(EYERAY_SANITIZE AND NOT EYERAY_FUZZ AND NOT speed STREQUAL COMPUTES)
+    set(options -O0)
+  elseif(speed STREQUAL SERVES AND NOT EYERAY_SANITIZE AND NOT CMAKE_BUILD_TYPE STREQUAL Debug)
+    set(options -O1)
+  endif()
+  target_link_libraries(${target} PRIVATE eyeray_warnings)
+  target_compile_options(${target} PRIVATE ${options})
+  set(json "")
+  if(speed STREQUAL SERVES OR "nlohmann_json::nlohmann_json" IN_LIST link)
+    set(json NAME -json HEADERS <nlohmann/json.hpp> LINK nlohmann_json::nlohmann_json)
+  endif()
+  eyeray_precompiled(${target} OPTIONS ${options} ${json})
+  eyeray_in_batches(${target})
+endfunction()
+
+# eyeray_layer(NAME [COMPUTES | SERVES] LINK …): the static library of every *.cpp in host/NAME, or in benchmarks/NAME.
 function(eyeray_layer name)
-  cmake_parse_arguments(arg "COMPUTES" "" "LINK" ${ARGN})
+  cmake_parse_arguments(arg "COMPUTES;SERVES" "" "LINK" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/host/${name}/*.cpp ${CMAKE_SOURCE_DIR}/benchmarks/${name}/*.cpp)
   add_library(${name} STATIC ${sources})
-  target_link_libraries(${name} PRIVATE eyeray_warnings)
   target_link_libraries(${name} ${arg_LINK})
-  set(options "")
-  if(EYERAY_SANITIZE AND NOT EYERAY_FUZZ AND NOT arg_COMPUTES)
-    set(options -O0)
-  endif()
-  target_compile_options(${name} PRIVATE ${options})
-  eyeray_precompiled(${name} OPTIONS ${options})
-  eyeray_in_batches(${name})
+  set(speed "")
+  foreach(keyword COMPUTES SERVES)
+    if(arg_${keyword})
+      set(speed ${keyword})
+    endif()
+  endforeach()
+  eyeray_compiled(${name} "${speed}" "${arg_LINK}")
   set_property(GLOBAL APPEND PROPERTY EYERAY_LAYERS ${name})
 endfunction()
 
-# eyeray_program(NAME FOLDER): the program of every *.cpp in host/FOLDER, or in benchmarks/FOLDER. What CLI11 and nlohmann/json unfold to takes compilers minutes to optimise, and
-# hardly runs.
+# eyeray_program(NAME FOLDER): the program of every *.cpp in host/FOLDER, or in benchmarks/FOLDER.
 function(eyeray_program name folder)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/host/${folder}/*.cpp ${CMAKE_SOURCE_DIR}/benchmarks/${folder}/*.cpp)
   add_executable(${name} ${sources})
-  target_link_libraries(${name} PRIVATE eyeray_warnings)
-  set(options "")
-  if(EYERAY_SANITIZE)
-    set(options -O0)
-  elseif(NOT CMAKE_BUILD_TYPE STREQUAL Debug)
-    set(options -O1)
-  endif()
-  target_compile_options(${name} PRIVATE ${options})
-  eyeray_precompiled(${name} OPTIONS ${options})
-  eyeray_in_batches(${name})
+  eyeray_compiled(${name} SERVES "")
 endfunction()
