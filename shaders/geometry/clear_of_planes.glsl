@@ -10,7 +10,7 @@ SHADER_BEGIN
 // `inward` of a surface in the world that `ray` has hit, with the part that plane `s` adds if it is that near.
 vec3 inward_of_plane(Primitive s, Surface surface, Ray ray) {
   vec3 n = plane_normal(s);
-  float room = edge_room(ray, 3.0f * max_component(abs3(surface.p)) + abs(plane_distance(s)));
+  float room = edge_room(ray, 3.0f * max_component(abs3(surface.p)) + abs(plane_distance(s)), surface.offset);
   float value = dot3(n, surface.p) - plane_distance(s);
   bool below = dot3(n, ray.o) < plane_distance(s);
   if (abs(value) >= room) return surface.inward;

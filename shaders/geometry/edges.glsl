@@ -6,13 +6,13 @@
 
 SHADER_BEGIN
 
-// The distance inside of edges at which rays start on a surface whose `offset` is at most 8 EPSILON * reach: 16 of these. spawn_ray displaces a start
-// sideways by at most 8. The rest is for faces that enclose a small angle.
-float edge_room(Ray ray, float reach) {
+// The distance inside of edges at which rays start on a surface, at least 16 of its `offset`s: spawn_ray displaces a start sideways by at most 8. The
+// rest is for faces that enclose a small angle.
+float edge_room(Ray ray, float reach, float offset) {
 #if HAS_INSTANCES
   reach = reach + ray.reach;
 #endif
-  return 128.0f * EPSILON * reach;
+  return maximum(128.0f * EPSILON * reach, 16.0f * offset);
 }
 
 // x, brought inside of `low` and `high` by `room`; between them where there is less.

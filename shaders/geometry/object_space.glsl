@@ -108,14 +108,14 @@ Surface object_surface(Primitive s, vec3 p, vec3 gradient, UvField field) {
 // A point of the world in object space.
 vec3 point_into_object(Primitive s, vec3 p) { return into_object(s, p - object_center(s)); }
 
-// The distance inside of edges, in the world, at which rays start from the point p of object space (geometry/edges.glsl).
-float object_room(Primitive s, Ray ray, vec3 p) {
+// The distance inside of edges, in the world, at which rays start from the point p of object space, on a surface with this `offset` (geometry/edges.glsl).
+float object_room(Primitive s, Ray ray, vec3 p, float offset) {
   vec4 x = bits_to_floats(load_vertex(s.extra));
   vec4 y = bits_to_floats(load_vertex(s.extra + 1u));
   vec4 z = bits_to_floats(load_vertex(s.extra + 2u));
   vec3 size = abs3(p);
   vec3 reach = vec3(dot3(abs3(vec3(x)), size), dot3(abs3(vec3(y)), size), dot3(abs3(vec3(z)), size));
-  return edge_room(ray, max_component(reach) + 2.0f * max_component(abs3(object_center(s))));
+  return edge_room(ray, max_component(reach) + 2.0f * max_component(abs3(object_center(s))), offset);
 }
 
 // The increase of a function of object space by a step of 1 in the world along its gradient.

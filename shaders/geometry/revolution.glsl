@@ -31,8 +31,7 @@ vec4 revolution_level(Primitive s, vec3 gradient, float value, float y, float bo
 
 // From a point of the side to the inside of its rims, up or down the side. `gradient`: (outward, −slope); `square`: of y² in the square of the side's
 // radius. Where the side narrows to a tip, that is as far away as the side opposite.
-vec3 inward_of_side(Primitive s, Ray ray, vec3 p, vec3 gradient, float radius, float square, float bottom, float top) {
-  float room = object_room(s, ray, p);
+vec3 inward_of_side(Primitive s, vec3 p, vec3 gradient, float radius, float square, float bottom, float top, float room) {
   float slope = -gradient.y;
   float rise = inside_ends(p.y, bottom, top, room * coordinate_steepness(s).y) - p.y;
   float least = 0.5f * room * steepness(s, vec3(-gradient.x, gradient.y, -gradient.z));
@@ -43,11 +42,11 @@ vec3 inward_of_side(Primitive s, Ray ray, vec3 p, vec3 gradient, float radius, f
 }
 
 // From a point of a cap to the inside of its rim. `slope`: by how much the side's radius grows there with y.
-vec3 inward_of_rim(Primitive s, Ray ray, vec3 p, float radius, float slope) {
+vec3 inward_of_rim(Primitive s, vec3 p, float radius, float slope, float room) {
   float distance = sqrt(p.x * p.x + p.z * p.z);
   if (!(distance > 0.0f)) return vec3(0.0f, 0.0f, 0.0f);
   vec2 out_there = vec2(p.x / distance, p.z / distance);
-  float margin = object_room(s, ray, p) * steepness(s, vec3(out_there.x, -slope, out_there.y));
+  float margin = room * steepness(s, vec3(out_there.x, -slope, out_there.y));
   float step = minimum(maximum(radius - margin, 0.0f) - distance, 0.0f);
   return vec3(out_there.x * step, 0.0f, out_there.y * step);
 }
@@ -60,23 +59,27 @@ Surface revolution_surface(Primitive s, Ray ray, vec3 p, float part, float rim, 
   float distance = sqrt(p.x * p.x + p.z * p.z);
   vec3 gradient = vec3(0.0f, part == PART_BOTTOM ? -1.0f : 1.0f, 0.0f);
   UvField field = uv_field(vec2(0.0f, 0.0f), gradient, gradient);
-  vec3 inward = vec3(0.0f, 0.0f, 0.0f);
-  if (part == PART_SIDE || end_radius == 0.0f) {
+  bool side = part == PART_SIDE || end_radius == 0.0f;
+  if (side) {
     vec2 out_there = distance > 0.0f ? vec2(p.x / distance, p.z / distance) : vec2(1.0f, 0.0f);
     p = vec3(out_there.x * radius, minimum(maximum(p.y, bottom), top), out_there.y * radius);
     gradient = vec3(out_there.x, -slope, out_there.y);
     float u = 0.5f + atan_yx(-p.z, p.x) / (2.0f * PI);
     field = uv_field(vec2(u < 1.0f ? u : 0.0f, (p.y - bottom) / (top - bottom)), turn_gradient(p),
                      vec3(0.0f, 1.0f / (top - bottom), 0.0f));
-    inward = inward_of_side(s, ray, p, gradient, radius, square, rim, top);
   } else {
     float inside = distance > end_radius ? end_radius / distance : 1.0f;
     p = vec3(p.x * inside, part == PART_BOTTOM ? bottom : top, p.z * inside);
     field = uv_field(vec2(0.5f + 0.5f * p.x / end_radius, 0.5f - 0.5f * p.z / end_radius * gradient.y),
                      vec3(0.5f / end_radius, 0.0f, 0.0f), vec3(0.0f, 0.0f, -0.5f / end_radius * gradient.y));
-    inward = inward_of_rim(s, ray, p, end_radius, slope);
   }
   Surface surface = object_surface(s, p, gradient, field);
+  float room = object_room(s, ray, p, surface.offset);
+  vec3 inward = vec3(0.0f, 0.0f, 0.0f);
+  if (side)
+    inward = inward_of_side(s, p, gradient, radius, square, rim, top, room);
+  else
+    inward = inward_of_rim(s, p, end_radius, slope, room);
   surface.inward = step_out_of_object(s, inward);
   return surface;
 }

@@ -206,7 +206,7 @@ Surface bezier_surface(Primitive s, Ray ray, Hit hit) {
   set_tangents(surface, at.du, at.dv);
   vec3 reach = abs3(surface.p) + abs3(o);
   surface.offset = 8.0f * EPSILON * dot3(abs3(n), reach) + 48.0f * EPSILON * patch_ball.w;
-  vec2 inner = inner_step(surface, hit.uv, edge_room(ray, max_component(reach) + 6.0f * patch_ball.w));
+  vec2 inner = inner_step(surface, hit.uv, edge_room(ray, max_component(reach) + 6.0f * patch_ball.w, surface.offset));
   if (inner.x != 0.0f || inner.y != 0.0f) surface.inward = bezier_at(net, hit.uv.x + inner.x, hit.uv.y + inner.y).p - at.p;
   return surface;
 }

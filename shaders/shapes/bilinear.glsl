@@ -94,7 +94,7 @@ Surface bilinear_surface(Primitive s, Ray ray, Hit hit) {
   vec3 reach = (abs3(p00) + abs3(bilinear_p10(s))) + (abs3(bilinear_p01(s)) + abs3(bilinear_p11(s)));
   set_tangents(surface, across_v, along_v);
   surface.offset = 48.0f * EPSILON * dot3(abs3(surface.normal_geometric), reach);
-  vec2 inner = inner_step(surface, hit.uv, edge_room(ray, 6.0f * max_component(reach)));
+  vec2 inner = inner_step(surface, hit.uv, edge_room(ray, 6.0f * max_component(reach), surface.offset));
   surface.inward = (across_v * inner.x + along_v * inner.y) + (right - left) * (inner.x * inner.y);
   return surface;
 }

@@ -27,7 +27,8 @@ vec4 box_level(Primitive s, vec3 p) {
 Surface box_surface(Primitive s, Ray ray, Hit hit) {
   vec3 p = onto_cube(at_hit(object_ray(s, ray, BOX_REACH), hit), hit.uv);
   Surface surface = object_surface(s, p, cube_normal(hit.uv), cube_uv(p, hit.uv));
-  surface.inward = step_out_of_object(s, inward_of_cube(p, hit.uv, coordinate_steepness(s) * object_room(s, ray, p)));
+  float room = object_room(s, ray, p, surface.offset);
+  surface.inward = step_out_of_object(s, inward_of_cube(p, hit.uv, coordinate_steepness(s) * room));
   return surface;
 }
 

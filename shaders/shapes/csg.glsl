@@ -279,7 +279,7 @@ Surface clear_of_leaves(Primitive s, Surface surface, Ray ray, uint own) {
   uvec4 head = load_outline(s.extra);
   uint leaves = s.extra + 1u + head.x;
   vec3 p = surface.p;
-  float room = edge_room(ray, 2.0f * max_component(abs3(p)) + max_component(abs3(csg_center(s)) + csg_half_size(s)));
+  float room = edge_room(ray, 2.0f * max_component(abs3(p)) + max_component(abs3(csg_center(s)) + csg_half_size(s)), surface.offset);
 
   // The leaves that p is within, and those whose surface is near.
   uint within = 0u;

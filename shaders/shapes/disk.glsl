@@ -28,7 +28,7 @@ Surface disk_surface(Primitive s, Ray ray, Hit hit) {
   float distance = sqrt(p.x * p.x + p.z * p.z);
   if (distance > 0.0f) {
     vec3 out_there = vec3(p.x / distance, 0.0f, p.z / distance);
-    float margin = object_room(s, ray, p) * steepness(s, out_there);
+    float margin = object_room(s, ray, p, surface.offset) * steepness(s, out_there);
     float inner = sqrt(object_parameters(s).x);
     float kept = inside_ends(distance, inner, 1.0f, margin);
     surface.inward = step_out_of_object(s, out_there * ((inner > 0.0f ? kept : minimum(distance, 1.0f - minimum(margin, 1.0f))) - distance));

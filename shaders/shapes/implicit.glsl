@@ -128,7 +128,7 @@ Surface implicit_surface(Primitive s, Ray ray, Hit hit) {
   }
   FORMULAS(RAY_OFFSET_OF)
   surface.offset = itself ? surface.offset * (factor + 1.0f) : surface.offset;
-  float room = object_room(s, ray, p);
+  float room = object_room(s, ray, p, surface.offset);
   vec3 inward = itself ? inward_of_cut(s, p, gradient, room) : inward_of_cut_face(s, p, hit.uv, slope.w, vec3(slope), room);
   surface.inward = step_out_of_object(s, inward);
   return surface;

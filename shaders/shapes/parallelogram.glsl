@@ -65,7 +65,7 @@ Surface parallelogram_surface(Primitive s, Ray ray, Hit hit) {
   set_gradients(surface, across_v / dot3(across_v, along_u), across_u / dot3(across_u, along_v));
   vec3 reach = abs3(p) + abs3(corner_a(s));
   surface.offset = 8.0f * EPSILON * dot3(abs3(n), reach);
-  vec2 inner = inner_step(surface, vec2(u, v), edge_room(ray, max_component(reach)));
+  vec2 inner = inner_step(surface, vec2(u, v), edge_room(ray, max_component(reach), surface.offset));
   surface.inward = along_u * inner.x + along_v * inner.y;
   return surface;
 }

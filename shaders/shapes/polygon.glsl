@@ -117,7 +117,7 @@ Surface polygon_surface(Primitive s, Ray ray, Hit hit) {
   set_gradients(surface, vec3(u), vec3(v));
   vec3 reach = abs3(p) + abs3(polygon_center(s));
   surface.offset = 8.0f * EPSILON * dot3(abs3(n), reach);
-  surface.inward = polygon_inward(s, p, edge_room(ray, max_component(reach + polygon_half_size(s))));
+  surface.inward = polygon_inward(s, p, edge_room(ray, max_component(reach + polygon_half_size(s)), surface.offset));
   return surface;
 }
 

@@ -136,19 +136,22 @@ vec3 prism_cap_inward(Primitive s, vec3 p, float room) {
   return inward;
 }
 
-// The step along a wall, from p, to the inside of the walls that join it at less than 180 degrees. `n`, `along`: the wall's unit normal, and its
-// way from end to end.
-vec3 prism_wall_inward(Primitive s, vec3 p, vec3 n, vec3 along, float room) {
+// From a point of a wall, at `share` of its way `along` from end to end, to the inside of its edges and of the walls that join it at less than 180
+// degrees. `n`: its unit normal.
+vec3 prism_wall_inward(Primitive s, vec3 p, vec3 n, vec3 along, float share, float room) {
+  float squared = dot3(along, along);
+  vec3 step = along * (inside_ends(share, 0.0f, 1.0f, room * steepness(s, along / squared)) - share);
   vec3 inward = vec3(0.0f, 0.0f, 0.0f);
   uint walls = uint(object_parameters(s).x);
-  float squared = dot3(along, along);
   for (uint i = 0u; i < walls; i++) {
-    PrismWall wall = prism_wall(s, i, p, room);
+    PrismWall wall = prism_wall(s, i, p + step, room);
     float rate = dot3(wall.n, along);
     float missing = (dot3(wall.n, inward) - dot3(wall.n, wall.from)) + wall.margin;
     bool meets = minimum(dot3(n, wall.from), dot3(n, wall.to)) < -wall.margin && rate * rate > 0.0009765625f * squared;
     if (wall.near && meets && missing > 0.0f) inward = inward - along * (missing / rate);
   }
+  inward = step + inward;
+  inward.y = inside_ends(p.y, -1.0f, 1.0f, room * coordinate_steepness(s).y) - p.y;
   return inward;
 }
 
@@ -183,40 +186,39 @@ Surface prism_surface(Primitive s, Ray ray, Hit hit) {
   vec4 sizes = object_parameters(s);
   vec3 gradient = vec3(0.0f, hit.uv.x == PRISM_BOTTOM ? -1.0f : 1.0f, 0.0f);
   UvField field = uv_field(vec2(0.0f, 0.0f), gradient, gradient);
-  float room = object_room(s, ray, p);
-  vec3 inward = vec3(0.0f, 0.0f, 0.0f);
-  if (hit.uv.x < PRISM_WALLS) {
+  vec3 way = vec3(0.0f, 0.0f, 0.0f);
+  float share = 0.0f;
+  bool is_wall = hit.uv.x >= PRISM_WALLS;
+  if (!is_wall) {
     vec4 u = bits_to_floats(load_vertex(first + 1u));
     vec4 v = bits_to_floats(load_vertex(first + 2u));
     p.y = gradient.y;
     field = uv_field(vec2(((u.x * p.x + u.y * p.z) + u.z) * gradient.y, (v.x * p.x + v.y * p.z) + v.z),
                      vec3(u.x, 0.0f, u.y) * gradient.y, vec3(v.x, 0.0f, v.y));
-    inward = prism_cap_inward(s, p, room);
   } else {
     uint wall = uint(hit.uv.x - PRISM_WALLS);
     vec4 edge = bits_to_floats(load_outline(first + 3u + wall));
     vec4 more = bits_to_floats(load_outline(first + 3u + uint(sizes.x) + wall));
     vec2 along = vec2(edge.z - edge.x, edge.w - edge.y);
-    float share = (along.x * (p.x - edge.x) + along.y * (p.z - edge.y)) / (along.x * along.x + along.y * along.y);
+    way = vec3(along.x, 0.0f, along.y);
+    share = (along.x * (p.x - edge.x) + along.y * (p.z - edge.y)) / (along.x * along.x + along.y * along.y);
     share = minimum(maximum(share, 0.0f), 1.0f);
     p = vec3(edge.x + along.x * share, minimum(maximum(p.y, -1.0f), 1.0f), edge.y + along.y * share);
     gradient = vec3(more.z, 0.0f, more.w);
     float slope = (more.y - more.x) / (along.x * along.x + along.y * along.y);
     field = uv_field(vec2(more.x + (more.y - more.x) * share, sizes.y * (0.5f * p.y + 0.5f)),
                      vec3(along.x * slope, 0.0f, along.y * slope), vec3(0.0f, 0.5f * sizes.y, 0.0f));
-    vec3 per_share = vec3(along.x, 0.0f, along.y) / (along.x * along.x + along.y * along.y);
-    float slide = inside_ends(share, 0.0f, 1.0f, room * steepness(s, per_share)) - share;
-    float rise = inside_ends(p.y, -1.0f, 1.0f, room * coordinate_steepness(s).y) - p.y;
-    vec3 way = vec3(along.x, 0.0f, along.y);
-    inward = way * slide;
-    inward = inward + prism_wall_inward(s, p + inward, gradient, way, room);
-    inward.y = rise;
   }
   Surface surface = object_surface(s, p, gradient, field);
 
   // A wall is where its ends are, and those are rounded however close to the middle it passes.
-  vec3 slope = gradient_out_of_object(s, gradient);
-  surface.offset += 8.0f * EPSILON / sqrt(dot3(slope, slope));
+  surface.offset += 8.0f * EPSILON / steepness(s, gradient);
+  float room = object_room(s, ray, p, surface.offset);
+  vec3 inward = vec3(0.0f, 0.0f, 0.0f);
+  if (is_wall)
+    inward = prism_wall_inward(s, p, gradient, way, share, room);
+  else
+    inward = prism_cap_inward(s, p, room);
   surface.inward = step_out_of_object(s, inward);
   return surface;
 }

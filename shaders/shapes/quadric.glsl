@@ -89,7 +89,7 @@ Surface quadric_surface(Primitive s, Ray ray, Hit hit) {
   if (hit.uv.x != QUADRIC_ITSELF) {
     p = onto_cube(p, hit.uv);
     Surface face = object_surface(s, p, cube_normal(hit.uv), cube_uv(p, hit.uv));
-    face.inward = step_out_of_object(s, quadric_inward_of_face(s, p, hit.uv, object_room(s, ray, p)));
+    face.inward = step_out_of_object(s, quadric_inward_of_face(s, p, hit.uv, object_room(s, ray, p, face.offset)));
     return face;
   }
 
@@ -118,7 +118,7 @@ Surface quadric_surface(Primitive s, Ray ray, Hit hit) {
   Surface surface = object_surface(s, p, gradient, cube_uv(p, vec2(axis, towards < 0.0f ? -1.0f : 1.0f)));
   vec3 slope = gradient_out_of_object(s, gradient);
   surface.offset = surface.offset + noise / sqrt(dot3(slope, slope));
-  vec3 inward = inward_of_cut(s, p, gradient, object_room(s, ray, p));
+  vec3 inward = inward_of_cut(s, p, gradient, object_room(s, ray, p, surface.offset));
   surface.inward = step_out_of_object(s, quadric_step(quadric, p, inward));
   return surface;
 }

@@ -191,7 +191,7 @@ Surface triangle_surface(Primitive s, Ray ray, Hit hit) {
   }
   vec3 reach = abs3(corner_a(s)) + abs3(corner_b(s)) + abs3(corner_c(s));
   surface.offset = 8.0f * EPSILON * dot3(abs3(surface.normal_geometric), reach);
-  surface.inward = triangle_inward(s, vec3(wa, hit.uv.x, hit.uv.y), edge_room(ray, max_component(reach)));
+  surface.inward = triangle_inward(s, vec3(wa, hit.uv.x, hit.uv.y), edge_room(ray, max_component(reach), surface.offset));
   return surface;
 }
 

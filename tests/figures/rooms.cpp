@@ -231,9 +231,8 @@ std::map<std::string, std::string> rooms_with_cuts() {
 }
 
 // Rooms that still lose some paths (docs/experiments/rooms.md), at most 1 of 10 000.
-const std::set<std::string> leaking = {
-    "prism",    "prism less a ball",       "prism cut to a ball", "polygons with holes",
-    "bilinear", "cone cut off less a ball"};
+const std::set<std::string> leaking = {"prism less a ball", "prism cut to a ball", "polygons with holes",
+                                       "bilinear", "cone cut off less a ball"};
 
 constexpr const char* cube =
     "v -1 -1 -1\nv -1 -1 1\nv -1 1 -1\nv -1 1 1\nv 1 -1 -1\nv 1 -1 1\nv 1 1 -1\nv 1 1 1\n"
