@@ -13,7 +13,7 @@ class TextScanner {
  public:
   explicit TextScanner(std::string_view text) : rest_(text) {}
 
-  // What has not been read yet.
+  // The text that has not been read yet.
   std::string_view rest() const { return rest_; }
 
   // Reads `token` where it comes next; false if it does not.
@@ -35,7 +35,7 @@ class TextScanner {
   std::string_view rest_;
 };
 
-// The numbers in a text, whatever stands between them.
+// All numbers in a text.
 std::vector<double> numbers_in(std::string_view text);
 // The number that a text consists of; nothing if it is no number.
 std::optional<double> number_of(std::string_view text);

@@ -9,7 +9,7 @@ namespace eyeray::engine::executors {
 
 struct Control {
   std::string_view kind;      // "slider", "color" or "checkbox"
-  std::string_view value;     // what precedes the comment
+  std::string_view value;     // the text before the comment
   std::vector<double> range;  // the numbers that follow the kind
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -108,7 +109,7 @@ std::optional<CompilerError> compiler_error(std::string_view text) {
     const size_t colon = error.file.rfind(':');
     const auto number =
         colon == std::string_view::npos ? std::nullopt : number_of(error.file.substr(colon + 1));
-    if (!number) break;
+    if (!number || *number < 0 || *number > std::numeric_limits<int>::max()) break;
     error.column = error.line;
     error.line = int(*number);
     error.file = error.file.substr(0, colon);
