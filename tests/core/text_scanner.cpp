@@ -30,9 +30,9 @@ TEST_CASE("a number is read in each form that scenes and shaders have") {
   const std::pair<const char*, double> numbers[] = {
       {"1", 1},      {"-2", -2},    {"+3", 3},    {".5", .5},       {"5.", 5},   {"1_000", 1000},
       {"+.25", .25}, {"2e3", 2000}, {"2E-1", .2}, {"1.5e+2", 150.}, {"0.1", 0.1}};
-  for (const auto& [text, value] : numbers) {
-    CAPTURE(text);
-    CHECK(number_of(text) == value);
+  for (const auto& each : numbers) {
+    CAPTURE(each.first);
+    CHECK(number_of(each.first) == each.second);
   }
   for (const char* text : {"", "-", ".", "e5", "1f", "_1", "1 ", "0x", "nan", "inf", "1e999", "--1"}) {
     CAPTURE(text);
