@@ -1,6 +1,6 @@
 // Options that several commands share. An option becomes an override of the scene; the loader checks its
 // value.
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -214,15 +214,15 @@ void add_executor_options(CLI::App& command, executors::ExecutorOptions& options
       ->group(group);
   std::string keys;
   for (const executors::Tuning& each : executors::tunings())
-    keys += fmt::format("{}{}={}", keys.empty() ? "" : ", ", each.key, fmt::join(each.values, "|"));
+    keys += fmt::format("{}{}", keys.empty() ? "" : ", ", each.key);
   command
       .add_option_function<std::vector<std::string>>(
           "--tune",
           [&options](const std::vector<std::string>& settings) {
             for (const std::string& setting : settings) executors::tune(options, setting);
           },
-          fmt::format("Set how kernels are built and find hits, for measurements. No setting changes a pixel "
-                      "(docs/tuning.md). May be repeated. Settings: {}.",
+          fmt::format("Set how kernels are built and find hits, for measurements. May be repeated. Keys: {}; "
+                      "docs/tuning.md has their values and effects.",
                       keys))
       ->option_text("KEY=VALUE")
       ->allow_extra_args(false)

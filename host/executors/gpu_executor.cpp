@@ -127,7 +127,8 @@ class GpuExecutor final : public Executor {
     std::string text =
         fmt::format("denormals {}, infinities {}", kept(facts.denormals_kept), kept(facts.infinities_kept));
     if (facts.loop_cap) text += fmt::format(", loops end after {} iterations", facts.loop_iterations);
-    if (facts.exact_arithmetic && !options_.gpu.fast_math) return "exact, " + text;
+    const bool divides_exactly = facts.exact_division || options_.gpu.division != Division::own;
+    if (facts.exact_arithmetic && divides_exactly && !options_.gpu.fast_math) return "exact, " + text;
     return fmt::format("not exact, {}, on {}, {}", text, device_.info().name, device_.info().driver_version);
   }
 
@@ -185,8 +186,11 @@ class GpuExecutor final : public Executor {
     gpu::KernelOptions how{.strict = device_.info().float_modes,
                            .optimise = options_.gpu.optimise,
                            .flatten = profile_.flatten,
+                           .worst = options_.gpu.worst_division,
                            .validate = options_.gpu.validate_spirv};
-    if (options_.gpu.fast_math) how.strict = std::nullopt;
+    how.exact = options_.gpu.division == Division::exact ||
+                (options_.gpu.division == Division::automatic && !open_device_->facts().exact_division);
+    if (options_.gpu.fast_math) how.strict = std::nullopt, how.exact = false;
     // A capped driver grants 65 535 iterations to all loops together (docs/lavapipe.md).
     const uint32_t most_iterations = open_device_->facts().loop_cap ? 50'000 : LoopGuard().most();
     kernels_.emplace(SceneKernels::Workshop{*open_device_, times_, facts_, how, options_.gpu.tunables.get(),

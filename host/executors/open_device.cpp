@@ -27,7 +27,8 @@ OpenDevice::OpenDevice(const GpuOptions& options, bool wide_vectors, StageTimes&
     : device_(times.measure("device", [&] { return gpu::Device(device_options(options, wide_vectors)); })),
       facts_(times.measure("self-test", [&] {
         return gpu::self_test(
-            device_, [](std::string_view name) { return ShaderFiles({}, "").read(name); }, cache_);
+            device_, [](std::string_view name) { return ShaderFiles({}, "").read(name); }, cache_,
+            options.worst_division);
       })) {}
 
 std::shared_ptr<gpu::Kernel> OpenDevice::kernel(std::span<const uint32_t> spirv, const std::string& name) {

@@ -14,6 +14,10 @@ namespace eyeray::engine::executors {
 class OpenDevice;
 class Tunables;
 
+// The way that kernels divide and take square roots: exactly where the device does not, as the device does,
+// or exactly in any case.
+enum class Division { automatic, own, exact };
+
 struct GpuOptions {
   std::string device = "auto";              // auto | cpu | gpu | INDEX | part of a NAME
   std::shared_ptr<OpenDevice> open_device;  // used as it is, and left open; null: the executor opens one
@@ -23,7 +27,9 @@ struct GpuOptions {
   bool sets_environment = true;      // DeviceOptions::sets_environment
   bool wide_vectors = true;          // use them if the picture gains from them (trace_plan.hpp)
   ProfileOptions profile;
-  bool fast_math = false;              // let the driver contract and re-associate
+  bool fast_math = false;  // let the driver contract and re-associate
+  Division division = Division::automatic;
+  bool worst_division = false;         // for tests: KernelOptions::worst
   bool validate_spirv = false;         // validate a kernel's SPIR-V before the driver gets it
   bool constants = true;               // compile the primitives of a small scene into the kernel
   bool formula_numbers = false;        // kernels load the numbers of formulas, and so suit other numbers too

@@ -59,6 +59,18 @@ const Tuning tuning_rows[] = {
      {"on", "off"},
      "optimises kernels before the driver gets them; without, each start takes longer",
      [](ExecutorOptions& options, std::string_view value) { options.gpu.optimise = value == "on"; }},
+    {"division",
+     {"auto", "own", "exact"},
+     "divides and takes roots exactly where the device does not, as the device does, or exactly in any case",
+     [](ExecutorOptions& options, std::string_view value) {
+       options.gpu.division = value == "auto"  ? Division::automatic
+                              : value == "own" ? Division::own
+                                               : Division::exact;
+     }},
+    {"device-division",
+     {"own", "worst"},
+     "for tests: makes the device's division and roots as wrong as Vulkan allows",
+     [](ExecutorOptions& options, std::string_view value) { options.gpu.worst_division = value == "worst"; }},
 };
 
 const Tuning& tuning_of(std::string_view key) {

@@ -5,6 +5,7 @@
 
 #include "host/core/content_hash.hpp"
 #include "host/core/error.hpp"
+#include "host/gpu/called_arithmetic.hpp"
 #include "host/gpu/float_policy.hpp"
 #include "host/gpu/spirv_optimiser.hpp"
 
@@ -22,7 +23,7 @@ void validate(const std::vector<uint32_t>& spirv, const std::string& entry) {
 }
 
 // Compiles a kernel, except for the float modes, which depend on the device.
-CompiledShader compile(const ShaderSource& source, std::string_view preamble, const KernelOptions& options,
+CompiledShader compile(const ShaderSource& source, const std::string& preamble, const KernelOptions& options,
                        const DiskCache& cache) {
   ContentHash hash;
   hash.add(compiler_version()).add(options.optimise ? optimiser_version(options.flatten) : "");
@@ -38,6 +39,8 @@ CompiledShader compile(const ShaderSource& source, std::string_view preamble, co
     return found;
   }
   CompiledShader compiled = compile_shader(source, preamble);
+  if (options.exact) compiled.spirv = call_for_arithmetic(compiled.spirv, "exact");
+  if (options.worst) compiled.spirv = call_for_arithmetic(compiled.spirv, "worst");
   if (options.strict) compiled.spirv = decorate_no_contraction(compiled.spirv);
   if (options.optimise) compiled.spirv = optimise(compiled.spirv, options.flatten);
   if (options.validate) validate(compiled.spirv, source.entry);
@@ -51,7 +54,10 @@ CompiledShader compile(const ShaderSource& source, std::string_view preamble, co
 
 CompiledShader compile_kernel(const ShaderSource& source, std::string_view preamble,
                               const KernelOptions& options, const DiskCache& cache) {
-  CompiledShader compiled = compile(source, preamble, options, cache);
+  std::string defines(preamble);
+  if (options.exact) defines += "#define EXACT_ARITHMETIC\n";
+  if (options.worst) defines += "#define WORST_ARITHMETIC\n";
+  CompiledShader compiled = compile(source, defines, options, cache);
   if (options.strict) compiled.spirv = set_float_modes(compiled.spirv, *options.strict);
   return compiled;
 }

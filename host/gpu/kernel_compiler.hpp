@@ -14,7 +14,9 @@ struct KernelOptions {
   std::optional<FloatModes> strict = {};  // the float policy, with these modes; none: --fast-math
   bool optimise = true;                   // run the passes of spirv_optimiser.hpp
   bool flatten = false;                   // flatten selections, too; only if `optimise`
-  bool validate = false;                  // checks the result by SPIRV-Tools' validator, as spirv-val does
+  bool exact = false;                     // corrects division and square root; only if `strict`
+  bool worst = false;     // for tests: makes the device's division and square root as wrong as Vulkan allows
+  bool validate = false;  // checks the result by SPIRV-Tools' validator, as spirv-val does
 };
 
 // The result of compile_shader and `options`, or the earlier result of the same text and preamble from the

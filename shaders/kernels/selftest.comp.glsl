@@ -1,6 +1,7 @@
 // Known answers: host/gpu/self_test.cpp requires them of a driver before anything is rendered on it. Every invocation does each
 // operation once on inputs from a buffer, so that no compiler can know the results.
 #version 450
+#include "math/device.glsl"
 
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Inputs { uint inputs[]; };

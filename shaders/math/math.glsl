@@ -3,6 +3,7 @@
 #ifndef MATH_GLSL
 #define MATH_GLSL
 #include "language.h"
+#include "math/device.glsl"
 #include "records.h"
 
 SHADER_BEGIN

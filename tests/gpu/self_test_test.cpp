@@ -12,7 +12,9 @@ gpu::SourceProvider with_fault(const std::string& right, const std::string& wron
   const size_t at = text.find(right);
   REQUIRE(at != std::string::npos);
   text.replace(at, right.size(), wrong);
-  return files({{"kernels/selftest.comp.glsl", text}});
+  return [text](std::string_view path) {
+    return path == "kernels/selftest.comp.glsl" ? std::optional(text) : project_shader(path);
+  };
 }
 
 }  // namespace
@@ -48,6 +50,12 @@ TEST_CASE("a driver that computes wrong is refused") {
                  "computes wrong results: an indexed load"));
   CHECK(contains(refusal("state * 1664525u", "state * 1664527u").first,
                  "computes wrong results: a loop's result"));
+}
+
+TEST_CASE("division as wrong as Vulkan allows is found, and corrected") {
+  const gpu::DeviceFacts facts = gpu::self_test(device(), project_shader, no_cache, true);
+  CHECK(!facts.exact_division);
+  CHECK(facts.exact_arithmetic);
 }
 
 TEST_CASE("loose arithmetic is a fact, not a refusal") {

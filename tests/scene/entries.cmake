@@ -132,6 +132,10 @@ eyeray_verify(mode.no-constants.edges mode QUICK ${EDGES} --tune constants=off)
 # Every way of finding hits finds the same hits. The GPU's profile runs on any device.
 set(searched scenes/meshes.toml scenes/sphereflake.toml scenes/cornell.toml scenes/inside_glass.toml -s 96x72)
 eyeray_verify(mode.no-optimiser mode ${searched} --tune optimiser=off)
+# Division and roots as wrong as Vulkan allows, corrected.
+set(worst -s 48x36 --spp 1 --tune constants=off --tune device-division=worst)
+eyeray_verify(mode.worst-division mode scenes/whitted.toml scenes/textures.toml scenes/meshes.toml scenes/path/cornell_box.toml ${worst})
+eyeray_verify(mode.worst-division.all mode NIGHTLY ${SCENES} ${PATHS} ${worst})
 set(groups scenes/group_instances.toml scenes/group_shapes.toml)
 eyeray_verify(mode.groups-once mode QUICK scenes/groups.toml scenes/group_instances.toml -s 96x72 -D render.groups=instanced)
 eyeray_verify(mode.groups-copied mode ${groups} scenes/forest.toml -s 96x72 -D render.groups=flat)

@@ -1,0 +1,133 @@
+#include "host/gpu/called_arithmetic.hpp"
+
+#include <spirv/unified1/GLSL.std.450.h>
+
+#include <map>
+#include <set>
+#include <string>
+
+#include "host/core/error.hpp"
+#include "host/gpu/spirv.hpp"
+#include "host/gpu/spirv_module.hpp"
+
+namespace eyeray::engine::gpu {
+namespace {
+
+class Caller {
+ public:
+  Caller(std::span<const uint32_t> spirv, std::string_view prefix)
+      : module_(read_spirv(spirv)), prefix_(prefix) {
+    for (const SpirvInstruction& i : module_.declarations) {
+      if (opcode_of(i) == spv::OpName) names_[i[1]] = spirv_string(i, 2);
+      if (opcode_of(i) == spv::OpTypeFloat && i[2] == 32) float_ = i[1];
+      if (opcode_of(i) == spv::OpTypeVector && i[2] == float_) components_[i[1]] = i[3];
+    }
+  }
+
+  std::vector<uint32_t> called() {
+    for (SpirvFunction& function : module_.functions) {
+      const std::string& name = names_[function.head[0][2]];
+      if (name.starts_with(prefix_) || name.starts_with("worst")) continue;
+      for (SpirvBlock& block : function.blocks) call_in(block);
+    }
+    // A call rounds as the function does.
+    std::erase_if(module_.declarations, [&](const SpirvInstruction& i) {
+      return opcode_of(i) == spv::OpDecorate && i[2] == spv::DecorationNoContraction &&
+             replaced_.contains(i[1]);
+    });
+    return write_spirv(module_);
+  }
+
+ private:
+  void call_in(SpirvBlock& block) {
+    std::vector<SpirvInstruction> body;
+    for (const SpirvInstruction& i : block.body) {
+      refuse(i);
+      const bool divides = opcode_of(i) == spv::OpFDiv;
+      const bool is_root = opcode_of(i) == spv::OpExtInst && i[4] == GLSLstd450Sqrt;
+      if (divides || is_root)
+        call(body, i[1], i[2], divides ? "_quotient(" : "_root(", std::span(i).subspan(divides ? 3 : 5));
+      else
+        body.push_back(i);
+    }
+    block.body = std::move(body);
+  }
+
+  void call(std::vector<SpirvInstruction>& body, uint32_t type, uint32_t result, std::string_view name,
+            std::span<const uint32_t> operands) {
+    replaced_.insert(result);
+    if (type == float_) {
+      call_one(body, result, name, {operands.begin(), operands.end()});
+      return;
+    }
+    const auto vector = components_.find(type);
+    if (vector == components_.end()) return unknown("a division of a type that is not float or a vector");
+    SpirvInstruction whole{0, type, result};
+    for (uint32_t component = 0; component < vector->second; ++component) {
+      std::vector<uint32_t> parts;
+      for (const uint32_t operand : operands) {
+        parts.push_back(module_.new_id());
+        body.push_back(
+            spirv_instruction(spv::OpCompositeExtract, {float_, parts.back(), operand, component}));
+      }
+      whole.push_back(module_.new_id());
+      call_one(body, whole.back(), name, parts);
+    }
+    whole[0] = uint32_t(whole.size()) << spv::WordCountShift | uint32_t(spv::OpCompositeConstruct);
+    body.push_back(std::move(whole));
+  }
+
+  void call_one(std::vector<SpirvInstruction>& body, uint32_t result, std::string_view name,
+                const std::vector<uint32_t>& operands) {
+    SpirvInstruction call = spirv_instruction(spv::OpFunctionCall, {float_, result, function_named(name)});
+    call.insert(call.end(), operands.begin(), operands.end());
+    call[0] = uint32_t(call.size()) << spv::WordCountShift | uint32_t(spv::OpFunctionCall);
+    body.push_back(std::move(call));
+  }
+
+  uint32_t function_named(std::string_view name) const {
+    for (const auto& [id, named] : names_)
+      if (named.starts_with(prefix_ + std::string(name))) return id;
+    throw Error(ExitCode::internal, "a kernel has no function {}{}…)", prefix_, name);
+  }
+
+  static void refuse(const SpirvInstruction& i) {
+    if (opcode_of(i) == spv::OpFRem || opcode_of(i) == spv::OpFMod) return unknown("mod");
+    if (opcode_of(i) != spv::OpExtInst) return;
+    switch (i[4]) {
+      case GLSLstd450InverseSqrt:
+        return unknown("inversesqrt");
+      case GLSLstd450Length:
+        return unknown("length");
+      case GLSLstd450Distance:
+        return unknown("distance");
+      case GLSLstd450Normalize:
+        return unknown("normalize");
+      default:
+        return;
+    }
+  }
+
+  [[noreturn]] static void unknown(std::string_view what) {
+    throw Error(
+        ExitCode::bad_input,
+        "a shader uses {}, whose result the device may round in any way; write it with division, sqrt "
+        "and the functions of math/math.glsl",
+        what);
+  }
+
+  SpirvModule module_;
+  std::string prefix_;
+  std::map<uint32_t, std::string> names_;
+  std::map<uint32_t, uint32_t> components_;  // count of each type of float vectors
+  std::set<uint32_t> replaced_;
+  uint32_t float_ = 0;
+};
+
+}  // namespace
+
+std::vector<uint32_t> call_for_arithmetic(std::span<const uint32_t> spirv, std::string_view prefix) {
+  return Caller(spirv, prefix).called();
+}
+
+}  // namespace eyeray::engine::gpu
