@@ -37,7 +37,6 @@ NOT_RUN = {
     r"^verify scenes/( |$)": "it takes every scene, as the tests scene.* do",
     r"--video": "it needs ffmpeg",
     r"--checkpoint|--resume": "it is shown being interrupted; tests/cli/long_render.cpp does that",
-    r"[A-Z]{3}|…|<|\$": "it stands for many",
 }
 
 
