@@ -35,11 +35,15 @@ struct GpuOptions {
   bool formula_numbers = false;        // kernels load the numbers of formulas, and so suit other numbers too
   bool optimise = true;                // give the driver an optimised kernel
   std::shared_ptr<Tunables> tunables;  // shaders' constants that a person can move; null: none
+
+  bool operator==(const GpuOptions&) const = default;
 };
 
 struct TwinOptions {
   bool compile = false;    // compile ExecutorOptions::shader_folder's files as C++ (twin_module.hpp)
   std::string sanitizers;  // for compiled modules, as -fsanitize takes them
+
+  bool operator==(const TwinOptions&) const = default;
 };
 
 struct ExecutorOptions {
@@ -50,6 +54,8 @@ struct ExecutorOptions {
   LeftOutPhotons left_out;   // photons that bring no light
   GpuOptions gpu;
   TwinOptions twin;
+
+  bool operator==(const ExecutorOptions&) const = default;
 };
 
 // True if so many samples repay kernels that contain the scene. Kernels without it could serve the next scene

@@ -13,6 +13,8 @@ struct ProfileOptions {
   std::string stack;             // shift | array
   std::string rays;              // packets: trace coherent rays together | lanes: trace each alone
   std::string incoherent;        // incoherent rays: cooperative (four lanes a ray) | lanes | packets
+
+  bool operator==(const ProfileOptions&) const = default;
 };
 
 }  // namespace eyeray::engine::executors

@@ -18,6 +18,8 @@ struct PackOptions {
   // For scenes that come one after the other: the BVHs of the scene before, which are refitted. Null: each
   // BVH is built.
   std::shared_ptr<bvh::BvhHistory> history = nullptr;
+
+  bool operator==(const PackOptions&) const = default;
 };
 
 }  // namespace eyeray::engine::pack

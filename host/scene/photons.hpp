@@ -34,6 +34,7 @@ struct LeftOutPhotons {
     if (sample >= by_sample.size()) return {};
     return by_sample[sample];
   }
+  bool operator==(const LeftOutPhotons&) const = default;
 };
 
 // If the scene sets no radius, the radius is two pixels wide as seen at the middle of all bounded objects, or
