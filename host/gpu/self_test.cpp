@@ -13,7 +13,7 @@ namespace eyeray::engine::gpu {
 namespace {
 
 // The same constants as in kernels/selftest.comp.glsl.
-constexpr uint32_t invocations = 1 << 14;
+constexpr uint32_t invocations = 1 << 16;
 constexpr uint32_t words_an_invocation = 8;
 constexpr uint32_t loop_iterations = 100000;
 constexpr uint32_t denormal = 0x00000100u;

@@ -14,90 +14,80 @@ SHADER_BEGIN
 #define DEVICE_ROOT(a) sqrt(a)
 #endif
 
-// A float of these bits, positive and finite, is significand · 2^(exponent − 150), 2^23 ≤ significand < 2^24.
+// The bits of a positive float as a significand and an exponent: significand · 2^(exponent − 150), 2^23 ≤ significand < 2^24. Zero, infinities and NaN
+// have some.
 struct ExactParts {
   uint significand;
   int exponent;
 };
 ExactParts exact_parts(uint bits) {
   bool normal = bits >= 0x00800000u;
-  int top = int(floatBitsToUint(float(int(bits))) >> 23u) - 127;  // the position of the highest bit
+  uint scaled = floatBitsToUint(float(int(bits)));  // a subnormal number times 2^149
+  scaled = normal ? bits : scaled;
   ExactParts parts;
-  parts.significand = normal ? (bits & 0x007fffffu) | 0x00800000u : bits << uint(23 - top);
-  parts.exponent = normal ? int(bits >> 23u) : top - 22;
+  parts.significand = (scaled & 0x007fffffu) | 0x00800000u;
+  parts.exponent = int(scaled >> 23u) - (normal ? 0 : 149);
   return parts;
 }
 
-// The significand as a float, from 1 to below 2.
-float exact_scaled(ExactParts parts) { return uintBitsToFloat(0x3f800000u | (parts.significand & 0x007fffffu)); }
-
-// The bits of q · 2^(exponent − 152), 2^25 ≤ q < 2^26, rounded to nearest even. `rest`: q is less than the true value, by less than 1.
-uint exact_rounded(uint q, bool rest, int exponent) {
-  if (exponent >= 255) return 0x7f800000u;
-  if (exponent < -26) return 0u;
-  uint shift = exponent > 0 ? 2u : uint(3 - exponent);
-  uint kept = q >> shift;
-  uint low = q & ((1u << shift) - 1u);
-  uint middle = 1u << (shift - 1u);
-  bool up = low > middle || (low == middle && (rest || (kept & 1u) == 1u));
-  return (exponent > 0 ? (uint(exponent) << 23u) + (kept - 0x00800000u) : kept) + (up ? 1u : 0u);
-}
+// The significand of a result from 1 to 2, if it is only about so large.
+uint exact_significand(float result) { return floatBitsToUint(result < 1.0f ? 1.0f : result) - 0x3f000000u; }
 
 float exact_quotient(const float a, const float b) {
   uint sign = (floatBitsToUint(a) ^ floatBitsToUint(b)) & 0x80000000u;
   uint x = floatBitsToUint(a) & 0x7fffffffu;
   uint y = floatBitsToUint(b) & 0x7fffffffu;
-  if (x == 0u || y == 0u || x >= 0x7f800000u || y >= 0x7f800000u) {
-    bool none = x > 0x7f800000u || y > 0x7f800000u || (x == y && (x == 0u || x == 0x7f800000u));
-    bool infinite = x == 0x7f800000u || y == 0u;
-    return uintBitsToFloat(none ? 0xffc00000u : infinite ? sign | 0x7f800000u : sign);
-  }
   ExactParts m = exact_parts(x);
   ExactParts n = exact_parts(y);
+  uint less = uint(m.significand < n.significand);
+  uint dividend = m.significand << less;
 
-  // q = ⌊2^25 m / n⌋, and its remainder.
-  uint q = uint(DEVICE_QUOTIENT(exact_scaled(m), exact_scaled(n)) * 33554432.0f);
+  // q is the nearest integer to dividend / divisor · 2^23, which is never in the middle between two, and twice the remainder shows it. The device's
+  // result is wrong by 2 at most.
   int divisor = int(n.significand);
-  int rest = int((m.significand << 25u) - q * n.significand);
-  int steps = int(floor(float(rest) * DEVICE_QUOTIENT(1.0f, float(divisor))));
+  uint q = exact_significand(DEVICE_QUOTIENT(float(int(dividend)), float(divisor)));
+  int rest = int((dividend << 24u) - q * (n.significand << 1u));
+  int steps = int(rest > divisor) + int(rest > 3 * divisor) - int(rest < -divisor) - int(rest < -3 * divisor);
   q = q + uint(steps);
-  rest = rest - steps * divisor;
-  int more = rest < 0 ? -1 : rest >= divisor ? 1 : 0;
-  q = q + uint(more);
-  rest = rest - more * divisor;
+  rest = rest - steps * (2 * divisor);
 
-  int exponent = m.exponent - n.exponent + 127;
-  if (q < 0x02000000u) {
-    rest = rest + rest;
-    q = q + q + (rest >= divisor ? 1u : 0u);
-    rest = rest >= divisor ? rest - divisor : rest;
-    exponent = exponent - 1;
-  }
-  return uintBitsToFloat(sign | exact_rounded(q, rest != 0, exponent));
+  // A subnormal result has fewer digits: the quotient's, with one for all that follow, are rounded to nearest even.
+  int exponent = m.exponent - n.exponent + 127 - int(less);
+  uint digits = q + q + uint(rest > 0) - uint(rest < 0);
+  int dropped = 2 - (exponent < -24 ? -24 : exponent);
+  uint shift = uint(exponent > 0 ? 2 : dropped);
+  uint subnormal = (digits + (1u << (shift - 1u)) - 1u + ((digits >> shift) & 1u)) >> shift;
+  uint normal = (uint(exponent) << 23u) + (q - 0x00800000u);
+  uint bits = exponent > 0 ? normal : subnormal;
+  bits = (exponent > 254 ? 0x7f800000u : bits) | sign;
+
+  // Quotients of zeros, infinities and NaN are products with the reciprocal.
+  uint special = uint(x - 1u >= 0x7f7fffffu) | uint(y - 1u >= 0x7f7fffffu);
+  uint inverse = y > 0x7f800000u ? y : 0x3f800000u;
+  inverse = y == 0x7f800000u ? 0u : inverse;
+  inverse = y == 0u ? 0x7f800000u : inverse;
+  uint product = floatBitsToUint(uintBitsToFloat(x) * uintBitsToFloat(inverse)) | sign;
+  return uintBitsToFloat(special != 0u ? product : bits);
 }
 
 float exact_root(const float a) {
   uint x = floatBitsToUint(a);
-  if ((x & 0x7fffffffu) == 0u || x == 0x7f800000u) return a;
-  if (x > 0x7f800000u) return uintBitsToFloat(0xffc00000u);
-  ExactParts m = exact_parts(x);
-  bool odd = ((m.exponent - 127) & 1) != 0;
-  int exponent = m.exponent - 127 - (odd ? 1 : 0);
-  uint radicand = odd ? m.significand << 1u : m.significand;
+  ExactParts m = exact_parts(x & 0x7fffffffu);
+  int odd = (m.exponent + 1) & 1;
+  uint radicand = m.significand << uint(odd);
 
-  // q = ⌊2^24 √(radicand / 2^23)⌋, and the rest of its square. It has one bit more than a float. It is never in the middle between two: the square of an
-  // odd number is odd.
-  uint q = uint(DEVICE_ROOT(exact_scaled(m) * (odd ? 2.0f : 1.0f)) * 16777216.0f);
-  int rest = int((radicand << 25u) - q * q);
-  int steps = int(floor(float(rest) * DEVICE_QUOTIENT(0.5f, float(int(q)))));
+  // q is the nearest integer to 2^23 √(radicand / 2^23), which is never in the middle between two: the square of an odd number is odd.
+  uint q = exact_significand(DEVICE_ROOT(float(int(radicand)) * 1.1920929e-7f));
+  int rest = int((radicand << 23u) - q * q);
+  int steps = int(floor(float(rest) * DEVICE_QUOTIENT(0.5f, float(int(q))) + 0.5f));
   rest = rest - steps * (2 * int(q) + steps);
   q = q + uint(steps);
-  if (rest < 0) {
-    q = q - 1u;
-    rest = rest + 2 * int(q) + 1;
-  }
-  q = rest > 2 * int(q) ? q + 1u : q;
-  return uintBitsToFloat((uint(exponent / 2 + 127) << 23u) + ((q >> 1u) - 0x00800000u) + (q & 1u));
+  q = q + uint(rest > int(q)) - uint(rest <= -int(q));
+
+  uint bits = (uint((m.exponent - odd + 127) >> 1) << 23u) + (q - 0x00800000u);
+  // Zeros and infinity are their own roots. Other numbers with a sign, and NaN, have none.
+  bits = x > 0x7f800000u ? 0xffc00000u : bits;
+  return uintBitsToFloat((x & 0x7fffffffu) == 0u ? x : x == 0x7f800000u ? x : bits);
 }
 
 SHADER_END

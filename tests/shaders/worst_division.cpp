@@ -86,7 +86,7 @@ TEST_CASE("corrected quotients are correctly rounded") {
     for (int64_t i = 0; i < each; ++i) {
       const uint64_t number = uint64_t(part) * uint64_t(each) + uint64_t(i);
       const auto [a, b] = operands(number);
-      units = int(mixed(~number) % 7) - 3;
+      units = int(mixed(~number) % 5) - 2;
       if (bits(shader::exact_quotient(a, b)) == bits(a / b)) continue;
       if (wrong++ < 3) FAIL_CHECK(a, " / ", b, ", off by ", units);
     }
@@ -115,7 +115,7 @@ TEST_CASE("corrected roots are correctly rounded") {
     const uint32_t first = uint32_t(part) * of_a_part;
     for (uint32_t i = 0; i < of_a_part; i += step) {
       const float a = std::bit_cast<float>(first + i);
-      units = int(mixed(first + i) % 7) - 3;
+      units = int(mixed(first + i) % 13) - 6;  // Vulkan gives a root the error of 1 / inversesqrt(x)
       if (bits(shader::exact_root(a)) == bits(std::sqrt(a))) continue;
       if (wrong++ < 3) FAIL_CHECK("the root of ", a, ", off by ", units);
     }
