@@ -40,6 +40,7 @@ void add_devices(CLI::App& app, Run& run);
 void add_dev(CLI::App& app, Run& run);
 void add_generate(CLI::App& app, Run& run);
 void add_shaders(CLI::App& app, Run& run);
+void add_kernels(CLI::App& app, Run& run);
 void add_merge(CLI::App& app, Run& run);
 // `sbatch_words`: the words after --.
 void add_slurm(CLI::App& app, Run& run, const std::vector<std::string>& sbatch_words);

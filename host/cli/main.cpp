@@ -68,6 +68,7 @@ int run_command_line(int argc, char** argv) {
   add_devices(app, run);
   add_generate(app, run);
   add_shaders(app, run);
+  add_kernels(app, run);
   add_slurm(app, run, sbatch_words);
   add_new(app, run);
   add_completion(app, run);

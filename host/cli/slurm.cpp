@@ -10,6 +10,7 @@
 #include "host/cli/picture_options.hpp"
 #include "host/core/content_hash.hpp"
 #include "host/core/standard_streams.hpp"
+#include "host/program/json.hpp"
 #include "host/program/option_values.hpp"
 #include "host/session/picture_files.hpp"
 #include "host/slurm/array.hpp"

@@ -12,6 +12,7 @@
 #include "host/core/pixel.hpp"
 #include "host/core/ray_tree.hpp"
 #include "host/core/stopwatch.hpp"
+#include "host/executors/made_kernel.hpp"
 #include "host/executors/options.hpp"
 #include "host/scene/query.hpp"
 #include "host/scene/scene.hpp"
@@ -43,6 +44,7 @@ struct ExecutorFacts {
   // The next two grow as kernels are made. Some kernels are made only when they are first needed.
   uint64_t geometry_bytes = 0;                      // bytes of geometry and the BVHs over it; 0 where unknown
   std::vector<std::filesystem::path> source_files;  // read from the folder of shaders, for a watcher
+  std::vector<MadeKernel> kernels;                  // only if GpuOptions::examines_kernels
 };
 
 // Produces samples of pixels of one scene. Not thread-safe; parallel inside.

@@ -61,6 +61,7 @@ class GpuExecutor final : public Executor {
       make_wavefront(packed, plan);
     else
       sample_kernel_ = kernels_->make("kernels/render.comp.glsl");
+    if (options.gpu.examines_kernels) make_rare_kernels(scene.render.integrator);
     check_validation();
   }
 
@@ -76,7 +77,7 @@ class GpuExecutor final : public Executor {
   }
 
   void first_hits(const Rect& tile, std::span<FirstHit> out) override {
-    if (!hit_kernel_) hit_kernel_ = kernels_->make("kernels/render.comp.glsl", "#define FIRST_HITS\n");
+    make_hit_kernel();
     const auto trace = [&](const shader::Dispatch& push, gpu::Buffer& output) {
       return dispatch(*hit_kernel_, push, output);
     };
@@ -132,10 +133,23 @@ class GpuExecutor final : public Executor {
     return fmt::format("not exact, {}, on {}, {}", text, device_.info().name, device_.info().driver_version);
   }
 
-  // Uses the loop of kernels/render.comp.glsl, even if the picture uses a wavefront.
-  bool sample_auxiliaries(const Grid& grid, uint32_t index, std::span<AuxiliarySample> out) {
+  void make_hit_kernel() {
+    if (!hit_kernel_) hit_kernel_ = kernels_->make("kernels/render.comp.glsl", "#define FIRST_HITS\n");
+  }
+  void make_auxiliary_kernel() {
     if (!auxiliary_kernel_)
       auxiliary_kernel_ = kernels_->make("kernels/render.comp.glsl", "#define AUXILIARY\n");
+  }
+  // Makes the kernels that are made when they are first needed.
+  void make_rare_kernels(IntegratorType integrator) {
+    make_hit_kernel();
+    if (walks_at_random(integrator)) make_auxiliary_kernel();
+    queries_->make_kernels();
+  }
+
+  // Uses the loop of kernels/render.comp.glsl, even if the picture uses a wavefront.
+  bool sample_auxiliaries(const Grid& grid, uint32_t index, std::span<AuxiliarySample> out) {
+    make_auxiliary_kernel();
     const auto trace = [&](const shader::Dispatch& push, gpu::Buffer& output) {
       return dispatch(*auxiliary_kernel_, push, output);
     };
@@ -193,9 +207,10 @@ class GpuExecutor final : public Executor {
     if (options_.gpu.fast_math) how.strict = std::nullopt, how.exact = false;
     // A capped driver grants 65 535 iterations to all loops together (docs/lavapipe.md).
     const uint32_t most_iterations = open_device_->facts().loop_cap ? 50'000 : LoopGuard().most();
-    kernels_.emplace(SceneKernels::Workshop{*open_device_, times_, facts_, how, options_.gpu.tunables.get(),
-                                            most_iterations, options_.ray_kinds},
-                     uploaded_, ShaderFiles(options_.shader_folder, specialise(packed, specialisation)));
+    kernels_.emplace(
+        SceneKernels::Workshop{*open_device_, times_, facts_, how, options_.gpu.tunables.get(),
+                               most_iterations, options_.ray_kinds, options_.gpu.examines_kernels},
+        uploaded_, ShaderFiles(options_.shader_folder, specialise(packed, specialisation)));
     if (specialisation.formula_numbers) uploaded_.add(formula_numbers_buffer(numbers.words()));
     if (!nodes.empty()) kernels_->make_bvh4_of(std::move(nodes), packed.bvhs[0]);
   }

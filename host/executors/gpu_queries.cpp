@@ -22,6 +22,11 @@ double GpuQueries::ask(const QueryBatch& batch, std::span<QueryHit> hits) {
   return seconds;
 }
 
+void GpuQueries::make_kernels() {
+  for (const Rays how : {plan_.coherent, plan_.incoherent})
+    for (const bool any : {false, true}) kernel(how, any);
+}
+
 gpu::Kernel& GpuQueries::kernel(Rays how, bool any) {
   std::shared_ptr<gpu::Kernel>& made = made_[any][size_t(how)];
   if (!made) made = kernels_.make(trace_entries[size_t(how)], any ? "#define QUERY_ANY\n" : "");

@@ -20,6 +20,8 @@ class GpuQueries {
 
   // Executor::query.
   double ask(const QueryBatch& batch, std::span<QueryHit> hits);
+  // Makes the kernels that `ask` would make when they are first needed.
+  void make_kernels();
 
  private:
   gpu::Kernel& kernel(Rays how, bool any);

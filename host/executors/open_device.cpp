@@ -20,12 +20,14 @@ gpu::DeviceOptions device_options(const GpuOptions& options, bool wide_vectors) 
   device.compile_seconds = std::max(options.timeout_seconds, options.least_compile_seconds);
   device.wide_vectors = wide_vectors;
   device.sets_environment = options.sets_environment;
+  device.examines_kernels = options.examines_kernels;
   return device;
 }
 
 OpenDevice::OpenDevice(const GpuOptions& options, bool wide_vectors, StageTimes& times)
     : device_(times.measure("device", [&] { return gpu::Device(device_options(options, wide_vectors)); })),
       facts_(times.measure("self-test", [&] {
+        if (device_.info().compiles_only) return gpu::expected_of_gpus();
         return gpu::self_test(
             device_, [](std::string_view name) { return ShaderFiles({}, "").read(name); }, cache_,
             options.worst_division);

@@ -34,6 +34,7 @@ struct GpuOptions {
   bool constants = true;               // compile the primitives of a small scene into the kernel
   bool formula_numbers = false;        // kernels load the numbers of formulas, and so suit other numbers too
   bool optimise = true;                // give the driver an optimised kernel
+  bool examines_kernels = false;       // make every kernel at once, for ExecutorFacts::kernels
   std::shared_ptr<Tunables> tunables;  // shaders' constants that a person can move; null: none
 
   bool operator==(const GpuOptions&) const = default;

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+#include <sstream>
+
 #include "host/core/error.hpp"
 #include "host/core/free_memory.hpp"
 #include "host/executors/profile.hpp"
@@ -9,7 +13,26 @@
 
 namespace eyeray::engine::executors {
 
+namespace {
+
+// The name of a kernel: "render-first-hits" for "kernels/render.comp.glsl" and "#define FIRST_HITS\n".
+std::string name_of(const std::string& entry, const std::string& defines) {
+  const size_t start = entry.rfind('/') + 1;
+  const std::string stem = entry.substr(start, entry.find('.', start) - start);
+  std::string name = stem;
+  std::istringstream lines(defines);
+  for (std::string directive, define, rest; lines >> directive >> define && std::getline(lines, rest);) {
+    std::ranges::transform(define, define.begin(),
+                           [](char c) { return c == '_' ? '-' : char(std::tolower(c)); });
+    name += define.starts_with(stem + "-") ? define.substr(stem.size()) : "-" + define;
+  }
+  return name;
+}
+
+}  // namespace
+
 std::shared_ptr<gpu::Kernel> SceneKernels::make(const std::string& entry, std::string defines) {
+  const std::string name = name_of(entry, defines);
   if (entry == trace_entries[size_t(Rays::cooperative)]) {
     upload_bvh4();
     defines += fmt::format("#define BVH4_STACK_SIZE {}\n", bvh4_stack_);
@@ -35,6 +58,8 @@ std::shared_ptr<gpu::Kernel> SceneKernels::make(const std::string& entry, std::s
     }
   });
   auto kernel = workshop_.times.measure("pipeline", [&] { return workshop_.device.kernel(spirv, entry); });
+  if (workshop_.examines)
+    workshop_.facts.kernels.push_back({name, spirv, kernel->build_seconds(), kernel->executables()});
   scene_.bind(*kernel);
   if (moves_tunables()) {
     upload_tunables();

@@ -36,6 +36,7 @@ class SceneKernels {
     // The iterations that all counted loops of a user's shaders may make together in one invocation.
     uint32_t most_iterations;
     bool ray_kinds;  // whether kernels count reflected and refracted rays (records.h, SampleResult)
+    bool examines;   // whether to list the kernels among the facts
   };
 
   SceneKernels(const Workshop& workshop, UploadedScene& scene, ShaderFiles files)

@@ -36,11 +36,13 @@ void Context::choose() {
   const std::vector<VkPhysicalDevice> handles = instance->physical_devices();
   std::vector<DeviceInfo> devices;
   for (VkPhysicalDevice handle : handles) devices.push_back(describe(handle, int(devices.size())));
+  if (options.examines_kernels)
+    for (DeviceInfo& each : devices) each.usable = each.usable || each.compiles_only;
   info = choose_device(devices, options.select);
   physical = handles[size_t(info.index)];
   vkGetPhysicalDeviceMemoryProperties(physical, &memory);
   const bool same_memory = info.type == DeviceType::cpu || info.type == DeviceType::integrated;
-  shares_memory = same_memory && !options.force_staging;
+  shares_memory = (same_memory && !options.force_staging) || info.compiles_only;
 }
 
 void Context::create_device() {
@@ -56,7 +58,18 @@ void Context::create_device() {
   auto device_info = make<VkDeviceCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO);
   device_info.queueCreateInfoCount = 1;
   device_info.pQueueCreateInfos = &queue_info;
+  auto statistics = make<VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR>(
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR);
+  const char* const extension = VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME;
+  keeps_statistics = options.examines_kernels && has_kernel_statistics(physical);
+  if (keeps_statistics) {
+    statistics.pipelineExecutableInfo = VK_TRUE;
+    device_info.pNext = &statistics;
+    device_info.enabledExtensionCount = 1;
+    device_info.ppEnabledExtensionNames = &extension;
+  }
   check(vkCreateDevice(physical, &device_info, nullptr, &device), "create a device");
+  if (info.compiles_only) return;
   vkGetDeviceQueue(device, family.index, 0, &queue);
 
   auto pool_info = make<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);

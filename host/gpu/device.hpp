@@ -44,6 +44,7 @@ struct DeviceInfo {
   std::string driver_id;       // changes with anything that makes a compiled pipeline stale; hexadecimal
   DeviceType type = DeviceType::other;
   bool slow_compiler = false;  // branches in loops take it minutes and many gigabytes, if it ends at all
+  bool compiles_only = false;  // null hardware: a driver that compiles kernels for a device that is not there
   bool usable = false;
   std::string why_not;  // reasons, when not usable
   DeviceLimits limits;
@@ -63,6 +64,8 @@ struct DeviceOptions {
   bool sets_environment = true;  // whether a process's first device may set the environment for its driver
   bool draws = false;            // open a queue that also suits Rasterizer, if there is one
   bool force_staging = false;    // tests: copy through staging buffers even where memory is shared
+  // Compile each kernel anew, with the driver's statistics if it has any; null hardware suffices.
+  bool examines_kernels = false;
 };
 
 struct Context;

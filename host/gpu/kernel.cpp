@@ -1,9 +1,11 @@
 #include "host/gpu/kernel.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "host/core/content_hash.hpp"
 #include "host/core/error.hpp"
+#include "host/core/stopwatch.hpp"
 #include "host/core/termination.hpp"
 #include "host/gpu/kernel_objects.hpp"
 #include "host/gpu/raw_buffer.hpp"
@@ -148,15 +150,21 @@ void Kernel::create_pipeline(std::span<const uint32_t> spirv, const DiskCache& d
   info.stage.module = module.handle();
   info.stage.pName = "main";
   info.layout = objects_->layout;
-  const PipelineCache cache(*context_, spirv, disk);
+  // A kernel whose build is examined is built anew.
+  if (context_->keeps_statistics) info.flags = VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR;
+  std::optional<PipelineCache> cache;
+  if (!context_->options.examines_kernels) cache.emplace(*context_, spirv, disk);
   const std::string what = fmt::format("build kernel '{}'", name_);
   {
     const double limit = context_->options.compile_seconds;
     const ForeignCall compiler(limit, context_->time_out(what, limit));
-    check(vkCreateComputePipelines(context_->device, cache.handle(), 1, &info, nullptr, &objects_->pipeline),
+    const Stopwatch watch;
+    check(vkCreateComputePipelines(context_->device, cache ? cache->handle() : VK_NULL_HANDLE, 1, &info,
+                                   nullptr, &objects_->pipeline),
           what);
+    build_seconds_ = watch.seconds();
   }
-  cache.save();
+  if (cache) cache->save();
 }
 
 void Kernel::check_interface(size_t push_constant_bytes) const {

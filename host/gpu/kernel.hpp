@@ -5,9 +5,11 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "host/core/disk_cache.hpp"
 #include "host/gpu/buffer.hpp"
+#include "host/gpu/executable.hpp"
 #include "host/gpu/reflect.hpp"
 
 namespace eyeray::engine::gpu {
@@ -27,6 +29,11 @@ class Kernel {
   const std::string& name() const { return name_; }
   const Reflection& reflection() const { return reflection_; }
   bool uses(uint32_t binding) const;
+  // The seconds that the driver took to build the kernel. Some drivers compile it only when it first runs.
+  double build_seconds() const { return build_seconds_; }
+  // The driver's programs for this kernel. Empty unless DeviceOptions::examines_kernels is set and the driver
+  // has VK_KHR_pipeline_executable_properties.
+  std::vector<Executable> executables() const;
 
   // Binds `buffer`, which must outlive the kernel's dispatches. A binding that the shader does not have is
   // ignored.
@@ -51,6 +58,7 @@ class Kernel {
   std::string name_;
   Reflection reflection_;
   std::unique_ptr<Objects> objects_;
+  double build_seconds_ = 0;
 };
 
 }  // namespace eyeray::engine::gpu

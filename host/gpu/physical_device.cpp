@@ -110,10 +110,28 @@ DeviceInfo describe(VkPhysicalDevice device, int index) {
   else
     info.why_not = fmt::format("it supports Vulkan {}, but eyeray needs 1.1", info.api_version);
   info.driver_id = driver_id(properties, info.limits.subgroup_size);
-  if (!compute_queue_family(device))
-    info.why_not += info.why_not.empty() ? "it has no compute queue" : "; it has no compute queue";
+  const auto add_reason = [&info](std::string_view reason) {
+    info.why_not += fmt::format("{}{}", info.why_not.empty() ? "" : "; ", reason);
+  };
+  if (!compute_queue_family(device)) add_reason("it has no compute queue");
+  info.compiles_only = info.name.starts_with("Null hardware");  // RADV's name, under RADV_FORCE_FAMILY
+  if (info.compiles_only) {
+    add_reason("it compiles kernels, but runs none");
+    info.limits.heap = info.limits.allocation;  // in the processor's memory
+  }
   info.usable = info.why_not.empty();
   return info;
+}
+
+bool has_kernel_statistics(VkPhysicalDevice device) {
+  uint32_t count = 0;
+  if (vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr) != VK_SUCCESS) return false;
+  std::vector<VkExtensionProperties> extensions(count);
+  if (vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data()) != VK_SUCCESS)
+    return false;
+  return std::ranges::any_of(extensions, [](const VkExtensionProperties& each) {
+    return std::string_view(each.extensionName) == VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME;
+  });
 }
 
 std::optional<QueueFamily> compute_queue_family(VkPhysicalDevice device) {

@@ -10,6 +10,9 @@ namespace eyeray::engine::gpu {
 // A device's identity and abilities, and whether it suffices for eyeray: Vulkan 1.1 and a compute queue.
 DeviceInfo describe(VkPhysicalDevice device, int index);
 
+// True if the driver states statistics of its compiled kernels (VK_KHR_pipeline_executable_properties).
+bool has_kernel_statistics(VkPhysicalDevice device);
+
 // A queue family that computes, preferably one without graphics. Its timestamps' width is 0 if it has none.
 struct QueueFamily {
   uint32_t index = 0;

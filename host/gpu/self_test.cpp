@@ -145,4 +145,11 @@ DeviceFacts self_test(Device& device, const SourceProvider& shaders, const DiskC
   return facts;
 }
 
+DeviceFacts expected_of_gpus() {
+  return {.loop_iterations = loop_iterations,
+          .denormals_kept = true,
+          .infinities_kept = true,
+          .exact_arithmetic = true};
+}
+
 }  // namespace eyeray::engine::gpu

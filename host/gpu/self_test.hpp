@@ -27,4 +27,7 @@ struct DeviceFacts {
 DeviceFacts self_test(Device& device, const SourceProvider& shaders, const DiskCache& cache,
                       bool worst = false);
 
+// The facts that a GPU is expected to have, for one that is not there to be tested.
+DeviceFacts expected_of_gpus();
+
 }  // namespace eyeray::engine::gpu
