@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <map>
@@ -90,11 +89,8 @@ Json to_json(const gpu::Executable& program) {
   Json statistics = Json::object();
   for (const gpu::Statistic& each : program.statistics) {
     const auto* const column = std::ranges::find(columns, each.name, &Column::driver);
-    Json& value = statistics[std::string(column == columns.end() ? each.name : column->key)];
-    if (each.value == std::floor(each.value) && std::fabs(each.value) < 0x1p53)
-      value = int64_t(each.value);
-    else
-      value = each.value;
+    const std::string key(column == columns.end() ? each.name : column->key);
+    std::visit([&](const auto value) { statistics[key] = value; }, each.value);
   }
   return {{"name", program.name}, {"subgroup_size", program.subgroup_size}, {"statistics", statistics}};
 }
@@ -116,6 +112,7 @@ Json to_json(const std::string& scene, const executors::ExecutorFacts& facts) {
           {"device", device.name},
           {"driver", device.driver},
           {"driver_version", device.driver_version},
+          {"description", facts.description},
           {"kernels", kernels}};
 }
 
@@ -125,20 +122,19 @@ void write_spirv(const fs::path& folder, const std::vector<executors::MadeKernel
     write_file_atomically(folder / (kernel.name + ".spv"), std::as_bytes(std::span(kernel.spirv)));
 }
 
-// Title and JSON key of each statistic in the table: RADV's known ones, else all of another driver.
+// Title and JSON key of each statistic in the table: RADV's, as far as the driver has them, or else all.
 std::vector<std::pair<std::string, std::string>> statistics_of(const Json& kernels) {
-  std::vector<std::pair<std::string, std::string>> known, own;
-  for (const Json& kernel : kernels) {
-    for (const Json& program : kernel.at("programs")) {
-      for (const auto& [key, value] : program.at("statistics").items()) {
-        const auto* const column = std::ranges::find(columns, key, &Column::key);
-        auto& list = column == columns.end() ? own : known;
-        const std::pair<std::string, std::string> row(column == columns.end() ? key : column->title, key);
-        if (std::ranges::find(list, row) == list.end()) list.push_back(row);
-      }
-    }
-  }
-  return known.empty() ? own : known;
+  std::vector<std::string> keys;
+  for (const Json& kernel : kernels)
+    for (const Json& program : kernel.at("programs"))
+      for (const auto& [key, value] : program.at("statistics").items())
+        if (std::ranges::find(keys, key) == keys.end()) keys.push_back(key);
+  std::vector<std::pair<std::string, std::string>> shown;
+  for (const Column& column : columns)
+    if (std::ranges::find(keys, column.key) != keys.end()) shown.emplace_back(column.title, column.key);
+  if (shown.empty())
+    for (const std::string& key : keys) shown.emplace_back(key, key);
+  return shown;
 }
 
 void print_table(const Json& answer) {
@@ -160,9 +156,8 @@ void print_table(const Json& answer) {
     for (const Json& program : programs) add(program.at("statistics"));
   }
 
-  print_lines(stdout, "{} on {}, {} {}\n", answer.at("scene").get<std::string>(),
-              answer.at("device").get<std::string>(), answer.at("driver").get<std::string>(),
-              answer.at("driver_version").get<std::string>());
+  print_lines(stdout, "{}, {}\n", answer.at("scene").get<std::string>(),
+              answer.at("description").get<std::string>());
   std::vector<size_t> widths(rows[0].size());
   for (const auto& row : rows)
     for (size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());

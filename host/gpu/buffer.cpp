@@ -61,6 +61,7 @@ Buffer::Buffer(Device& device, size_t bytes, std::string name, BindingKind kind)
   if (total > std::min(limits.allocation, limits.heap))
     throw Error(ExitCode::no_device, "buffer '{}' has {} bytes, but {} has memory for {} (heap of {})", name_,
                 bytes_, context_->info.name, limits.allocation, limits.heap);
+  if (context_->info.compiles_only) return;
   raw_ = std::make_unique<RawBuffer>(
       context_, total, context_->shares_memory ? MemoryKind::shared : MemoryKind::device, name_);
   std::byte* all = staging();
@@ -78,13 +79,14 @@ void Buffer::upload(std::span<const std::byte> bytes, size_t offset) {
   CHECK_LE(bytes.size(), bytes_);
   CHECK_LE(offset, bytes_ - bytes.size());
   CHECK_EQ(offset % 4 + bytes.size() % 4, 0u);
-  if (bytes.empty()) return;
+  if (bytes.empty() || !raw_) return;
   std::memcpy(staging() + guard_ + offset, bytes.data(), bytes.size());
   copy_to_device(guard_ + offset, bytes.size());
 }
 
 void Buffer::clear(size_t bytes) {
   CHECK_LE(bytes, bytes_);
+  if (!raw_) return;
   if (raw_->mapped()) {
     std::memset(raw_->mapped() + guard_, 0, bytes);
     return;

@@ -69,7 +69,7 @@ class Buffer {
   BindingKind kind_;
   size_t bytes_ = 0;
   size_t guard_ = 0;                    // bytes of each guard
-  std::unique_ptr<RawBuffer> raw_;      // guard, payload, guard
+  std::unique_ptr<RawBuffer> raw_;      // guard, payload, guard; null if no kernel runs (compiles_only)
   std::unique_ptr<RawBuffer> staging_;  // a mapped copy of raw_; null if memory is shared, or before any copy
 };
 

@@ -42,7 +42,7 @@ void Context::choose() {
   physical = handles[size_t(info.index)];
   vkGetPhysicalDeviceMemoryProperties(physical, &memory);
   const bool same_memory = info.type == DeviceType::cpu || info.type == DeviceType::integrated;
-  shares_memory = (same_memory && !options.force_staging) || info.compiles_only;
+  shares_memory = same_memory && !options.force_staging;
 }
 
 void Context::create_device() {

@@ -5,14 +5,14 @@
 namespace eyeray::engine::gpu {
 namespace {
 
-double value_of(const VkPipelineExecutableStatisticKHR& statistic) {
+decltype(Statistic::value) value_of(const VkPipelineExecutableStatisticKHR& statistic) {
   switch (statistic.format) {
     case VK_PIPELINE_EXECUTABLE_STATISTIC_FORMAT_BOOL32_KHR:
-      return statistic.value.b32;
+      return statistic.value.b32 == VK_TRUE;
     case VK_PIPELINE_EXECUTABLE_STATISTIC_FORMAT_INT64_KHR:
-      return double(statistic.value.i64);
+      return statistic.value.i64;
     case VK_PIPELINE_EXECUTABLE_STATISTIC_FORMAT_UINT64_KHR:
-      return double(statistic.value.u64);
+      return statistic.value.u64;
     default:
       return statistic.value.f64;
   }

@@ -3,13 +3,14 @@
 
 #include <cstdint>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace eyeray::engine::gpu {
 
 struct Statistic {
   std::string name;  // the driver's word: "VGPRs"
-  double value = 0;
+  std::variant<bool, int64_t, uint64_t, double> value;
 };
 
 // Most drivers make one program of a compute kernel.

@@ -201,6 +201,7 @@ void Kernel::bind(uint32_t binding, const Buffer& buffer, size_t offset, size_t 
                 "kernel '{}' declares binding {} as a {} buffer, but eyeray binds the other kind: declare it "
                 "as eyeray's own kernels/bindings.glsl does",
                 name_, binding, kind == BindingKind::texels ? "texel" : "storage");
+  if (context_->info.compiles_only) return;  // buffers have no memory there
   const VkDescriptorBufferInfo info{buffer.raw().handle(), offset, bytes};
   VkBufferView view = VK_NULL_HANDLE;
   auto write = make<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);

@@ -50,9 +50,9 @@ std::set<std::string> completed_by_bash(const std::string& script, const std::ve
   return {offered.begin(), offered.end()};
 }
 
-const std::vector<std::string> commands = {"render", "verify",     "compare",         "probe",   "check",
-                                           "dev",    "devices",    "generate",        "shaders", "new",
-                                           "manual", "completion", "generate terrain"};
+const std::vector<std::string> commands = {"render",  "verify",  "compare",    "probe",           "check",
+                                           "dev",     "devices", "generate",   "shaders",         "new",
+                                           "kernels", "manual",  "completion", "generate terrain"};
 
 }  // namespace
 

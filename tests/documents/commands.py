@@ -34,6 +34,7 @@ NOT_RUN = {
     r"^bench\b": "it measures for minutes",
     r"^dev\b": "it serves until somebody ends it",
     r"^slurm\b": "it needs a cluster; tests/slurm has one that is made up",
+    r"^kernels .*--compare": "the shell writes its old.json",
     r"^verify scenes/( |$)": "it takes every scene, as the tests scene.* do",
     r"--video": "it needs ffmpeg",
     r"--checkpoint|--resume": "it is shown being interrupted; tests/cli/long_render.cpp does that",
