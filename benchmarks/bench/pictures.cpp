@@ -31,12 +31,23 @@ std::optional<fs::path> scene_for_povray(const fs::path& scene, const PictureOpt
   return std::nullopt;
 }
 
-std::vector<std::string> arguments(const fs::path& scene, const std::string& backend,
-                                   const PictureOptions& options) {
-  std::vector<std::string> words{scene.string(), "--backend", backend, "--device", options.device};
+std::vector<std::string> arguments(const fs::path& scene, const PictureOptions& options) {
+  std::vector<std::string> words{scene.string(), "--device", options.device};
   words.insert(words.end(), {"--spp", std::to_string(options.samples)});
   for (const std::string& define : options.defines) words.insert(words.end(), {"-D", define});
   return words;
+}
+
+std::string size_of(const PictureOptions& options) {
+  return fmt::format("{}x{}", options.width, options.height);
+}
+
+// The kernels of the pictures, as JSON.
+std::string list_kernels(const fs::path& scene, const PictureOptions& options) {
+  std::vector<std::string> words = arguments(scene, options);
+  words.insert(words.begin(), "kernels");
+  words.insert(words.end(), {"-s", size_of(options), "--json"});
+  return run_eyeray(words).out;
 }
 
 // All contenders take turns, so that a change of the machine's speed affects them all.
@@ -47,12 +58,11 @@ std::vector<Series> measure(const fs::path& scene, const PictureOptions& options
   for (const std::string& backend : options.backends) all.push_back({backend, {}});
   if (pov) all.push_back({"povray", {}});
 
-  const std::string size = fmt::format("{}x{}", options.width, options.height);
   const auto run_once = [&](const std::string& name) {
     if (name == "povray")
       return run_povray(*pov, options.width, options.height, scratch.path() / "povray.png");
-    std::vector<std::string> words = arguments(scene, name, options);
-    words.insert(words.end(), {"-s", size});
+    std::vector<std::string> words = arguments(scene, options);
+    words.insert(words.end(), {"--backend", name, "-s", size_of(options)});
     return run_render(words, scratch.path() / "eyeray.png");
   };
   if (options.backends.front() == "gpu") run_once("gpu");  // fills the caches
@@ -66,7 +76,7 @@ std::vector<Series> measure(const fs::path& scene, const PictureOptions& options
 // Measures the time from nothing to a written 640×480 picture, without and with the caches of earlier runs.
 std::vector<Series> measure_start(const fs::path& scene, const PictureOptions& options) {
   Series cold{"cold start", {}}, warm{"warm start", {}};
-  std::vector<std::string> words = arguments(scene, "gpu", options);
+  std::vector<std::string> words = arguments(scene, options);
   words.insert(words.end(), {"-s", "640x480"});
   for (int i = 0; i < options.runs && worth_repeating(cold); ++i) {
     const ScratchFolder caches;
@@ -107,12 +117,14 @@ PictureReport measure_pictures(const std::string& name, const fs::path& scene,
                        .runs = options.runs,
                        .primitives = options.primitives,
                        .series = {},
-                       .povray = {}};
+                       .povray = {},
+                       .kernels = {}};
   const std::vector<Series> all = measure(scene, options);
   for (const Series& series : all) report.series.push_back(report_on(series));
   if (options.start)
     for (const Series& series : measure_start(scene, options)) report.series.push_back(report_on(series));
   report.povray = povray_ratio(all);
+  if (options.backends.front() == "gpu") report.kernels = list_kernels(scene, options);
   return report;
 }
 

@@ -51,6 +51,7 @@ struct PictureReport {
   uint64_t primitives = 0;
   std::vector<SeriesReport> series;
   std::optional<PovrayRatio> povray;  // set if both ran
+  std::string kernels;                // output of `eyeray kernels --json`; empty without the gpu
 };
 
 // Measures the scene file, called `name` in the report. Error when a run fails.

@@ -46,6 +46,7 @@ Json to_json(const PictureReport& report) {
   if (report.povray)
     json["times_faster_than_povray"] = {{"tracing", report.povray->tracing},
                                         {"whole process", report.povray->whole_process}};
+  if (!report.kernels.empty()) json["kernels"] = Json::parse(report.kernels).at("kernels");
   return json;
 }
 

@@ -24,6 +24,7 @@ std::string name_of(const std::string& entry, const std::string& defines) {
   for (std::string directive, define, rest; lines >> directive >> define && std::getline(lines, rest);) {
     std::ranges::transform(define, define.begin(),
                            [](char c) { return c == '_' ? '-' : char(std::tolower(c)); });
+    if (define.ends_with("-" + stem)) continue;  // SENDS_PHOTONS of photons.comp.glsl
     name += define.starts_with(stem + "-") ? define.substr(stem.size()) : "-" + define;
   }
   return name;

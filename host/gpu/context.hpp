@@ -38,7 +38,7 @@ struct Context {
   VkPhysicalDeviceMemoryProperties memory{};
   bool shares_memory = false;
   bool draws = false;             // whether the queue can draw
-  bool keeps_statistics = false;  // of each kernel, for Kernel::executables
+  bool keeps_statistics = false;  // kernels keep statistics, for Kernel::executables
   VkDevice device = VK_NULL_HANDLE;
   VkQueue queue = VK_NULL_HANDLE;  // null on hardware that only compiles, as are the next four
   VkCommandPool pool = VK_NULL_HANDLE;

@@ -146,6 +146,7 @@ TEST_CASE("a mesh is measured from file to picture, and compared with POV-Ray an
   CHECK(pictures[0].at("primitives") == 51200);
   const bool povray = std::system("povray --version > /dev/null 2>&1") == 0;
   for (const auto& picture : pictures) {
+    CHECK(picture.at("kernels").at(0).at("name") == "render");
     std::vector<std::string> names;
     for (const auto& series : picture.at("series")) {
       names.push_back(series.at("name"));
