@@ -188,17 +188,18 @@ Figures figures_of(const Json& answer) {
   return figures;
 }
 
-// The figures that differ from those of an earlier answer: {"kernel", "figure", "old", "new"}. null: one side
-// lacks it. Error (file_io) if the file is not such an answer.
-Json changes_since(const std::string& old_file, const Json& answer) {
-  const std::string text = read_file(old_file);
-  Figures before;
+// The figures in a file that has an earlier answer. Error (file_io) if it has none.
+Figures read_figures(const std::string& file) {
+  const std::string text = read_file(file);
   try {
-    before = figures_of(Json::parse(unless_too_deep(text)));
+    return figures_of(Json::parse(unless_too_deep(text)));
   } catch (const Json::exception&) {
-    throw Error(ExitCode::file_io, "{}: it is not the output of eyeray kernels --json", old_file);
+    throw Error(ExitCode::file_io, "{}: it is not the output of eyeray kernels --json", file);
   }
-  const Figures after = figures_of(answer);
+}
+
+// The figures that differ: {"kernel", "figure", "old", "new"}. null: one side lacks it.
+Json changes_between(const Figures& before, const Figures& after) {
   Figures all = before;
   all.insert(after.begin(), after.end());
   const auto value_in = [](const Figures& figures, const auto& key) {
@@ -224,6 +225,7 @@ void print_changes(const std::string& old_file, const Json& changes) {
 }
 
 ExitCode KernelsCommand::run() {
+  const Figures before = old_file.empty() ? Figures() : read_figures(old_file);
   const Scene loaded = scene.load();
   if (!family.empty()) {
     make_null_hardware(family);
@@ -234,7 +236,7 @@ ExitCode KernelsCommand::run() {
   const auto made = executors::make_executor(executors::Backend::gpu, loaded, executor);
   if (!spirv_folder.empty()) write_spirv(spirv_folder, made->facts().kernels);
   Json answer = to_json(scene.file(), made->facts());
-  const Json changes = old_file.empty() ? Json::array() : changes_since(old_file, answer);
+  const Json changes = old_file.empty() ? Json::array() : changes_between(before, figures_of(answer));
   if (json) {
     if (!old_file.empty()) answer["changes"] = changes;
     print_json(answer);
@@ -264,7 +266,7 @@ void add_kernels(CLI::App& app, Run& run) {
   command
       ->add_option("--family", options->family,
                    "Compile for an AMD GPU that the machine lacks, by Mesa's RADV: navi21, gfx1100, vega10, "
-                   "polaris10, …")
+                   "polaris10 and others.")
       ->option_text("NAME")
       ->excludes("--device")
       ->group("Device");
