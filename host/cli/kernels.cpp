@@ -10,6 +10,7 @@
 
 #include "host/cli/command.hpp"
 #include "host/core/atomic_file.hpp"
+#include "host/core/escaped_text.hpp"
 #include "host/core/json_depth.hpp"
 #include "host/core/make_folder.hpp"
 #include "host/core/process.hpp"
@@ -147,8 +148,8 @@ void print_table(const Json& answer) {
     const auto add = [&](const Json& program) {
       std::vector<std::string>& row = rows.emplace_back(1, kernel.at("name"));
       for (const auto& [title, key] : statistics)
-        row.push_back(program.contains(key) ? program.at(key).dump() : "");
-      row.push_back(kernel.at("spirv_bytes").dump());
+        row.push_back(program.contains(key) ? json_text(program.at(key)) : "");
+      row.push_back(json_text(kernel.at("spirv_bytes")));
       row.push_back(fmt::format("{:.2f} s", kernel.at("build_seconds").get<double>()));
     };
     const Json& programs = kernel.at("programs");
@@ -218,7 +219,9 @@ Json changes_between(const Figures& before, const Figures& after) {
 void print_changes(const std::string& old_file, const Json& changes) {
   if (changes.empty()) print_lines(stdout, "\nNo figure differs from {}.\n", old_file);
   if (!changes.empty()) print_lines(stdout, "\nThese figures differ from {}:\n", old_file);
-  const auto text_of = [](const Json& value) { return value.is_null() ? "none" : value.dump(); };
+  const auto text_of = [](const Json& value) {
+    return value.is_null() ? std::string("none") : json_text(value);
+  };
   for (const Json& change : changes)
     print_lines(stdout, "  {}: {} {} -> {}\n", change.at("kernel").get<std::string>(),
                 change.at("figure").get<std::string>(), text_of(change.at("old")), text_of(change.at("new")));
