@@ -23,6 +23,8 @@ struct DeviceLimits {
   uint32_t group_invocations = 0;        // invocations of one work group in all
   uint32_t shared_memory = 0;            // bytes of one work group
   uint32_t push_constants = 0;           // bytes
+  uint32_t storage_buffers = 0;          // a kernel may have so many
+  uint32_t texel_buffers = 0;            // a kernel may have so many
   uint32_t subgroup_size = 0;
   uint32_t drawn_size = 0;     // pixels of the longest side of a picture that the device can draw
   uint32_t subpixel_bits = 0;  // the device rounds the vertices that it draws to 2^−bits of a pixel

@@ -5,6 +5,7 @@
 
 #include "host/core/content_hash.hpp"
 #include "host/core/error.hpp"
+#include "host/core/option_text.hpp"
 #include "host/core/stopwatch.hpp"
 #include "host/core/termination.hpp"
 #include "host/gpu/kernel_objects.hpp"
@@ -25,6 +26,16 @@ void check_limits(const Reflection& reflection, const DeviceInfo& device, const 
   if (reflection.push_constant_bytes > device.limits.push_constants)
     throw Error(ExitCode::no_device, "kernel '{}' has {} bytes of push constants, but {} takes at most {}",
                 name, reflection.push_constant_bytes, device.name, device.limits.push_constants);
+  const auto texels = std::ranges::count(reflection.bindings, BindingKind::texels,
+                                         &std::pair<const uint32_t, BindingKind>::second);
+  const auto storage = ptrdiff_t(reflection.bindings.size()) - texels;
+  if (storage > device.limits.storage_buffers || texels > device.limits.texel_buffers)
+    throw Error(
+        ExitCode::no_device,
+        "kernel '{}' has {} storage buffers and {} texel buffers, but {} lets a kernel have at most {} "
+        "and {}: choose another device with {}",
+        name, storage, texels, device.name, device.limits.storage_buffers, device.limits.texel_buffers,
+        option_text("device"));
 }
 
 VkDescriptorType descriptor_type(BindingKind kind) {

@@ -93,6 +93,11 @@ DeviceInfo describe(VkPhysicalDevice device, int index) {
   info.limits.group_invocations = limits.maxComputeWorkGroupInvocations;
   info.limits.shared_memory = limits.maxComputeSharedMemorySize;
   info.limits.push_constants = limits.maxPushConstantsSize;
+  info.limits.storage_buffers =
+      std::min({limits.maxPerStageDescriptorStorageBuffers, limits.maxDescriptorSetStorageBuffers,
+                limits.maxPerStageResources});
+  info.limits.texel_buffers = std::min({limits.maxPerStageDescriptorStorageImages,
+                                        limits.maxDescriptorSetStorageImages, limits.maxPerStageResources});
   info.limits.drawn_size =
       std::min({limits.maxFramebufferWidth, limits.maxFramebufferHeight, limits.maxImageDimension2D,
                 limits.maxViewportDimensions[0], limits.maxViewportDimensions[1]});
