@@ -73,6 +73,7 @@ Json json_of(const Result& picture, size_t parts) {
             {"sampling_processor_seconds", totals.processor_seconds},
             {"rays_per_second", picture.rays_per_second()},
             {"stages", program::to_json(picture.times)},
+            {"longest_dispatch", picture.longest_dispatch},
             {"peak_memory", peak_memory()},
             {"flagged_pixels", totals.flagged_pixels},
             {"flagged_hits", picture.flagged_hits},

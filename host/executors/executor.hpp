@@ -41,6 +41,9 @@ struct ExecutorFacts {
   // CPU.
   std::shared_ptr<OpenDevice> device;
 
+  // Seconds of the longest dispatch of photons or of a tile so far; 0 without a device.
+  double longest_dispatch = 0;
+
   // The next two grow as kernels are made. Some kernels are made only when they are first needed.
   uint64_t geometry_bytes = 0;                      // bytes of geometry and the BVHs over it; 0 where unknown
   std::vector<std::filesystem::path> source_files;  // read from the folder of shaders, for a watcher

@@ -7,7 +7,6 @@
 #include "host/core/error.hpp"
 #include "host/core/parallel_for.hpp"
 #include "host/core/termination.hpp"
-#include "host/executors/dispatch_size.hpp"
 #include "host/executors/executors.hpp"
 #include "host/executors/gpu_queries.hpp"
 #include "host/executors/loop_budget.hpp"
@@ -19,6 +18,7 @@
 #include "host/executors/scene_kernels.hpp"
 #include "host/executors/shader_probe.hpp"
 #include "host/executors/specialise.hpp"
+#include "host/executors/tile_size.hpp"
 #include "host/executors/trace_plan.hpp"
 #include "host/executors/wavefront.hpp"
 #include "host/executors/workgroups.hpp"
@@ -39,7 +39,10 @@ class GpuExecutor final : public Executor {
         open_device_(std::move(open_device)),
         device_(open_device_->device()),
         profile_(choose_profile(options.gpu.profile, device_.info())),
-        uploaded_(device_, profile_.texel_buffers) {
+        uploaded_(device_, profile_.texel_buffers),
+        sample_size_(device_.info()),
+        auxiliary_size_(device_.info()),
+        hit_size_(device_.info()) {
     times_ = times;
     facts_.description = description();
     facts_.arithmetic = arithmetic();
@@ -71,7 +74,7 @@ class GpuExecutor final : public Executor {
     const auto trace = [&](const shader::Dispatch& push, gpu::Buffer& output) {
       return wavefront_ ? wavefront_->run(push, output) : dispatch(*sample_kernel_, push, output);
     };
-    return for_bands<shader::SampleResult>(grid, index, trace,
+    return for_tiles<shader::SampleResult>(grid, index, sample_size_, trace,
                                            [&](size_t first, auto results) { take(results, first, out); }) &&
            (auxiliaries.empty() || sample_auxiliaries(grid, index, auxiliaries));
   }
@@ -81,7 +84,7 @@ class GpuExecutor final : public Executor {
     const auto trace = [&](const shader::Dispatch& push, gpu::Buffer& output) {
       return dispatch(*hit_kernel_, push, output);
     };
-    for_bands<shader::HitResult>(tile, 0, trace, [&](size_t first, auto results) {
+    for_tiles<shader::HitResult>(tile, 0, hit_size_, trace, [&](size_t first, auto results) {
       for (size_t i = 0; i < results.size(); ++i) {
         check_traced(results[i].flags, device_.info().driver_version);
         out[first + i] = to_first_hit(results[i], eye_, options_.search_cost);
@@ -102,7 +105,8 @@ class GpuExecutor final : public Executor {
       return dispatch(*kernel, push, output);
     };
     Probed result;
-    for_bands<shader::SampleResult>(Rect{x, y, 1, 1}, index, trace, [&](size_t, auto results) {
+    TileSize size(device_.info());
+    for_tiles<shader::SampleResult>(Rect{x, y, 1, 1}, index, size, trace, [&](size_t, auto results) {
       result.sample = to_sample(results[0], true);
     });
     stop_if_interrupted();
@@ -153,17 +157,21 @@ class GpuExecutor final : public Executor {
     const auto trace = [&](const shader::Dispatch& push, gpu::Buffer& output) {
       return dispatch(*auxiliary_kernel_, push, output);
     };
-    return for_bands<shader::AuxiliaryResult>(grid, index, trace, [&](size_t first, auto results) {
-      for (size_t i = 0; i < results.size(); ++i) {
-        check_traced(results[i].flags, device_.info().driver_version);
-        out[first + i] = to_auxiliary(results[i]);
-      }
-    });
+    return for_tiles<shader::AuxiliaryResult>(
+        grid, index, auxiliary_size_, trace, [&](size_t first, auto results) {
+          for (size_t i = 0; i < results.size(); ++i) {
+            check_traced(results[i].flags, device_.info().driver_version);
+            out[first + i] = to_auxiliary(results[i]);
+          }
+        });
   }
 
   // Emits the photons of sample `index`, if the integrator gathers photons. Returns false if interrupted.
   bool send_out_photons(uint32_t index) {
-    return !photons_ || photons_->send_out(index, options_.left_out.of(index));
+    if (!photons_) return true;
+    const bool sent = photons_->send_out(index, options_.left_out.of(index));
+    facts_.longest_dispatch = std::max(facts_.longest_dispatch, photons_->longest_dispatch());
+    return sent;
   }
 
   // Converts results into samples, from out[first] on.
@@ -228,36 +236,43 @@ class GpuExecutor final : public Executor {
         options);
   }
 
-  // Calls trace(push, output) for the grid's pixels in bands of rows, and take(first, results) with each
-  // band's results and the index of its first pixel. Returns false when interrupted.
+  // Calls trace(push, output) for the grid's pixels, tile by tile, and take(first, results) with the results
+  // of consecutive pixels and the index of the first. `size` belongs to the kernel. Returns false when
+  // interrupted.
   template <typename Result, typename Trace, typename Take>
-  bool for_bands(const Grid& grid, uint32_t index, const Trace& trace, const Take& take) {
-    const int width = grid.width();
-    for (int row = 0; row < grid.height();) {
+  bool for_tiles(const Grid& grid, uint32_t index, TileSize& size, const Trace& trace, const Take& take) {
+    const auto width = size_t(grid.width());
+    int x = 0;
+    for (int y = 0; y < grid.height();) {
       if (interrupted()) return false;
-      const int height = std::min(dispatch_size_.rows(width), grid.height() - row);
-      const size_t pixels = size_t(height) * size_t(width);
+      const Rect tile = size.next(grid, x, y);
+      const auto pixels = size_t(tile.pixels());
       gpu::Buffer& output = output_for(pixels * sizeof(Result));
       shader::Dispatch push{};
-      push.tile_x = uint32_t(grid.area.x);
-      push.tile_y = uint32_t(grid.area.y + row * grid.stride);
-      push.tile_width = uint32_t(width);
-      push.tile_height = uint32_t(height);
+      push.tile_x = uint32_t(grid.area.x + tile.x * grid.stride);
+      push.tile_y = uint32_t(grid.area.y + tile.y * grid.stride);
+      push.tile_width = uint32_t(tile.width);
+      push.tile_height = uint32_t(tile.height);
       push.sample_index = index;
       push.count = uint32_t(pixels);
       push.stride = uint32_t(grid.stride);
       const std::optional<double> seconds = kernels_->run([&] { return trace(push, output); });
       if (!seconds) return false;
       times_.add("dispatch", *seconds);
-      dispatch_size_.took(int64_t(pixels), *seconds);
+      facts_.longest_dispatch = std::max(facts_.longest_dispatch, *seconds);
+      size.took(grid, tile, *seconds);
 
       times_.measure("read-back", [&] {
         const std::byte* bytes = output.read(pixels * sizeof(Result)).data();
         const std::span results(reinterpret_cast<const Result*>(bytes), pixels);
         kernels_->check_loops(results);
-        take(size_t(row) * size_t(width), results);
+        const size_t run = tile.width == grid.width() ? pixels : size_t(tile.width);
+        for (size_t begin = 0; begin < pixels; begin += run)
+          take((size_t(tile.y) + begin / size_t(tile.width)) * width + size_t(tile.x),
+               results.subspan(begin, run));
       });
-      row += height;
+      x += tile.width;
+      if (x == grid.width()) x = 0, y += tile.height;
     }
     check_validation();
     return true;
@@ -301,7 +316,7 @@ class GpuExecutor final : public Executor {
   std::optional<Wavefront> wavefront_;                          // makes the samples, if it is set,
   std::shared_ptr<gpu::Kernel> sample_kernel_;                  // else this kernel makes them
   std::shared_ptr<gpu::Kernel> auxiliary_kernel_, hit_kernel_;  // null until they are asked for
-  DispatchSize dispatch_size_;
+  TileSize sample_size_, auxiliary_size_, hit_size_;
 };
 
 }  // namespace

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "host/core/error.hpp"
-#include "host/executors/dispatch_size.hpp"
 #include "host/executors/loop_budget.hpp"
 #include "host/executors/samples.hpp"
+#include "host/executors/tile_size.hpp"
 #include "host/gpu/command_list.hpp"
 
 namespace eyeray::engine::executors {
@@ -13,11 +13,16 @@ namespace eyeray::engine::executors {
 double GpuQueries::ask(const QueryBatch& batch, std::span<QueryHit> hits) {
   CHECK_EQ(batch.rays.size(), hits.size());
   const Rays how = batch.coherent ? plan_.coherent : plan_.incoherent;
-  gpu::Kernel& chosen = kernel(how, batch.kind == QueryKind::any);
+  TraceKernel& chosen = kernel(how, batch.kind == QueryKind::any);
   double seconds = 0;
-  for (size_t first = 0; first < batch.rays.size(); first += most_pixels) {
-    const size_t count = std::min(batch.rays.size() - first, size_t{most_pixels});
-    seconds += query_some(chosen, how, batch.rays.subspan(first, count), hits.subspan(first, count));
+  for (size_t first = 0; first < batch.rays.size();) {
+    const int64_t most = gpu::watched(device_.info()) ? chosen.size->items() : most_items;
+    const size_t count = std::min(batch.rays.size() - first, size_t(most));
+    const double some =
+        query_some(*chosen.kernel, how, batch.rays.subspan(first, count), hits.subspan(first, count));
+    chosen.size->took(int64_t(count), some);
+    seconds += some;
+    first += count;
   }
   return seconds;
 }
@@ -27,10 +32,13 @@ void GpuQueries::make_kernels() {
     for (const bool any : {false, true}) kernel(how, any);
 }
 
-gpu::Kernel& GpuQueries::kernel(Rays how, bool any) {
-  std::shared_ptr<gpu::Kernel>& made = made_[any][size_t(how)];
-  if (!made) made = kernels_.make(trace_entries[size_t(how)], any ? "#define QUERY_ANY\n" : "");
-  return *made;
+GpuQueries::TraceKernel& GpuQueries::kernel(Rays how, bool any) {
+  TraceKernel& made = made_[any][size_t(how)];
+  if (!made.kernel) {
+    made.kernel = kernels_.make(trace_entries[size_t(how)], any ? "#define QUERY_ANY\n" : "");
+    made.size.emplace(device_.info(), most_items);
+  }
+  return made;
 }
 
 double GpuQueries::query_some(gpu::Kernel& kernel, Rays how, std::span<const Query> rays,

@@ -7,6 +7,7 @@
 #include "host/executors/scene_kernels.hpp"
 #include "host/executors/trace_plan.hpp"
 #include "host/executors/workgroups.hpp"
+#include "host/gpu/dispatch_size.hpp"
 #include "host/scene/query.hpp"
 
 namespace eyeray::engine::executors {
@@ -24,7 +25,12 @@ class GpuQueries {
   void make_kernels();
 
  private:
-  gpu::Kernel& kernel(Rays how, bool any);
+  struct TraceKernel {
+    std::shared_ptr<gpu::Kernel> kernel;
+    std::optional<gpu::DispatchSize> size;
+  };
+
+  TraceKernel& kernel(Rays how, bool any);
   double query_some(gpu::Kernel& kernel, Rays how, std::span<const Query> rays, std::span<QueryHit> hits);
 
   gpu::Device& device_;
@@ -33,7 +39,7 @@ class GpuQueries {
   Workgroups workgroups_;
   Vec3 eye_;
   std::optional<gpu::Buffer> output_;
-  std::shared_ptr<gpu::Kernel> made_[2][3];  // first index: whether any hit suffices; second: Rays
+  TraceKernel made_[2][3];  // first index: whether any hit suffices; second: Rays
 };
 
 }  // namespace eyeray::engine::executors

@@ -5,6 +5,7 @@
 #include "host/core/error.hpp"
 #include "host/core/termination.hpp"
 #include "host/executors/samples.hpp"
+#include "host/executors/tile_size.hpp"
 #include "host/gpu/command_list.hpp"
 
 namespace eyeray::engine::executors {
@@ -40,6 +41,7 @@ PhotonKernel::PhotonKernel(gpu::Device& device, SceneKernels& kernels, StageTime
       settings_(settings),
       eye_(eye),
       kernel_(kernels.make("kernels/photons.comp.glsl", "#define SENDS_PHOTONS\n")),
+      dispatch_size_(device.info(), most_items),
       pass_(device, sizeof(shader::PhotonPass), "photon pass"),
       results_(device, bytes_of_results(device.info(), settings.count), "photons' results"),
       count_(device, sizeof(uint32_t), "photon count") {
@@ -77,13 +79,14 @@ bool PhotonKernel::trace(uint32_t index) {
     shader::Dispatch push{};
     push.tile_x = first;
     push.sample_index = index;
-    push.count = std::min(uint32_t(dispatch_size_.rows(1)), settings_.count - first);
+    push.count = std::min(uint32_t(dispatch_size_.items()), settings_.count - first);
     const gpu::RunTime time = kernels_.run([&] {
       return gpu::dispatch(device_, *kernel_, std::as_bytes(std::span(&push, 1)),
                            {workgroups_.of_items(push.count), 1, 1});
     });
     times_.add("pipeline", time.compile_seconds);
     times_.add("photons", time.seconds);
+    longest_dispatch_ = std::max(longest_dispatch_, time.seconds);
     dispatch_size_.took(push.count, time.seconds);
     first += push.count;
   }

@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "host/executors/dispatch_size.hpp"
 #include "host/executors/photon_list.hpp"
 #include "host/executors/scene_kernels.hpp"
 #include "host/executors/workgroups.hpp"
+#include "host/gpu/dispatch_size.hpp"
 
 namespace eyeray::engine::executors {
 
@@ -26,6 +26,7 @@ class PhotonKernel {
   void bind(gpu::Kernel& kernel) const;
   // Possible faults of the photons that were emitted last: SampleFlags.
   uint32_t flags() const { return flags_; }
+  double longest_dispatch() const { return longest_dispatch_; }  // seconds, so far
 
  private:
   bool trace(uint32_t index);
@@ -38,7 +39,7 @@ class PhotonKernel {
   PhotonSettings settings_;
   Vec3 eye_;
   std::shared_ptr<gpu::Kernel> kernel_;
-  DispatchSize dispatch_size_;
+  gpu::DispatchSize dispatch_size_;
   uint32_t capacity_ = 0;
   uint32_t stored_ = 0;
   gpu::Buffer pass_, results_, count_;
@@ -46,6 +47,7 @@ class PhotonKernel {
   std::optional<uint32_t> sample_;  // the sample of the present photons,
   uint64_t choice_ = 0;             // and their choice of tunables
   uint32_t flags_ = 0;
+  double longest_dispatch_ = 0;
 };
 
 }  // namespace eyeray::engine::executors

@@ -4,7 +4,9 @@
 #include <cstddef>
 
 #include "host/core/error.hpp"
+#include "host/core/stopwatch.hpp"
 #include "host/core/termination.hpp"
+#include "host/gpu/dispatch_size.hpp"
 #include "host/gpu/raster_target.hpp"
 
 namespace eyeray::engine::gpu {
@@ -103,11 +105,23 @@ VkPipeline create_pipeline(const Context& context, const RasterTarget& target, V
   return pipeline;
 }
 
+// The pixels that a triangle may cover, and as many as its vertices are worth.
+int64_t cost_of(const RasterVertex* corners, VkExtent2D extent) {
+  constexpr int64_t vertices = 64;
+  const auto [left, right] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
+  const auto [top, bottom] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
+  const auto covered = [](float low, float high, uint32_t pixels) {
+    return int64_t(std::max(0.f, std::min(high, 1.f) - std::max(low, -1.f)) / 2 * float(pixels)) + 1;
+  };
+  return covered(left, right, extent.width) * covered(top, bottom, extent.height) + vertices;
+}
+
 }  // namespace
 
 struct Rasterizer::Objects {
   Objects(Device& device, int width, int height)
       : context(device.context()),
+        size(device.info(), int64_t{1} << 32),
         target(context, uint32_t(width), uint32_t(height)),
         vertices(device, batch * 3 * sizeof(RasterVertex), "vertices") {}
   ~Objects() {
@@ -119,6 +133,7 @@ struct Rasterizer::Objects {
   Objects& operator=(const Objects&) = delete;
 
   std::shared_ptr<Context> context;
+  DispatchSize size;  // in pixels, as cost_of() counts them
   RasterTarget target;
   Buffer vertices;
   VkPipelineLayout layout = VK_NULL_HANDLE;
@@ -143,10 +158,25 @@ Rasterizer::Rasterizer(Device& device, const RasterShaders& shaders, int width, 
 
 Rasterizer::~Rasterizer() = default;
 
+// The first triangles, as many as a watched device can draw in time.
+Rasterizer::Draw Rasterizer::next_draw(std::span<const RasterVertex> vertices) const {
+  const bool limited = watched(context_->info);
+  const int64_t most = objects_->size.items();
+  Draw draw;
+  for (; draw.vertices < std::min(3 * batch, vertices.size()); draw.vertices += 3) {
+    const int64_t cost = cost_of(&vertices[draw.vertices], objects_->target.extent());
+    if (limited && draw.vertices > 0 && draw.cost + cost > most) break;
+    draw.cost += cost;
+  }
+  return draw;
+}
+
 void Rasterizer::draw(std::span<const RasterVertex> vertices) {
   CHECK_EQ(vertices.size() % 3, 0u);
-  for (size_t first = 0; first < vertices.size(); first += 3 * batch) {
-    const auto some = vertices.subspan(first, std::min(3 * batch, vertices.size() - first));
+  while (!vertices.empty()) {
+    const Draw next = next_draw(vertices);
+    const auto some = vertices.first(next.vertices);
+    vertices = vertices.subspan(next.vertices);
     objects_->vertices.upload_records(some);
     context_->begin();
     const VkCommandBuffer commands = context_->commands;
@@ -167,7 +197,9 @@ void Rasterizer::draw(std::span<const RasterVertex> vertices) {
     vkCmdBindVertexBuffers(commands, 0, 1, &buffer, &first_byte);
     vkCmdDraw(commands, uint32_t(some.size()), 1, 0, 0);
     vkCmdEndRenderPass(commands);
+    const Stopwatch watch;
     context_->submit_and_wait("draw triangles");
+    objects_->size.took(next.cost, watch.seconds());
   }
 }
 

@@ -49,6 +49,12 @@ class Rasterizer {
 
  private:
   struct Objects;  // Vulkan's objects
+  struct Draw {
+    size_t vertices = 0;
+    int64_t cost = 0;
+  };
+
+  Draw next_draw(std::span<const RasterVertex> vertices) const;
 
   std::shared_ptr<Context> context_;
   std::unique_ptr<Objects> objects_;

@@ -81,7 +81,9 @@ class Shutter final : public Executor {
     return done;
   }
   void take_over() {
+    const double longest = facts_.longest_dispatch;
     facts_ = executor_->facts();
+    facts_.longest_dispatch = std::max(facts_.longest_dispatch, longest);
     times_ = gone_;
     for (const auto& [stage, seconds] : executor_->times().stages()) times_.add(stage, seconds);
   }

@@ -21,9 +21,10 @@ struct Result {
   int samples = 0;              // requested for each pixel
   int64_t pixels = 0;           // the number in the crop, or in the share
   std::optional<render::Shard> shard;
-  std::string device;         // Executor::description()
-  uint64_t flagged_hits = 0;  // pixels; 0 if no channel is made of first hits
-  PictureQuality quality;     // quality of colour and first hits
+  std::string device;           // Executor::description()
+  double longest_dispatch = 0;  // ExecutorFacts::longest_dispatch
+  uint64_t flagged_hits = 0;    // pixels; 0 if no channel is made of first hits
+  PictureQuality quality;       // quality of colour and first hits
   std::vector<Diagnostic> warnings;
   std::vector<std::filesystem::path> files;  // written
   std::filesystem::path checkpoint;          // the file left to resume from; empty: none

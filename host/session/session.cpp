@@ -131,6 +131,7 @@ class Rendering {
     result_.shard = request_.shard;
     result_.samples = plan_.scene.image.samples;
     result_.device = executor_.facts().description;
+    result_.longest_dispatch = executor_.facts().longest_dispatch;
     if (checkpoint_ && result_.interrupted() && checkpoint_->on_disk())
       result_.checkpoint = checkpoint_->file();
     // A checkpoint has no kinds of rays: those that were counted before it are lost.

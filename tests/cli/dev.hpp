@@ -12,8 +12,9 @@ namespace eyeray::engine::test {
 // A running `eyeray dev`, and the position in its output up to which it has been read.
 class Dev {
  public:
-  Dev(const SceneFolder& folder, const std::string& timeout, const std::vector<std::string>& options = {})
-      : process_(command(folder, timeout, options)) {}
+  Dev(const SceneFolder& folder, const std::string& timeout, const std::vector<std::string>& options = {},
+      const Environment& environment = {})
+      : process_(command(folder, timeout, options), environment) {}
 
   // True if it prints `text` from here on.
   bool says(const std::string& text) {
