@@ -4,7 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "host/cli/command.hpp"
+#include "host/core/error.hpp"
 #include "host/core/standard_streams.hpp"
+#include "host/executors/open_device.hpp"
 #include "host/gpu/device.hpp"
 #include "host/program/json.hpp"
 
@@ -68,12 +70,40 @@ Json as_json(const gpu::DeviceInfo& device) {
   return json;
 }
 
-ExitCode list(bool json) {
+// Tests a usable device. The result states a fault instead, if the device computes wrong results.
+Json self_test(const gpu::DeviceInfo& device) {
+  executors::GpuOptions options;
+  options.device = std::to_string(device.index);
+  try {
+    const gpu::DeviceFacts facts = executors::open_device(options)->facts();
+    return {{"exact_arithmetic", facts.exact_arithmetic}, {"exact_division", facts.exact_division},
+            {"denormals_kept", facts.denormals_kept},     {"infinities_kept", facts.infinities_kept},
+            {"loop_iterations", facts.loop_iterations},   {"seconds", facts.seconds}};
+  } catch (const Error& error) {
+    return {{"error", error.what()}};
+  }
+}
+
+void print_self_test(const Json& facts) {
+  if (facts.contains("error"))
+    return print_lines(stdout, "   self-test  {}\n", facts["error"].get<std::string>());
+  const auto is = [&](const char* fact) { return facts[fact].get<bool>(); };
+  print_lines(stdout,
+              "   self-test  arithmetic {}, division {}, denormals {}, infinities {}, {} loop iterations\n",
+              is("exact_arithmetic") ? "exact" : "not exact", is("exact_division") ? "exact" : "corrected",
+              is("denormals_kept") ? "kept" : "lost", is("infinities_kept") ? "kept" : "lost",
+              facts["loop_iterations"].get<uint32_t>());
+}
+
+ExitCode list(bool json, bool tests) {
   const std::vector<gpu::DeviceInfo> devices = gpu::list_devices();
   Json all = Json::array();
   for (const gpu::DeviceInfo& device : devices) {
     all.push_back(as_json(device));
     if (!json) print_text(device);
+    if (!tests || !device.usable) continue;
+    const Json& facts = all.back()["self_test"] = self_test(device);
+    if (!json) print_self_test(facts);
   }
   if (json) print_json({{"devices", all}});
   const bool any = std::any_of(devices.begin(), devices.end(),
@@ -87,12 +117,14 @@ void add_devices(CLI::App& app, Run& run) {
   CLI::App* const command = app.add_subcommand("devices", "List the Vulkan devices.");
   const auto json = std::make_shared<bool>(false);
   command->add_flag("--json", *json, "Answer as JSON on standard output.");
+  const auto tests = std::make_shared<bool>(false);
+  command->add_flag("--self-test", *tests, "Also test each device's arithmetic, as every render does.");
   command->footer(
       "--device takes the number of a device, or a part of its name:\n"
       "  eyeray devices --json\n"
       "  eyeray render scenes/whitted.toml --device 0\n"
       "Exit code 3 when no device can be used.");
-  command->callback([json, &run] { run = [json] { return list(*json); }; });
+  command->callback([json, tests, &run] { run = [json, tests] { return list(*json, *tests); }; });
 }
 
 }  // namespace eyeray::engine::cli
