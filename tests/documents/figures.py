@@ -53,6 +53,8 @@ FIGURES = [
     ("scene-file.md", "| materials that light passes through | {} |", "loader/materials.cpp", "most_media"),
     ("security.md", "| text | {} |", "loader/formula_files.cpp", "most_bytes"),
     ("security.md", "only up to a depth of {}", "core/json_depth.hpp", "deepest_json"),
+    ("gpus.md", "a tile has at most {} pixels", "executors/tile_size.cpp", "most_unexplored"),
+    ("gpus.md", "their tiles have up to {} pixels", "executors/tile_size.hpp", "most_items"),
 ]
 WORDS = {"a thousand": 1000, "eight": 8}
 UNITS = {"KiB": 1 << 10, "MiB": 1 << 20, "GiB": 1 << 30}
