@@ -10,7 +10,7 @@ using namespace eyeray::engine;
 
 namespace {
 
-gpu::DeviceInfo device(gpu::DeviceType type) {
+gpu::DeviceInfo device_of(gpu::DeviceType type) {
   gpu::DeviceInfo info;
   info.type = type;
   return info;
@@ -59,7 +59,7 @@ TEST_CASE("no tile takes longer than 100 ms on a watched device, from the first 
         if (double(grid.pixels()) * pixel > 500) continue;
         CAPTURE(pixel);
         CAPTURE(grid.width());
-        executors::TileSize size(device(type));
+        executors::TileSize size(device_of(type));
         for (int pass = 0; pass < 3; ++pass)
           CHECK(compute(grid, size, [&](int) { return pixel; }).longest <= gpu::longest_dispatch);
       }
@@ -71,7 +71,7 @@ TEST_CASE("rows that cost 20 times as much as those above do not take longer tha
   const Grid grid(Rect{0, 0, 1920, 1080});
   for (const double pixel : {1e-9, 1e-8, 7e-8}) {
     CAPTURE(pixel);
-    executors::TileSize size(device(gpu::DeviceType::integrated));
+    executors::TileSize size(device_of(gpu::DeviceType::integrated));
     const auto cost = [&](int row) { return row < 400 ? pixel : 20 * pixel; };
     for (int pass = 0; pass < 4; ++pass) CHECK(compute(grid, size, cost).longest <= gpu::longest_dispatch);
   }
@@ -79,7 +79,7 @@ TEST_CASE("rows that cost 20 times as much as those above do not take longer tha
 
 TEST_CASE("on a fast GPU two tiles make a picture of 1920 × 1080 from the third sample on") {
   const Grid grid(Rect{0, 0, 1920, 1080});
-  executors::TileSize size(device(gpu::DeviceType::discrete));
+  executors::TileSize size(device_of(gpu::DeviceType::discrete));
   const auto cost = [](int) { return 1e-9; };
   CHECK(compute(grid, size, cost, 1e-4).tiles < 50);
   compute(grid, size, cost, 1e-4);
@@ -88,14 +88,14 @@ TEST_CASE("on a fast GPU two tiles make a picture of 1920 × 1080 from the third
 
 TEST_CASE("a tile's latency keeps tiles small only for some samples") {
   const Grid grid(Rect{0, 0, 1920, 1080});
-  executors::TileSize size(device(gpu::DeviceType::discrete));
+  executors::TileSize size(device_of(gpu::DeviceType::discrete));
   for (int pass = 0; pass < 8; ++pass) compute(grid, size, [](int) { return 1e-9; }, 0.01);
   CHECK(compute(grid, size, [](int) { return 1e-9; }, 0.01).tiles <= 4);
 }
 
 TEST_CASE("a CPU computes whole rows, 2^14 pixels at first") {
   const Grid grid(Rect{0, 0, 1000, 100});
-  executors::TileSize size(device(gpu::DeviceType::cpu));
+  executors::TileSize size(device_of(gpu::DeviceType::cpu));
   CHECK(size.next(grid, 0, 0) == Rect{0, 0, 1000, 16});
   size.took(grid, {0, 0, 1000, 16}, 0.05);
   CHECK(size.next(grid, 0, 16) == Rect{0, 16, 1000, 16});
