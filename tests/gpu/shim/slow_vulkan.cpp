@@ -8,7 +8,8 @@
 // - A draw takes EYERAY_SLOW_TRIANGLE microseconds for each triangle. No timestamps measure draws, so the
 // thread
 //   sleeps for as long.
-// - A kernel may have EYERAY_SLOW_BUFFERS storage buffers. Without that variable the device's own limit stays.
+// - A kernel may have EYERAY_SLOW_BUFFERS storage buffers. Without that variable the device's own limit
+// stays.
 //
 // The file EYERAY_SLOW_LOG gets a line for each submission that dispatches or draws: its microseconds.
 #include <dlfcn.h>
