@@ -59,7 +59,7 @@ def demands(spirv):
 def kernels_of(eyeray, scene, tunes, folder):
     folder.mkdir()
     options = [word for tune in tunes for word in ("--tune", tune)]
-    result = subprocess.run([eyeray, "kernels", scene, "--spirv", folder, *options], capture_output=True, text=True, cwd=ROOT)
+    result = subprocess.run([eyeray, "kernels", scene, "--timeout", "3600", "--spirv", folder, *options], capture_output=True, text=True, cwd=ROOT)
     if result.returncode != 0:
         return result.stderr.strip() or f"exit code {result.returncode}"
     return sorted(folder.glob("*.spv"))
