@@ -174,8 +174,8 @@ class TwinExecutor final : public Twin {
     photon_ways_.assign(count, {});
     photon_flags_ = 0;
     for (const shader::Photon& photon : all)
-      photon_ways_[photon.number].positions +=
-          eye_ + Vec3(photon.position.x, photon.position.y, photon.position.z);
+      photon_ways_[photon.number].add(eye_ + Vec3(photon.position), Vec3(photon.direction),
+                                      Vec3(photon.flux));
     for (uint32_t number = 0; number < count; ++number) {
       photon_ways_[number].trail = results[number].trail;
       photon_flags_ |= results[number].flags;

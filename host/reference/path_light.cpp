@@ -101,10 +101,13 @@ std::optional<Arriving> PathSample::arriving(const Interaction& at) {
   Ray ray = rays_.spawn_ray(at.surface, l, leaving(at, l));
   const Vec3 way = rays_.end_before(point.position, point.normal, l) - ray.o;
   ray.d = glm::normalize(way);
+  // The ray from a lifted start may reach the emitter from its other side. Then it ends behind the emitter,
+  // which blocks it.
+  const bool same_side = glm::dot(l, point.normal) * glm::dot(way, point.normal) > 0;
+  const double end = same_side ? 1 - 1e-9 : 1 + 1e-9;
   const double density = share * emitter_density(emitter.form, p, point);
   return Arriving{
-      l,       ray,  glm::length(way) * (1 - 1e-9), emitter_radiance(scene_, emitter, point, p) / density,
-      density, light};
+      l, ray, glm::length(way) * end, emitter_radiance(scene_, emitter, point, p) / density, density, light};
 }
 
 // The light that a vertex scatters from one light to the viewer. `scattered`: the vertex's BSDF or phase

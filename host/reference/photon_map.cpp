@@ -23,7 +23,7 @@ PhotonMap::PhotonMap(const Tracer& tracer, uint32_t index, std::span<const uint3
     for (uint32_t number = begin; number < end; ++number) {
       PhotonWay& way = ways_[number];
       way.trail = PathSample(tracer, {photons_of | index, number}, {}, {}).photon(sources, stopped[number]);
-      for (const Photon& photon : stopped[number]) way.positions += photon.position;
+      for (const Photon& photon : stopped[number]) way.add(photon.position, photon.direction, photon.flux);
     }
   });
   for (const uint32_t number : left_out)

@@ -11,7 +11,7 @@ namespace eyeray::engine::reference {
 
 struct PhotonTrace {
   std::vector<uint32_t> events;  // the photon's decisions (trail.hpp)
-  Vec3 positions{0};             // the sum of the positions where the photon is stored
+  PhotonWay way;
 };
 
 class PhotonTraces {

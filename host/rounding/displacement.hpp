@@ -34,7 +34,9 @@ struct Displacement {
 inline constexpr double float32_share = 24 * 0x1p-24;
 // The room of float32: 16 shares (shaders/geometry/edges.glsl).
 inline constexpr double float32_room = 16 * float32_share;
-// The largest distance of a photon from the reference's, as a share of the radius.
-inline constexpr double photon_displacement = 1e-3;
+// Two photons are the same up to these differences.
+inline constexpr double photon_displacement = 1e-3;  // distance, as a share of the radius
+inline constexpr double photon_turn = 1e-4;          // distance between their unit directions
+inline constexpr double photon_flux_change = 1e-3;   // difference in flux, as a share of the flux
 
 }  // namespace eyeray::engine::rounding

@@ -20,10 +20,18 @@ struct PhotonSettings {
   std::vector<PhotonTarget> targets = {};  // at which photons are aimed
 };
 
-// The decisions of a photon, and the points where it is stored.
+// The decisions of a photon, and sums over the points where it is stored.
 struct PhotonWay {
   uint32_t trail = 0;  // fingerprint of its decisions, like PixelSample::trail
-  Vec3 positions{0};   // the sum of the positions where it is stored
+  Vec3 positions{0};
+  Vec3 directions{0};
+  Vec3 flux{0};
+
+  void add(const Vec3& position, const Vec3& direction, const Vec3& its_flux) {
+    positions += position;
+    directions += direction;
+    flux += its_flux;
+  }
 };
 
 // The photons that bring no light: for each sample their numbers, in order.

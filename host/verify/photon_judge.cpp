@@ -27,18 +27,35 @@ struct Apart {
 
   // True if it took another path; else it is displaced.
   bool diverged() const { return twin.trail != reference.trail; }
-  double displacement() const { return glm::length(twin.positions - reference.positions); }
 };
 
+// The differences of two photons that took the same path, each as a share of the largest that counts as none.
+struct Differences {
+  double position, direction, flux;
+
+  double largest() const { return std::max({position, direction, flux}); }
+};
+Differences differences(const PhotonWay& a, const PhotonWay& b, double radius) {
+  const auto share = [](const Vec3& x, const Vec3& y, double least) {
+    return x == y ? 0 : glm::length(x - y) / least;
+  };
+  return {share(a.positions, b.positions, rounding::photon_displacement * radius),
+          share(a.directions, b.directions, rounding::photon_turn),
+          share(a.flux, b.flux, rounding::photon_flux_change * glm::length(b.flux))};
+}
+
 // True if the reference explains the photon by other rounding: it takes all of the twin's path, or its own
-// path and is then displaced at least half as far.
-bool explained(const Apart& photon, const reference::PhotonTraces& traces, uint32_t index,
+// path and then differs at least half as much, where the twin differs most.
+bool explained(const Apart& photon, const reference::PhotonTraces& traces, uint32_t index, double radius,
                uint32_t first_seed, uint32_t last_seed) {
+  const Differences found = differences(photon.twin, photon.reference, radius);
+  const auto most = found.position == found.largest()    ? &Differences::position
+                    : found.direction == found.largest() ? &Differences::direction
+                                                         : &Differences::flux;
   const auto explains = [&](const rounding::Displacement& rounded) {
-    const reference::PhotonTrace trace = traces.trace(index, photon.number, rounded);
-    return reference::trail_of(trace.events) == photon.twin.trail &&
-           (photon.diverged() ||
-            glm::length(trace.positions - photon.reference.positions) >= photon.displacement() / 2);
+    const PhotonWay way = traces.trace(index, photon.number, rounded).way;
+    return way.trail == photon.twin.trail &&
+           (photon.diverged() || differences(way, photon.reference, radius).*most >= found.*most / 2);
   };
   for (const double scale : rounding::photon_scales)
     for (uint32_t seed = first_seed; seed <= last_seed; ++seed)
@@ -48,8 +65,13 @@ bool explained(const Apart& photon, const reference::PhotonTraces& traces, uint3
 
 std::string describe(const Apart& photon, const reference::PhotonTraces& traces, uint32_t index) {
   if (!photon.diverged())
-    return fmt::format("photon {} of sample {}, which is displaced by {:.3g}", photon.number, index,
-                       photon.displacement());
+    return fmt::format(
+        "photon {} of sample {}, which is displaced by {:.3g}, turned by {:.3g}, and carries {:.4g} times "
+        "the "
+        "flux",
+        photon.number, index, glm::length(photon.twin.positions - photon.reference.positions),
+        glm::length(photon.twin.directions - photon.reference.directions),
+        glm::length(photon.twin.flux) / glm::length(photon.reference.flux));
   std::string way;
   for (const uint32_t event : traces.trace(index, photon.number, {}).events)
     way += (way.empty() ? "" : ", ") + reference::describe_event(event);
@@ -70,11 +92,11 @@ JudgedPhotons judge_photons(const Scene& scene,
     // Compare ways and positions.
     const std::vector<PhotonWay> a = ways(index), b = renderer.tracer().photons(index)->ways();
     CHECK_EQ(a.size(), b.size());
-    const double displacement = rounding::photon_displacement * photon_radius(photon_settings(scene), index);
+    const double radius = photon_radius(photon_settings(scene), index);
     std::vector<Apart> apart;
     for (uint32_t number = 0; number < a.size(); ++number) {
       const Apart photon{number, a[number], b[number]};
-      if (!photon.diverged() && photon.displacement() <= displacement) continue;
+      if (!photon.diverged() && differences(a[number], b[number], radius).largest() <= 1) continue;
       apart.push_back(photon);
       ++(photon.diverged() ? tally.diverged : tally.displaced);
     }
@@ -86,7 +108,7 @@ JudgedPhotons judge_photons(const Scene& scene,
     const auto explain = [&](uint32_t first_seed, uint32_t last_seed) {
       std::vector<char> known(apart.size());
       parallel_for(0, int(apart.size()), [&](int i) {
-        known[size_t(i)] = explained(apart[size_t(i)], traces, index, first_seed, last_seed);
+        known[size_t(i)] = explained(apart[size_t(i)], traces, index, radius, first_seed, last_seed);
       });
       size_t kept = 0;
       for (size_t i = 0; i < apart.size(); ++i)

@@ -69,6 +69,22 @@ TEST_CASE("a coarse smooth ball is lit like a round one: by Lambert's cosine, up
       }
 }
 
+TEST_CASE("a coarse smooth ball that glows does not light itself, as a round one does not") {
+  for (const Backend backend : {Backend::twin, Backend::reference}) {
+    CAPTURE(int(backend));
+    Scene scene = empty_scene();
+    scene.render.integrator = IntegratorType::path;
+    scene.render.max_depth = 4;
+    const int glowing = add(scene, make_phong({.diffuse = gray(0.5), .emission = gray(3)}));
+    Mesh ball = globe(16, 8);
+    for (Vec3& p : ball.positions) p *= 2.0;
+    add_instance(scene, add(scene, std::move(ball)), glowing, glm::scale(Mat4(1.0), Vec3(0.5)));
+    const std::vector<double> colors = picture_of(scene, backend);
+    for (const double color : colors) CHECK((color == 0 || std::abs(color - 3) < 1e-5));
+    CHECK(std::ranges::count(colors, 0.0) < width * width / 2);
+  }
+}
+
 TEST_CASE("wild normals do not let light through a wall a quarter of an edge away") {
   for (const auto integrator : {IntegratorType::whitted, IntegratorType::path})
     for (const Backend backend : {Backend::twin, Backend::reference}) {
