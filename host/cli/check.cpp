@@ -7,6 +7,7 @@
 
 #include "host/cameras/registry.hpp"
 #include "host/cli/command.hpp"
+#include "host/core/github_text.hpp"
 #include "host/core/standard_streams.hpp"
 #include "host/lights/registry.hpp"
 #include "host/loader/scene_file.hpp"
@@ -171,7 +172,7 @@ void print_text(const Scene& scene, const Inventory& inventory) {
   const ImageSettings& image = scene.image;
   const CameraAxes camera = camera_axes(scene.camera);
   const auto line = [](std::string_view name, const std::string& text) {
-    print_lines(stdout, "{:<12} {}\n", name, text);
+    print_lines(stdout, "{:<12} {}\n", name, log_line(text));
   };
 
   line("image", fmt::format("{}×{} pixels, {} sample{} a pixel, {}", image.width, image.height, image.samples,

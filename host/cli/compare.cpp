@@ -1,13 +1,19 @@
 // eyeray compare: two picture files, pixel by pixel.
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "host/cli/command.hpp"
 #include "host/compare/report.hpp"
+#include "host/core/atomic_file.hpp"
 #include "host/core/free_memory.hpp"
+#include "host/core/github_text.hpp"
 #include "host/core/standard_streams.hpp"
+#include "host/image/exr_file.hpp"
 #include "host/image/false_color.hpp"
 #include "host/image/image_file.hpp"
 #include "host/program/json.hpp"
@@ -35,6 +41,7 @@ struct CompareCommand {
 struct Comparison {
   std::vector<std::string> failures;
   std::optional<compare::Metrics> metrics;  // absent when the sizes differ
+  std::set<std::string> not_compared = {};  // channels of the files
   int64_t pixels = 0;
   int64_t different = 0;
 };
@@ -98,6 +105,16 @@ void compare_alpha(const CompareCommand& command, Comparison& result) {
                     result.pixels, command.tolerance, command.max_different));
 }
 
+// The channels of the files that are not compared unless --layer names them.
+std::set<std::string> channels_left_out(const CompareCommand& command) {
+  std::set<std::string> names;
+  for (const std::string& file : {command.a, command.b})
+    if (image::image_format(file) == image::ImageFormat::exr)
+      for (std::string& name : image::exr_channels_left_out(read_file(file), file))
+        names.insert(std::move(name));
+  return names;
+}
+
 // Writes `map` as data, or in false colour for people: over the least to the greatest number of `range`, or
 // without `range` over the map's own values.
 void write_map(const std::string& file, const image::Image& map, std::span<const float> range = {}) {
@@ -119,6 +136,7 @@ image::Image map_of(const image::Image& like, std::vector<float> values) {
 
 Json json_of(const Comparison& result) {
   Json json{{"passed", result.failures.empty()}, {"failures", result.failures}};
+  if (!result.not_compared.empty()) json["not_compared"] = result.not_compared;
   if (!result.metrics) return json;
   json["pixels"] = result.pixels;
   json["different"] = result.different;
@@ -170,12 +188,14 @@ ExitCode CompareCommand::run() const {
     for (image::Image* grey : {&image_a, &image_b}) *grey = image::in_color(std::move(*grey));
   Comparison result = compare(*this, image_a, image_b);
   if (layer.empty() && result.metrics) compare_alpha(*this, result);
+  if (layer.empty()) result.not_compared = channels_left_out(*this);
   if (result.metrics) write_maps(image_a, image_b, *result.metrics);
 
   if (json) {
     print_json(json_of(result));
   } else {
-    print_lines(stdout, "{} {} {}\n", result.failures.empty() ? "PASSED" : "FAILED", a, b);
+    print_lines(stdout, "{} {} {}\n", result.failures.empty() ? "PASSED" : "FAILED", log_line(a),
+                log_line(b));
     for (const std::string& failure : result.failures) print_lines(stdout, "  {}\n", failure);
     if (result.metrics) {
       if (result.different <= max_different)
@@ -183,6 +203,9 @@ ExitCode CompareCommand::run() const {
                     result.pixels, tolerance);
       fmt::print("{}", to_lines(*result.metrics, "  "));
     }
+    if (!result.not_compared.empty())
+      print_lines(stdout, "  not compared: {}; --layer compares a layer\n",
+                  log_line(fmt::format("{}", fmt::join(result.not_compared, ", "))));
   }
   return result.failures.empty() ? ExitCode::ok : ExitCode::comparison_failed;
 }

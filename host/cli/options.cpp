@@ -132,7 +132,8 @@ void SceneOptions::add_to(CLI::App& command) {
       ->take_all();
   command
       .add_flag("--no-formulas{false}", trust_.formulas,
-                "Refuse a scene with user-defined functions ([[implicit]] with `code` or `file`).")
+                "Refuse a scene with user-defined functions (`code` or `file` of a shape, a texture or a "
+                "camera).")
       ->group(group);
   add("-s,--size", size_, "WxH", "Picture size in pixels, such as 640x480.");
   static_assert(std::tuple_size_v<decltype(values_)> == value_options.size());

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "host/core/github_text.hpp"
 #include "host/core/peak_memory.hpp"
 #include "host/core/readable.hpp"
 #include "host/core/standard_streams.hpp"
@@ -45,7 +46,7 @@ Json counts_of(const RayCounts& kinds) {
 std::string summary(const Result& picture, size_t parts) {
   const render::RenderTotals& totals = picture.totals;
   std::vector<std::string> names;
-  for (const auto& file : picture.files) names.push_back(file.string());
+  for (const auto& file : picture.files) names.push_back(log_line(file.string()));
   if (parts > 0)
     return fmt::format("{}: {}, {}, {} rays, of {} part{} in {}", fmt::join(names, ", "), size_of(picture),
                        samples_of(picture), totals.rays, parts, parts == 1 ? "" : "s",

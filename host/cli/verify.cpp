@@ -52,9 +52,12 @@ struct VerifyCommand {
 
   ExitCode run();
   void find_files();
+  void prepare_reports();
   void keep_share();
   std::string report_in_json(std::span<const compare::Report> reports) const;
   compare::Report report_on_one_of_many(const std::string& file);
+  compare::Report report_of(const Error& error, const std::string& file, bool may_stay);
+  void report_the_end(const Error& error, const std::string& file);
   void record_allowance(const compare::Report& report) const;
   void write_reports(std::span<const compare::Report> reports) const;
   compare::Report report_on(const SceneOptions& scene_file) const;
@@ -99,8 +102,14 @@ void VerifyCommand::find_files() {
       files.push_back(name);
       continue;
     }
-    for (const fs::path& scene : loader::scenes_below(name))
-      files.push_back(scene.lexically_normal().string());
+    try {
+      for (const fs::path& scene : loader::scenes_below(name))
+        files.push_back(scene.lexically_normal().string());
+    } catch (const Error& error) {
+      prepare_reports();
+      report_the_end(error, name);
+      throw;
+    }
   }
   for (const std::string& name : may_stay_unverified)
     if (std::ranges::find(files, name) == files.end())
@@ -141,19 +150,30 @@ compare::Report VerifyCommand::report_on(const SceneOptions& scene_file) const {
                               options);
 }
 
+// The report on a scene that was not verified. Rethrows an error that is none of the scene's.
+compare::Report VerifyCommand::report_of(const Error& error, const std::string& file, bool may_stay) {
+  if (error.code() == ExitCode::interrupted || error.code() == ExitCode::no_device) throw;
+  compare::Report report;
+  report.scene = file;
+  report.not_verified = error.what();
+  report.may_stay_unverified = may_stay;
+  page.add(report);
+  return report;
+}
+
+// Writes the reports of a run that ends with this error, which is being handled.
+void VerifyCommand::report_the_end(const Error& error, const std::string& file) {
+  const compare::Report report = report_of(error, file, false);
+  write_reports({&report, 1});
+}
+
 // Reports on one of several scenes. An error goes into its report, so that the other scenes are still
 // verified.
 compare::Report VerifyCommand::report_on_one_of_many(const std::string& file) {
   try {
     return report_on(scene_options.for_file(file));
   } catch (const Error& error) {
-    if (error.code() == ExitCode::interrupted || error.code() == ExitCode::no_device) throw;
-    compare::Report report;
-    report.scene = file;
-    report.not_verified = error.what();
-    report.may_stay_unverified = std::ranges::find(may_stay_unverified, file) != may_stay_unverified.end();
-    page.add(report);
-    return report;
+    return report_of(error, file, std::ranges::find(may_stay_unverified, file) != may_stay_unverified.end());
   }
 }
 
@@ -209,25 +229,23 @@ ExitCode VerifyCommand::run() {
   find_files();
   keep_share();
   check_options();
-  if (!page_folder.empty()) {
-    make_folder(page_folder);
-    check_writable(fs::path(page_folder) / "index.html");
-    if (keep.empty()) keep = (fs::path(page_folder) / "kept").string();
-    options.witness = [this](const auto&... seen) { page.add(seen...); };
-  }
-  if (!junit.empty()) {
-    if (const fs::path parent = fs::path(junit).parent_path(); !parent.empty()) make_folder(parent);
-    check_writable(junit);
-  }
+  prepare_reports();
 
   size_t width = 0;
   for (const std::string& file : files) width = std::max(width, file.size());
   std::vector<compare::Report> reports;
   for (const std::string& file : files) {
     // A suite goes on after an error. A share of it does too, even if it has a single scene.
-    reports.push_back(suite_size == 1 && fs::path(file) == fs::path(scene_options.file())
-                          ? report_on(scene_options.for_file(file))
-                          : report_on_one_of_many(file));
+    if (suite_size == 1 && fs::path(file) == fs::path(scene_options.file())) {
+      try {
+        reports.push_back(report_on(scene_options.for_file(file)));
+      } catch (const Error& error) {
+        report_the_end(error, file);
+        throw;
+      }
+    } else {
+      reports.push_back(report_on_one_of_many(file));
+    }
     const compare::Report& report = reports.back();
     if (record) record_allowance(report);
     if (json) continue;
@@ -241,6 +259,20 @@ ExitCode VerifyCommand::run() {
     print_lines(stdout, "{}", summary(reports));
   write_reports(reports);
   return std::ranges::all_of(reports, &compare::Report::passes) ? ExitCode::ok : ExitCode::comparison_failed;
+}
+
+// Makes the folders of the reports, and checks that the reports can be written.
+void VerifyCommand::prepare_reports() {
+  if (!page_folder.empty()) {
+    make_folder(page_folder);
+    check_writable(fs::path(page_folder) / "index.html");
+    if (keep.empty()) keep = (fs::path(page_folder) / "kept").string();
+    options.witness = [this](const auto&... seen) { page.add(seen...); };
+  }
+  if (!junit.empty()) {
+    if (const fs::path parent = fs::path(junit).parent_path(); !parent.empty()) make_folder(parent);
+    check_writable(junit);
+  }
 }
 
 }  // namespace

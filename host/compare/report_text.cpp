@@ -180,13 +180,13 @@ std::string to_text(const Report& report) {
   const std::vector<std::string> failures = report.failures();
   std::string text;
   if (!report.not_verified.empty()) {
-    line(text, "{} {}", failures.empty() ? "SKIPPED" : "FAILED", report.scene);
+    line(text, "{} {}", failures.empty() ? "SKIPPED" : "FAILED", log_line(report.scene));
     line(text, "  not verified: {}", report.not_verified);
     return log_lines(text);
   }
   line(text, "{} {} ({}×{} of {}×{} pixels, {} sample{} a pixel)", failures.empty() ? "PASSED" : "FAILED",
-       report.scene, report.area.width, report.area.height, report.width, report.height, report.samples,
-       report.samples == 1 ? "" : "s");
+       log_line(report.scene), report.area.width, report.area.height, report.width, report.height,
+       report.samples, report.samples == 1 ? "" : "s");
   if (failures.empty() && !report.changed_shaders.empty()) line(text, "  {}", report.note_of_shaders());
   for (const std::string& failure : failures) line(text, "  {}", failure);
   if (const std::string diagnosis = report.diagnosis(); !diagnosis.empty())

@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -53,6 +54,19 @@ fs::path behind_links(fs::path path) {
   return path;
 }
 
+// The path of the unfinished file before a unique ending. File systems limit names to 255 bytes, so a
+// long name is cut, at the start of a character.
+fs::path stem_of_part(const fs::path& path) {
+  constexpr size_t longest = 255 - std::string_view(".part.1234567890.12345").size();
+  std::string name = path.filename().string();
+  if (name.size() > longest) {
+    size_t end = longest;
+    while (end > 1 && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80) --end;
+    name.resize(end);
+  }
+  return path.parent_path() / name;
+}
+
 // Gives the open file `part` the mode of the file that it replaces and, where allowed, its owner and group.
 void keep_mode(int part, const struct stat& replaced) {
   mode_t mode = replaced.st_mode & 0777;
@@ -74,7 +88,7 @@ AtomicFile::AtomicFile(const fs::path& path, unsigned mode) : named_(path), path
     throw Error(ExitCode::file_io, "cannot write {}: it is not a regular file", printable(named_.string()));
 
   // The name is unique, even if one program writes a file twice at once or a killed one left its part.
-  const std::string stem = path_.string() + ".part." + std::to_string(::getpid());
+  const std::string stem = stem_of_part(path_).string() + ".part." + std::to_string(::getpid());
   part_ = stem;
   UnfinishedFiles unfinished;
   for (int i = 1; file_ < 0; ++i) {

@@ -32,6 +32,14 @@ size_t codepoint_length(std::string_view text) {
   return 0;
 }
 
+// True for a code point that shows nothing, but breaks a line or changes the direction of the text around it.
+// Texts of some languages need the joiners U+200C and U+200D: these stay.
+bool is_hidden(std::string_view codepoint) {
+  if (codepoint == "\u061c" || codepoint == "\ufeff") return true;
+  return (codepoint >= "\u200e" && codepoint <= "\u200f") || codepoint == "\u200b" ||
+         (codepoint >= "\u2028" && codepoint <= "\u202e") || (codepoint >= "\u2060" && codepoint <= "\u206f");
+}
+
 bool continues_codepoint(char c) {
   return (static_cast<unsigned char>(c) & 0xc0) == 0x80;
 }
@@ -85,7 +93,7 @@ std::string printable(std::string_view text) {
     const auto lead = static_cast<unsigned char>(text[0]);
     const bool control =
         (lead < 0x20 && lead != '\t') || lead == 0x7f || (lead == 0xc2 && length == 2 && text[1] < '\xa0');
-    if (length == 0 || control) {
+    if (length == 0 || control || is_hidden(text.substr(0, length))) {
       clean += '?';
     } else {
       clean += text.substr(0, length);

@@ -78,6 +78,13 @@ std::string harmless_json(std::string json) {
       harmless += "\\u007f";
     } else if (byte(i) == 0xc2 && i + 1 < json.size() && byte(i + 1) < 0xa0) {
       harmless += fmt::format("\\u{:04x}", byte(++i));
+    } else if ((byte(i) & 0xe0) == 0xc0 && i + 1 < json.size() && printable(json.substr(i, 2)) == "?") {
+      harmless += fmt::format("\\u{:04x}", (byte(i) & 0x1f) << 6 | (byte(i + 1) & 0x3f));
+      ++i;
+    } else if ((byte(i) & 0xf0) == 0xe0 && i + 2 < json.size() && printable(json.substr(i, 3)) == "?") {
+      harmless +=
+          fmt::format("\\u{:04x}", (byte(i) & 0x0f) << 12 | (byte(i + 1) & 0x3f) << 6 | (byte(i + 2) & 0x3f));
+      i += 2;
     } else {
       harmless += json[i];
     }

@@ -8,6 +8,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <span>
 
 #include "host/core/error.hpp"
 #include "host/core/termination.hpp"
@@ -181,8 +182,10 @@ Formula::Formula(FormulaText text, std::vector<FormulaParameter> parameters, std
   }
   if (faults.empty()) return;
   std::vector<Diagnostic> diagnostics;
-  for (const Fault& fault : faults)
+  for (const Fault& fault : std::span(faults).first(std::min(faults.size(), most_faults)))
     diagnostics.push_back(located(text_, fault.line, fault.column, fault.message));
+  if (faults.size() > most_faults)
+    diagnostics.back().message += fmt::format(" (and {} more errors)", faults.size() - most_faults);
   throw InputError(std::move(diagnostics));
 }
 
@@ -191,11 +194,12 @@ Formula::~Formula() = default;
 // Converts a compiler's errors in Text::glsl() to errors in the user's text.
 std::vector<Diagnostic> Formula::in_text(const InputError& error, const Text& text) const {
   std::vector<Diagnostic> diagnostics;
+  const std::vector<Text::Position> positions = text.positions();
   for (const Diagnostic& diagnostic : error.diagnostics()) {
     // Finds the last token on the line that begins at or before the column of the error.
     const auto [line, column] = std::pair(std::max(diagnostic.position.line, 1), diagnostic.position.column);
     int source_column = 0;
-    for (const Text::Position& position : text.positions())
+    for (const Text::Position& position : positions)
       if (position.line == line && position.column <= column) source_column = position.source_column;
     diagnostics.push_back(located(text_, line, source_column, without_prefix(diagnostic.message)));
     diagnostics.back().severity = diagnostic.severity;

@@ -22,6 +22,8 @@ constexpr size_t most_nesting = 64;
 constexpr size_t most_links = 500;
 constexpr size_t most_elements = 1024;
 constexpr size_t most_functions = 256;
+// `const in` is the longest that has a meaning.
+constexpr size_t most_qualifiers = 2;
 // Limit on the elements in comparisons of arrays, which are written out element by element.
 constexpr size_t most_compared = size_t{1} << 15;
 
@@ -36,6 +38,7 @@ class Judge {
       if (t_.tokens[i].kind == Token::Kind::word) t_.is_name[i] = judge_word(i);
     judge_arrays();
     judge_chains();
+    judge_qualifiers();
     judge_globals();
     judge_entries();
     find_unset();
@@ -66,6 +69,7 @@ class Judge {
   std::vector<size_t> declared_at(size_t i) const;
   std::optional<size_t> size_written_at(size_t i) const;
   void judge_chains();
+  void judge_qualifiers();
   void judge_globals();
   void judge_entries();
   void find_unset();
@@ -139,6 +143,10 @@ bool Judge::judge_word(size_t i) {
   if (is_built_in(word)) return false;
   if (word == "PROBE") {
     fail(i, "PROBE is for shaders: to see a value of a formula, return it");
+    return false;
+  }
+  if (faults_.size() >= most_faults) {
+    faults_.push_back({t_.tokens[i].line, t_.tokens[i].column, ""});  // only counted
     return false;
   }
   std::vector<std::string_view> known(built_in_functions().begin(), built_in_functions().end());
@@ -247,6 +255,17 @@ void Judge::judge_chains() {
     } else if (is_sign || chains(i)) {
       add_link(i);
     }
+  }
+}
+
+// Limits the qualifiers before a type: a compiler reports each that is too many.
+void Judge::judge_qualifiers() {
+  size_t count = 0;
+  for (size_t i = 0; i < t_.tokens.size(); ++i) {
+    const bool qualifier = is(i, "const") || is(i, "in") || is(i, "out") || is(i, "inout");
+    count = qualifier ? count + 1 : 0;
+    if (count == most_qualifiers + 1)
+      fail(i, fmt::format("a type can have at most {} qualifiers, such as `const in`", most_qualifiers));
   }
 }
 

@@ -12,6 +12,9 @@
 namespace eyeray::engine::gpu {
 namespace {
 
+// Nobody reads more messages of a kind. Each costs a search in the source.
+constexpr int most_messages = 20;
+
 bool is_word(char c) {
   return std::isalnum(uint8_t(c)) || c == '_';
 }
@@ -127,6 +130,7 @@ std::string tidy(std::string_view message) {
 std::vector<Diagnostic> parse_compiler_messages(std::string_view log, const ShaderSource& source) {
   std::vector<Diagnostic> diagnostics;
   std::istringstream lines{std::string(log)};
+  int errors = 0, warnings = 0;
   for (std::string line; std::getline(lines, line);) {
     const bool warning = line.starts_with("WARNING: ");
     if (!warning && !line.starts_with("ERROR: ")) continue;
@@ -134,6 +138,7 @@ std::vector<Diagnostic> parse_compiler_messages(std::string_view log, const Shad
     text.remove_prefix(warning ? 9 : 7);
     if (text.find("compilation errors.  No code generated.") != std::string_view::npos)
       continue;  // the line that counts the errors
+    if (++(warning ? warnings : errors) > most_messages) continue;
 
     Diagnostic& diagnostic = diagnostics.emplace_back();
     diagnostic.severity = warning ? Severity::warning : Severity::error;
@@ -142,6 +147,11 @@ std::vector<Diagnostic> parse_compiler_messages(std::string_view log, const Shad
     std::string beside;
     if (split_position(text, diagnostic.position, message)) beside = locate(diagnostic, message, source);
     diagnostic.message = tidy(message) + beside;
+  }
+  if (errors > most_messages) {
+    const auto last =
+        std::ranges::find(diagnostics.rbegin(), diagnostics.rend(), Severity::error, &Diagnostic::severity);
+    last->message += fmt::format(" (and {} more errors)", errors - most_messages);
   }
   return diagnostics;
 }

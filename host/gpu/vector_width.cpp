@@ -16,6 +16,12 @@ namespace {
 constexpr const char* width_variable = "LP_NATIVE_VECTOR_WIDTH";
 constexpr const char* cache_variable = "MESA_SHADER_CACHE_DIR";
 
+// The folder of compiled kernels that the user chose, or null. Mesa still reads the former name.
+const char* chosen_cache() {
+  const char* const chosen = std::getenv(cache_variable);
+  return chosen ? chosen : std::getenv("MESA_GLSL_CACHE_DIR");
+}
+
 bool has_wide_vectors() {
 #ifdef __x86_64__
   return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
@@ -27,7 +33,7 @@ bool has_wide_vectors() {
 
 // The folders in which Mesa may cache compiled kernels. Mesa's version decides which one it uses.
 std::vector<std::filesystem::path> driver_caches() {
-  if (const char* const chosen = std::getenv(cache_variable)) return {chosen};
+  if (const char* const chosen = chosen_cache()) return {chosen};
   if (std::getenv(width_variable)) return {};  // the cache is below eyeray's own
   const char* const caches = std::getenv("XDG_CACHE_HOME");
   const char* const home = std::getenv("HOME");
@@ -55,7 +61,7 @@ void set_vector_width(bool wide) {
   if (!driver_cache_warning().empty()) return disable_driver_cache();
   const char* const width = std::getenv(width_variable);
   if (!width) return;
-  const char* const chosen = std::getenv(cache_variable);
+  const char* const chosen = chosen_cache();
   const std::filesystem::path folder = chosen ? chosen : DiskCache::of_user().folder();
   const std::string own = "vectors-" + std::string(width);
   // A parent process may have set the folder already.

@@ -5,6 +5,7 @@
 #include <ImfMultiPartInputFile.h>
 #include <ImfPartType.h>
 #include <ImfStandardAttributes.h>
+#include <ImfStringAttribute.h>
 #include <ImfTileDescriptionAttribute.h>
 
 #include <fmt/ranges.h>
@@ -30,6 +31,13 @@ constexpr uint64_t most_deflated = 1032;
 constexpr uint64_t most_of_cosines = 64 * most_deflated;
 // Limit on the pixels of a tile.
 constexpr uint64_t most_in_tile = 1 << 24;
+
+// Attributes that give the numbers another meaning than linear Rec. 709.
+constexpr const char* color_attributes[] = {"acesImageContainerFlag", "adoptedNeutral", "colorInteropID",
+                                            "oiio:ColorSpace", "whiteLuminance"};
+// Values of theirs that mean linear Rec. 709.
+constexpr std::string_view linear_names[] = {"Linear",   "lin_rec709", "lin_rec709_scene",
+                                             "lin_srgb", "linear",     "scene_linear"};
 
 class MemoryStream final : public Imf::IStream {
  public:
@@ -83,6 +91,18 @@ class ExrReader {
     if (Imf::hasChromaticities(header) && !is_rec709(Imf::chromaticities(header)))
       warnings.push_back(name_ +
                          ": its chromaticities are not those of Rec. 709; its numbers are used unchanged");
+    for (const char* const attribute : color_attributes) {
+      if (header.find(attribute) == header.end()) continue;
+      const auto* const text = header.findTypedAttribute<Imf::StringAttribute>(attribute);
+      if (!text || std::ranges::find(linear_names, text->value()) == std::end(linear_names))
+        warnings.push_back(
+            fmt::format("{}: its {} is not applied; its numbers are used unchanged", name_, attribute));
+    }
+    if (layer.empty() && std::ranges::any_of(chosen, [](const Channel& c) { return c.component == "Z"; }))
+      warnings.push_back(chosen.size() == 1 ? name_ + ": its channel Z, usually a depth, is read as grey"
+                                            : name_ +
+                                                  ": its channels X, Y and Z are read as red, green and "
+                                                  "blue");
     if (header.pixelAspectRatio() != 1)
       warnings.push_back(name_ + ": its pixelAspectRatio is not 1; pixels are read as squares");
     if (Imf::hasEnvmap(header) && Imf::envmap(header) == Imf::ENVMAP_CUBE)
@@ -95,6 +115,21 @@ class ExrReader {
     std::erase_if(all, [](const Channel& channel) { return channel.component != "A"; });
     if (all.empty()) return std::nullopt;
     return in_display_window(read_channels({all[0]}), file_.header(all[0].part));
+  }
+
+  // The channels that read("") and read_alpha() leave out.
+  std::vector<std::string> left_out() const {
+    const std::vector<Channel> chosen = choose("");
+    std::vector<std::string> names;
+    for (const Channel& channel : channels_) {
+      const bool same_layer = channel.part == chosen[0].part && channel.layer == chosen[0].layer;
+      const bool read = std::ranges::any_of(
+          chosen, [&](const Channel& one) { return one.part == channel.part && one.name == channel.name; });
+      if (read || (same_layer && channel.component == "A")) continue;
+      const bool named = channel.name.find('.') != std::string::npos || channel.layer.empty();
+      names.push_back(named ? channel.name : channel.layer + "." + channel.name);
+    }
+    return names;
   }
 
   [[noreturn]] void fail(const std::string& why) const {
@@ -225,7 +260,9 @@ auto with_reader(std::string_view bytes, const std::string& name, const Read& re
   }();
   CHECK(limited);
   if (!exr_header_sound(bytes))
-    throw Error(ExitCode::file_io, "cannot read {} as EXR: its header is damaged, or ends too early", name);
+    throw Error(ExitCode::file_io,
+                "cannot read {} as EXR: its header is damaged, lacks a window or channels, or ends too early",
+                name);
   try {
     ExrReader reader(bytes, name);
     return read(reader);
@@ -247,6 +284,10 @@ Image decode_exr(std::string_view bytes, const std::string& name, const std::str
 
 std::optional<Image> decode_exr_alpha(std::string_view bytes, const std::string& name) {
   return with_reader(bytes, name, [](ExrReader& reader) { return reader.read_alpha(); });
+}
+
+std::vector<std::string> exr_channels_left_out(std::string_view bytes, const std::string& name) {
+  return with_reader(bytes, name, [](ExrReader& reader) { return reader.left_out(); });
 }
 
 }  // namespace eyeray::engine::image

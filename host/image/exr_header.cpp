@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
 #include <optional>
 
 namespace eyeray::engine::image {
@@ -105,13 +106,18 @@ bool sound(std::string_view type, std::string_view value) {
   return fixed == std::end(fixed_types) || value.size() == fixed->bytes;
 }
 
+// Attributes without which a header has no meaning. OpenEXR takes values of its own in their place.
+constexpr std::string_view required[] = {"channels", "dataWindow", "displayWindow"};
+
 // Takes one header. Returns nothing if it is not sound, false if it is empty: an empty header ends the
 // headers of parts.
 std::optional<bool> take_header(Reader& reader) {
+  size_t required_seen = 0;
   for (bool any = false;; any = true) {
     const auto name = reader.name();
     if (!name) return std::nullopt;
-    if (name->empty()) return any;
+    if (name->empty()) return any && required_seen < std::size(required) ? std::nullopt : std::optional(any);
+    required_seen += size_t(std::ranges::count(required, *name));
     const auto type = reader.name();
     const auto size = reader.number();
     if (!type || !size) return std::nullopt;

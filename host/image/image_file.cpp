@@ -72,7 +72,9 @@ std::optional<Image> decode_png_alpha(std::string_view bytes, const std::string&
   const int size = int(std::min(bytes.size(), size_t(std::numeric_limits<int>::max())));
   int width = 0, height = 0, channels = 0;
   if (!stbi_info_from_memory(data, size, &width, &height, &channels)) malformed(name, stbi_failure_reason());
-  if (channels % 2 != 0 || !image_size_allowed(width, height)) return std::nullopt;
+  // A color key (tRNS) makes pixels of one color transparent.
+  const bool keyed = bytes.substr(0, bytes.find("IDAT")).find("tRNS") != std::string_view::npos;
+  if ((channels % 2 != 0 && !keyed) || !image_size_allowed(width, height)) return std::nullopt;
   const std::unique_ptr<stbi_us, Free> codes(
       stbi_load_16_from_memory(data, size, &width, &height, &channels, 4));
   if (!codes) malformed(name, stbi_failure_reason());

@@ -192,11 +192,16 @@ Image decode_radiance(std::string_view bytes, const std::string& name, std::vect
   Vec3 scale(1);  // the factor from the file's numbers to light
   for (std::string line = reader.line(); !line.empty(); line = reader.line()) {
     rgbe = rgbe || line == "FORMAT=32-bit_rle_rgbe";
-    double r = 1, g = 1, b = 1;
-    if (std::sscanf(line.c_str(), "EXPOSURE=%lf", &r) == 1) {
+    // A number that is missing stays 0, which is refused below.
+    double r = 0, g = 0, b = 0;
+    if (line.starts_with("EXPOSURE=")) {
+      std::sscanf(line.c_str(), "EXPOSURE=%lf", &r);
       scale /= Vec3(r);
-    } else if (std::sscanf(line.c_str(), "COLORCORR=%lf %lf %lf", &r, &g, &b) == 3) {
+    } else if (line.starts_with("COLORCORR=")) {
+      std::sscanf(line.c_str(), "COLORCORR=%lf %lf %lf", &r, &g, &b);
       scale /= Vec3(r, g, b);
+    } else if (line.starts_with("GAMMA=") && !(std::sscanf(line.c_str(), "GAMMA=%lf", &r) == 1 && r == 1)) {
+      warnings.push_back(name + ": its GAMMA is not 1; its numbers are used unchanged");
     } else if (line.starts_with("PRIMARIES=") && !usual_primaries(line)) {
       warnings.push_back(name + ": its PRIMARIES are not those of Rec. 709; its numbers are used unchanged");
     } else if (std::sscanf(line.c_str(), "PIXASPECT=%lf", &r) == 1 && r != 1) {
@@ -205,7 +210,7 @@ Image decode_radiance(std::string_view bytes, const std::string& name, std::vect
   }
   for (int c = 0; c < 3; ++c)
     if (!(scale[c] > 0) || !std::isfinite(scale[c]))
-      reader.malformed("its EXPOSURE and COLORCORR must be above 0");
+      reader.malformed("its EXPOSURE and COLORCORR must be numbers above 0");
   if (!rgbe) reader.malformed("its format is not 32-bit_rle_rgbe");
   int width = 0, height = 0, end = 0;
   const std::string size = reader.line();

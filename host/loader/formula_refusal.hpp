@@ -7,7 +7,8 @@
 
 namespace eyeray::engine::loader {
 
-// Adds an error at each `code` and `file` of an [[implicit]], wherever it stands, before any of them is read.
+// Adds an error at each function of the scene: each `code`, and each `file` of an [[implicit]], a texture or
+// a camera. If there are errors then, it throws InputError, so that no function is read.
 void refuse_formulas(const toml::table& root, DiagnosticLog& log);
 
 }  // namespace eyeray::engine::loader

@@ -21,9 +21,8 @@ bool is_word(std::string_view text) {
            static_cast<unsigned char>(c) >= 0x80;
   };
   const auto digit = [](char c) { return c >= '0' && c <= '9'; };
-  const auto inner = [&](char c) {
-    return letter(c) || digit(c) || std::string_view("-./ +@~()").find(c) != std::string_view::npos;
-  };
+  // In quotes, these two begin something else than a character.
+  const auto inner = [](char c) { return static_cast<unsigned char>(c) >= ' ' && c != '"' && c != '\\'; };
   if (text.empty() || !std::ranges::all_of(text, inner)) return false;
   if (letter(text[0]) || text[0] == '.' || text[0] == '/') return true;
   // A file's name may begin with a digit.

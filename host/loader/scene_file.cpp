@@ -24,11 +24,12 @@ namespace {
 namespace fs = std::filesystem;
 
 // Makes the scene of a document. `images`, `meshes` and `formulas`: the files that it may use, or null for
-// none.
+// none. `trusted`: true if it may define functions.
 Scene finish(Document document, const fs::path& file, std::span<const Override> overrides, ImageFiles* images,
-             MeshImports* meshes, FormulaFiles* formulas, DiagnosticLog& log) {
+             MeshImports* meshes, FormulaFiles* formulas, bool trusted, DiagnosticLog& log) {
   apply_overrides(document.root, overrides, log);
   Animation animation = apply_animation(document.root, log);
+  if (!trusted) refuse_formulas(document.root, log);
   if (meshes) meshes->show(seconds(animation));
   Scene scene = build_scene(document.root, {images, meshes, formulas}, log);
   if (log.has_errors()) throw InputError(log.sorted());
@@ -103,16 +104,16 @@ Scene load_moment(const fs::path& file, std::span<const Override> overrides, con
     MeshImports meshes(folders, std::move(trees), {file}, pixels);
     Document document = read_mesh(file, overrides, meshes, log);
     ImageFiles images(folders, document.files, pixels, log);
-    Scene scene = finish(std::move(document), file, overrides, &images, &meshes, nullptr, log);
+    Scene scene =
+        finish(std::move(document), file, overrides, &images, &meshes, nullptr, trust.formulas, log);
     scene.is_mesh_alone = true;
     return scene;
   }
   Document document = read_document(file, folders, log);
-  if (!trust.formulas) refuse_formulas(document.root, log);
   ImageFiles images(folders, document.files, pixels, log);
   MeshImports meshes(folders, std::move(trees), document.files, pixels);
   FormulaFiles formulas(folders, document.files, log);
-  return finish(std::move(document), file, overrides, &images, &meshes, &formulas, log);
+  return finish(std::move(document), file, overrides, &images, &meshes, &formulas, trust.formulas, log);
 }
 
 Scene parse_moment(std::string_view text, const std::string& name, std::span<const Override> overrides,
@@ -121,9 +122,8 @@ Scene parse_moment(std::string_view text, const std::string& name, std::span<con
   image::PixelBudget pixels;
   MeshImports meshes(files, pixels);
   Document document = parse_document(text, name, log);
-  if (!formulas) refuse_formulas(document.root, log);
   return finish(std::move(document), name, overrides, nullptr, files.empty() ? nullptr : &meshes, nullptr,
-                log);
+                formulas, log);
 }
 
 }  // namespace

@@ -52,6 +52,7 @@ TEST_CASE("Mesa's cache is not used where others may write to it, and a warning 
   for (const Environment& environment : std::vector<Environment>{
            {{"MESA_SHADER_CACHE_DIR", chosen}, {"EYERAY_CACHE_DIR", own}},
            {{"MESA_SHADER_CACHE_DIR", chosen}, {"EYERAY_CACHE_DIR", own}, {"LP_NATIVE_VECTOR_WIDTH", "256"}},
+           {{"MESA_GLSL_CACHE_DIR", chosen}, {"EYERAY_CACHE_DIR", own}},
            {{"XDG_CACHE_HOME", folder / "home"}, {"EYERAY_CACHE_DIR", own}}}) {
     const std::string& cache = environment[0].first == "XDG_CACHE_HOME" ? usual : chosen;
     CAPTURE(cache);

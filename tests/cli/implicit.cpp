@@ -61,6 +61,18 @@ TEST_CASE("--no-formulas refuses every function that a scene brings, and accepts
     CHECK(result.code == 2);
     CHECK(result.err.find("error: `file` has a function, which --no-formulas refuses") != std::string::npos);
   }
+  // The refusal is the only error: no function is read, wherever it stands.
+  write_text(
+      folder / "all.toml",
+      "[camera]\ntype = \"formula\"\ncode = \"nonsense\"\n[[implicit]]\nfile = \"none.glsl\"\n"
+      "[[material]]\nname = \"m\"\ntype = \"phong\"\ndiffuse = { formula = { code = \"nonsense\" } }\n");
+  const ProcessResult all = run_eyeray({"check", folder / "all.toml", "--no-formulas"});
+  CAPTURE(all.err);
+  CHECK(all.code == 2);
+  CHECK(all.err.ends_with("\n3 errors\n"));
+  CHECK(all.err.find("nonsense'") == std::string::npos);
+  CHECK(run_eyeray({"check", folder.scene(), "-D", "camera.file=\"f.glsl\"", "--no-formulas"})
+            .err.find("-D camera.file=") != std::string::npos);
   replace_in_file(folder.scene(), "file = \"f.glsl\"", "ready = \"gyroid\"");
   CHECK(run_eyeray({"check", folder.scene(), "--no-formulas"}).code == 0);
 }

@@ -50,6 +50,15 @@ TEST_CASE("verify takes every scene in a folder and below, except included parts
   // an error too.
   CHECK(run_eyeray({"verify", folder / "bad.toml"}).code == 2);
   std::filesystem::create_directories(folder / "empty");
+  // Reports that were asked for name it as failed.
+  for (const std::string name : {"bad.toml", "missing.toml", "empty"}) {
+    CAPTURE(name);
+    CHECK(run_eyeray({"verify", folder / name, "--junit", folder / (name + ".xml"), "--report",
+                      folder / (name + ".page")})
+              .code != 0);
+    CHECK(read_text(folder / (name + ".xml")).find("tests=\"1\" failures=\"1\"") != std::string::npos);
+    CHECK(read_text(folder / (name + ".page/index.html")).find(name) != std::string::npos);
+  }
 
   // Alone in a folder, the bad scene is a failed scene of a suite, and gets reports. Names in them are not
   // markup.

@@ -33,6 +33,14 @@ TEST_CASE("a file is written whole, replaces an older one, and no other file is 
   CHECK(folder.names() == std::set<std::string>{"a"});
 }
 
+TEST_CASE("a name may be as long as the file system allows") {
+  const TemporaryFolder folder;
+  std::string name(255, 'a');
+  for (size_t i = 1; i + 1 < name.size(); i += 2) name.replace(i, 2, "\u00e4");
+  write_file_atomically(folder / name, std::string_view("x"));
+  CHECK(folder.names() == std::set<std::string>{name});
+}
+
 TEST_CASE("all bytes survive, including zeros, beyond the size of one write and one read") {
   const TemporaryFolder folder;
   std::string bytes(3'000'001, '\0');

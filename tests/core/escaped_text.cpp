@@ -5,6 +5,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "host/core/diagnostic.hpp"
 #include "host/core/github_text.hpp"
 #include "host/core/process.hpp"
 #include "tests/support/nasty_strings.hpp"
@@ -61,6 +62,10 @@ TEST_CASE("JSON reads a string unchanged, and holds no command to a terminal or 
     for (const int indent : {-1, 2}) {
       const std::string json = json_text(nlohmann::json{{text, text}}, indent);
       CHECK(log_lines(json) == json);
+      for (const char* hidden : {"\u202e", "\u200b", "\u061c"}) {
+        CHECK(json_text(nlohmann::json(hidden + text)).find(hidden) == std::string::npos);
+        CHECK(printable(hidden + text) == "?" + printable(text));
+      }
       const auto read = nlohmann::json::parse(json);
       REQUIRE(read.size() == 1);
       if (is_utf8(text)) CHECK(read.at(text) == text);

@@ -3,6 +3,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "host/core/atomic_file.hpp"
@@ -143,6 +144,51 @@ TEST_CASE("layers are chosen by name, and parts are layers") {
   CHECK(holds(read_image(parts, "depth"), {0}));
   CHECK(holds(read_image(corpus + "one_layer.exr"), {0, 1, 2}));
   CHECK(holds(read_image(corpus + "one_layer.exr", "beauty"), {0, 1, 2}));
+}
+
+TEST_CASE("a header whose attributes or channels give the numbers another meaning causes a warning") {
+  const TemporaryFolder folder;
+  const auto warnings_of = [&](const std::string& bytes) {
+    write_text(folder / "a.exr", bytes);
+    std::vector<std::string> warnings;
+    read_image(folder / "a.exr", "", warnings);
+    return warnings;
+  };
+  const std::string plain = read_text(corpus + "zip.exr");
+  CHECK(warnings_of(plain).empty());
+  // Adds an attribute to the header; the offsets of the blocks behind it grow.
+  const auto with = [&](const std::string& name, const std::string& type, const std::string& value) {
+    const std::string added = name + '\0' + type + '\0' + char(value.size()) + std::string(3, '\0') + value;
+    std::string bytes = plain;
+    bytes.insert(8, added);
+    const size_t last = bytes.find(std::string("screenWindowWidth") + '\0' + "float");
+    REQUIRE(last != std::string::npos);
+    const size_t table = last + 17 + 1 + 5 + 1 + 4 + 4 + 1;
+    uint64_t first = 0;
+    std::memcpy(&first, bytes.data() + table, sizeof first);
+    for (size_t at = table; at < size_t(first) + added.size(); at += sizeof(uint64_t)) {
+      uint64_t offset = 0;
+      std::memcpy(&offset, bytes.data() + at, sizeof offset);
+      offset += added.size();
+      std::memcpy(bytes.data() + at, &offset, sizeof offset);
+    }
+    return bytes;
+  };
+  CHECK(warnings_of(with("whiteLuminance", "float", std::string(4, '\0'))).size() == 1);
+  CHECK(warnings_of(with("colorInteropID", "string", "lin_ap0_scene")).size() == 1);
+  CHECK(warnings_of(with("oiio:ColorSpace", "string", "lin_rec709")).empty());
+
+  for (const std::string channel : {"Z", "Y"}) {
+    ImageWriter writer(folder / "z.exr", 2, 2, std::vector<ExrChannel>{{channel, false}});
+    writer.write(Image(2, 2, 1));
+    writer.finish();
+    CHECK(warnings_of(read_text(folder / "z.exr")).size() == size_t(channel == "Z"));
+  }
+  std::string without = plain;
+  without.replace(without.find("displayWindow"), 13, "displayWindoW");
+  write_text(folder / "a.exr", without);
+  CHECK(refusal_of(folder / "a.exr") ==
+        "its header is damaged, lacks a window or channels, or ends too early");
 }
 
 TEST_CASE("files that are no pictures are refused, each with a specific message") {

@@ -176,7 +176,12 @@ TEST_CASE("HDR: EXPOSURE and COLORCORR are divided out, other primaries cause a 
   CHECK(warnings.empty());
   read("PRIMARIES=0.7 0.3 0.2 0.8 0.13 0.05 0.3127 0.329\nPIXASPECT=2\n", one, warnings);
   CHECK(warnings.size() == 2);
-  for (const char* wrong : {"EXPOSURE=0\n", "EXPOSURE=-1\n", "EXPOSURE=nan\n", "EXPOSURE=1e-320\n"}) {
+  read("GAMMA=1.0\n", one, warnings);
+  CHECK(warnings.size() == 2);
+  read("GAMMA=2.2\n", one, warnings);
+  CHECK(warnings.size() == 3);
+  for (const char* wrong : {"EXPOSURE=0\n", "EXPOSURE=-1\n", "EXPOSURE=nan\n", "EXPOSURE=1e-320\n",
+                            "EXPOSURE=x\n", "COLORCORR=2 1\n"}) {
     CAPTURE(wrong);
     CHECK_THROWS_AS(read(wrong, one, warnings), Error);
   }

@@ -167,6 +167,8 @@ TEST_CASE("a file in an override is relative to the scene, whatever kind of inpu
                    "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"),
       folder.write("in/alone.gltf", gltf_triangle(true)),
       folder.write("in/alone.glb", glb_of(gltf_triangle(false)))};
+  const std::string odd = "a=b,c&d:e(f)[g]it's#.hdr";
+  std::filesystem::copy_file(folder / "in/sky.hdr", folder / ("in/" + odd));
   std::vector<std::string> inputs(std::begin(alone), std::end(alone));
   inputs.push_back(folder.write("in/scene.toml", shapes));
   inputs.push_back(folder.write("in/main.toml", "include = [\"parts.toml\"]\n"));
@@ -176,6 +178,7 @@ TEST_CASE("a file in an override is relative to the scene, whatever kind of inpu
     bool in_mesh;  // a mesh alone has no material to change
   };
   const Value values[] = {{"environment.image=NAME", "sky.hdr", true},
+                          {"environment.image=NAME", odd, true},
                           {"mesh.0.file=NAME", "other.obj", true},
                           {"material.0.diffuse={image=\"NAME\"}", "rgb.png", false},
                           {"material.0.diffuse={formula={file=\"NAME\"}}", "colors.glsl", false}};
