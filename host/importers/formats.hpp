@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "host/importers/asset_files.hpp"
 #include "host/importers/import.hpp"
@@ -27,5 +28,9 @@ ImportedScene import_gltf(MeshFile& file);  // .gltf and .glb, distinguished by 
 
 // Default angle of smoothing in degrees, for files without normals other than glTF.
 inline constexpr double default_smooth = 40;
+
+inline bool is_utf16(std::string_view text) {
+  return text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff");
+}
 
 }  // namespace eyeray::engine::importers

@@ -3,6 +3,7 @@
 // .glb whose last chunk is too long, throws at an empty buffer, and does not check a bufferView's range.
 // Source: Khronos Group: glTF 2.0 Specification (2.0.1); KHR_lights_punctual.
 #include <algorithm>
+#include <array>
 #include <glm/gtc/type_ptr.hpp>
 #include <optional>
 #include <set>
@@ -83,6 +84,7 @@ class GltfReader {
   void read_nodes();
   void read_node(size_t index);
   void read_mesh(size_t index, size_t mesh, const Mat4& world);
+  int material_of(const GltfMeshes::Part& part);
   Mat4 transform(size_t index);
   bool is_flat(const Mat4& world);
   const std::vector<double>* moved(size_t node, const char* key) const;
@@ -104,6 +106,7 @@ class GltfReader {
   std::vector<bool> hidden_;                 // one a node
   std::vector<std::optional<std::vector<Mat4>>> joints_;  // one list a skin, once the skin is used
   size_t flattened_ = 0;
+  std::array<int, 2> plain_ = {-1, -1};  // indices of the plain materials, without colours and with them
 };
 
 void GltfReader::check_extensions() {
@@ -248,6 +251,18 @@ void GltfReader::read_node(size_t index) {
   }
 }
 
+// The material of a part. That of a part without one exists only in front, as glTF's default material.
+int GltfReader::material_of(const GltfMeshes::Part& part) {
+  if (part.material >= 0) return part.material;
+  int& index = plain_[part.colored];
+  if (index < 0) {
+    index = static_cast<int>(scene_.materials.size());
+    scene_.materials.push_back(plain_material(part.colored));
+    scene_.materials.back()->front_only = true;
+  }
+  return index;
+}
+
 void GltfReader::read_mesh(size_t index, size_t mesh, const Mat4& world) {
   const GltfObject node = document_.element("nodes", index);
   const std::vector<double>* const weights = moved(index, "weights");
@@ -277,7 +292,7 @@ void GltfReader::read_mesh(size_t index, size_t mesh, const Mat4& world) {
       node.fail(
           fmt::format("is one of more than {} instances, the most that a file may have", most_instances));
     for (const Mat4& transform : transforms)
-      scene_.instances.push_back({part.mesh, transform, part.material, {}});
+      scene_.instances.push_back({part.mesh, transform, material_of(part), {}});
   }
 }
 

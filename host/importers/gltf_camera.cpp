@@ -25,19 +25,17 @@ ImportedCamera gltf_camera(const GltfObject& source, const Mat4& world, GltfBrea
   camera.up = unit(Vec3(world[1]));
   if (source.has("perspective") && source.has("orthographic"))
     source.fail("is both perspective and orthographic");
-  if (!source.has(source.text("type").c_str()))
-    breaches.add("cameras whose type is not that of their values, which are used", source.location());
   if (const auto perspective = source.object("perspective")) {
     const double degrees = glm::degrees(perspective->number("yfov", 0));
     if (!(degrees > 0 && degrees < 180)) perspective->fail("has a yfov that is out of range");
     camera.form = PerspectiveCamera{degrees, FovAxis::vertical};
     check_planes(*perspective,
-                 perspective->number("znear", 0) > 0 && perspective->number("aspectRatio", 1) > 0, breaches);
+                 perspective->number("znear", 1) > 0 && perspective->number("aspectRatio", 1) > 0, breaches);
   } else if (const auto orthographic = source.object("orthographic")) {
     const double size = orthographic->number("xmag", 0);
     if (!(size > 1e-12 && size < 1e12)) orthographic->fail("has an xmag that is out of range");
     camera.form = OrthographicCamera{size};
-    check_planes(*orthographic, orthographic->number("znear", -1) >= 0 && orthographic->number("ymag", 0) > 0,
+    check_planes(*orthographic, orthographic->number("znear", 0) >= 0 && orthographic->number("ymag", 1) > 0,
                  breaches);
   } else {
     source.fail("is neither perspective nor orthographic");

@@ -24,6 +24,9 @@ SpotLight spot_light(const GltfObject& light, const Mat4& world, const Vec3& int
   // Allow for a quarter turn in float32, which is a little larger.
   if (!cone || !(inner >= 0 && inner < outer && outer <= quarter_turn + 1e-6))
     breaches.add("spot lights whose angles do not grow from 0 to a quarter turn, clamped", light.location());
+  if (outer >= 0 && outer < least_border)
+    breaches.add("spot lights whose outerConeAngle is too small to light anything, set to 0.00002",
+                 light.location());
   const double border = std::clamp(outer, least_border, quarter_turn);
   return {.position = Vec3(world[3]),
           .direction = -unit(Vec3(world[2])),

@@ -238,6 +238,15 @@ constexpr LinkRule link_rules[] = {
      [](const Links& links, const Json& skin, size_t) { return !has_common_root(links, skin); }},
     {"skins", "skins whose skeleton is not above all joints, left out",
      [](const Links& links, const Json& skin, size_t) { return !has_sound_skeleton(links, skin); }},
+    {"cameras", "cameras whose type is not that of their values, which are used",
+     [](const Links&, const Json& camera, size_t) {
+       const Json* const type = member(camera, "type");
+       return !type || !type->is_string() || !camera.contains(type->get<std::string>());
+     }},
+    {"images", "pictures with both or neither of uri and bufferView",
+     [](const Links&, const Json& image, size_t) {
+       return image.contains("uri") == image.contains("bufferView");
+     }},
     {"accessors", "accessors that are more than one of attributes, indices and other data",
      [](const Links& links, const Json&, size_t i) {
        return std::popcount(links.roles.accessors[i] & Role::any) > 1;

@@ -80,7 +80,8 @@ std::vector<GltfMeshes::Part> GltfMeshes::posed_parts(size_t index, const GltfPo
     if (!made || made->triangles.empty()) continue;
     const std::string name = mesh.text("name");
     made->name = fmt::format("{}: {}", file_, name.empty() ? primitive.location() : printable(name));
-    parts.push_back({static_cast<int>(meshes_.size()), material ? static_cast<int>(*material) : -1});
+    parts.push_back({static_cast<int>(meshes_.size()), material ? static_cast<int>(*material) : -1,
+                     !made->colors.empty()});
     meshes_.push_back(std::move(*made));
   }
   seen_[index] = true;

@@ -19,10 +19,11 @@ class GltfMeshes {
              GltfLeftOut& left_out, GltfBreaches& breaches, const std::string& file, double smooth);
 
   // A primitive of a mesh: its index in the meshes made here, and the index of its material in the file, or
-  // −1.
+  // −1. `colored`: its vertices have colours.
   struct Part {
     int mesh;
     int material;
+    bool colored;
   };
   // The parts of a mesh: as all nodes show it that do not deform it, and as one node deforms it.
   const std::vector<Part>& parts(size_t index);

@@ -189,8 +189,10 @@ constexpr Property sampler[] = {one_of("magFilter", "9728 9729"),
 constexpr Property image[] = {text("uri"), text("mimeType"), index("bufferView", "bufferViews")};
 
 // Nodes, and the objects that they refer to.
-constexpr Property perspective[] = {number("aspectRatio"), number("yfov"), number("zfar"), number("znear")};
-constexpr Property orthographic[] = {number("xmag"), number("ymag"), number("zfar"), number("znear")};
+constexpr Property perspective[] = {number("aspectRatio"), number("yfov").must(), number("zfar"),
+                                    number("znear").must()};
+constexpr Property orthographic[] = {number("xmag").must(), number("ymag").must(), number("zfar").must(),
+                                     number("znear").must()};
 constexpr Property camera[] = {text("type"), object("perspective", perspective),
                                object("orthographic", orthographic)};
 constexpr Property spot[] = {number("innerConeAngle"), number("outerConeAngle")};

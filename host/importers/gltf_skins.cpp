@@ -78,6 +78,7 @@ void check_targets(const GltfObject& primitive, const GltfObject& document, Gltf
   const size_t accessors = document.size("accessors");
   for (size_t i = 0; i < primitive.size("targets"); ++i) {
     const GltfObject target = primitive.element("targets", i);
+    breaches.check_attribute_names(target);
     const auto attributes = primitive.object("attributes");
     for (const char* name : {"POSITION", "NORMAL", "TANGENT"}) {
       try {

@@ -40,8 +40,7 @@ void drop_empty(ImportedScene& scene) {
 ImportedScene read_mesh_file(MeshFile& file) {
   const Reader read = find_reader(file.name);
   if (!read) throw malformed(file.name, "a mesh file's name must end in .obj, .ply, .gltf or .glb");
-  if (file.bytes.starts_with("\xff\xfe") || file.bytes.starts_with("\xfe\xff"))
-    throw malformed(file.name, "it is text in UTF-16: save it as UTF-8");
+  if (is_utf16(file.bytes)) throw malformed(file.name, "it is text in UTF-16: save it as UTF-8");
   drop_byte_order_mark(file.bytes);
   ImportedScene scene;
   try {

@@ -12,6 +12,7 @@
 #include "host/importers/malformed.hpp"
 #include "host/importers/mesh_builder.hpp"
 #include "host/importers/obj_materials.hpp"
+#include "host/importers/obj_text.hpp"
 #include "host/importers/polygon.hpp"
 
 namespace eyeray::engine::importers {
@@ -260,6 +261,7 @@ RawTriangles triangulate(const Part& part, const VertexPool& vertices, MeshCount
 }  // namespace
 
 ImportedScene import_obj(MeshFile& file) {
+  end_lines_with_newlines(file.bytes);
   ObjReader reader(file);
   reader.read();
   free_memory(file.bytes);  // the meshes need the memory

@@ -1,5 +1,7 @@
 #include "host/importers/obj_materials.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <optional>
 #include <sstream>
@@ -11,7 +13,8 @@
 #include "host/core/diagnostic_log.hpp"
 #include "host/core/error.hpp"
 #include "host/core/input_file.hpp"
-#include "host/importers/obj_maps.hpp"
+#include "host/importers/formats.hpp"
+#include "host/importers/obj_text.hpp"
 #include "host/materials/make.hpp"
 #include "host/scene/image_texture_file.hpp"
 
@@ -43,14 +46,17 @@ materials::Highlight highlight(const tinyobj::material_t& source) {
 }
 
 bool is_glass(const tinyobj::material_t& source) {
-  // Maya gives opaque materials `illum 4`, `Tf 1 1 1` and `Ni 1`: an index of 1 bends nothing.
-  return refracts(source.illum) && (source.ior > 1 || source.dissolve < 1);
+  // Maya gives opaque materials `illum 4`, `Tf 1 1 1` and `Ni 1`: an index of 1 bends nothing, and `d`
+  // blends.
+  return refracts(source.illum) && source.ior > 1;
 }
 
 // True if a value of the physically based extension (Pr, Pm, Pc, Ps) is set, which `illum` does not describe.
 bool is_principled(const tinyobj::material_t& source) {
   return source.roughness > 0 || source.metallic > 0 || source.clearcoat_thickness > 0 || source.sheen > 0;
 }
+
+constexpr size_t most_statements_named = 16;
 
 // Limit on a material's emission: a larger value is a mistake.
 constexpr double most_emission = 1e6;
@@ -70,7 +76,7 @@ struct Maps {
 
 std::unique_ptr<Material> convert(const tinyobj::material_t& source, const Maps& maps) {
   if (is_glass(source)) {
-    const double ior = source.ior > 1 && source.ior <= 4 ? source.ior : 1.5;
+    const double ior = source.ior <= 4 ? source.ior : 1.5;
     return materials::make_dielectric({.ior = ior, .highlight = highlight(source)});
   }
   const TexturePtr diffuse = textured(color(source.diffuse), maps.diffuse);
@@ -111,6 +117,14 @@ ObjUv uv_of(const tinyobj::texture_option_t& options) {
   return {{options.scale[0], options.scale[1]}, {options.origin_offset[0], options.origin_offset[1]}};
 }
 
+// Adds the unknown statements of a material to `names`.
+void add_unknown(const tinyobj::material_t& source, std::set<std::string>& names) {
+  // Advice about the quality of maps.
+  constexpr std::string_view advice[] = {"map_aat", "sharpness"};
+  for (const auto& [name, value] : source.unknown_parameter)
+    if (std::ranges::find(advice, name) == std::end(advice)) names.insert(printable(name));
+}
+
 // The words for a warning about each value of a material that has no counterpart here.
 std::vector<std::string> left_out(const tinyobj::material_t& source) {
   std::vector<std::string> words;
@@ -119,6 +133,13 @@ std::vector<std::string> left_out(const tinyobj::material_t& source) {
   };
   const bool glass = is_glass(source);
   const bool emits = color(source.emission) != Vec3(0) || !source.emissive_texname.empty();
+  // A `Tf` of 0 is absent.
+  const Vec3 tint(source.transmittance[0], source.transmittance[1], source.transmittance[2]);
+  add(glass && tint != Vec3(0) && tint != Vec3(1), "the tint (Tf) of glass");
+  add(glass && source.dissolve > 0 && source.dissolve < 1,
+      "the transparency (d) of glass: an index (Ni) of 1 makes it count");
+  add(glass && !source.diffuse_texname.empty(), "pictures (map_Kd) of glass");
+  add(glass && is_principled(source), "the values Pr, Pm, Pc and Ps of glass");
   add(glass && !source.alpha_texname.empty(), "maps of transparency (map_d) of glass");
   add(glass && emits, "the emission (Ke) of glass");
   add(!source.bump_texname.empty(), "bump maps");
@@ -128,7 +149,10 @@ std::vector<std::string> left_out(const tinyobj::material_t& source) {
   add(!source.reflection_texname.empty(), "reflection maps (refl)");
   add(!source.roughness_texname.empty() || !source.metallic_texname.empty() || !source.sheen_texname.empty(),
       "maps of roughness, metalness and sheen (map_Pr, map_Pm, map_Ps)");
-  add(source.anisotropy != 0, "anisotropy (aniso)");
+  add(source.anisotropy != 0 || source.anisotropy_rotation != 0, "anisotropy (aniso, anisor)");
+  // Many programs repeat the colour's picture as map_Ka.
+  add(source.ambient_texname != source.diffuse_texname && !source.ambient_texname.empty(),
+      "maps of ambient light (map_Ka)");
   return words;
 }
 
@@ -163,7 +187,11 @@ bool ObjMaterials::read(const std::string& name, bool last) {
     return last;
   }
   done_.insert(name);
-  parse(std::move(text));
+  if (is_utf16(text)) {
+    warn(fmt::format("materials were left out: {} is text in UTF-16: save it as UTF-8", name));
+  } else {
+    parse(std::move(text));
+  }
   return true;
 }
 
@@ -171,9 +199,13 @@ void ObjMaterials::parse(std::string text) {
   drop_byte_order_mark(text);
   std::map<std::string, int> names;
   std::vector<tinyobj::material_t> sources;
-  std::istringstream stream(with_all_map_numbers(text));
+  end_lines_with_newlines(text);
+  const MtlText plain = plain_mtl(text);
+  for (const std::string& what : plain.left_out) warn("left out: " + what);
+  std::istringstream stream(plain.text);
   std::string unused;
   tinyobj::LoadMtl(&names, &sources, &stream, &unused, &unused);
+  std::set<std::string> unknown;
   for (const tinyobj::material_t& source : sources) {
     // Skip statements before the first `newmtl`, which have no material's name.
     if (source.name.empty() || indices_.contains(source.name)) continue;
@@ -202,7 +234,13 @@ void ObjMaterials::parse(std::string text) {
     materials.push_back(std::move(made));
     uv_.push_back(uv.value_or(ObjUv{}));
     for (const std::string& what : left_out(source)) warn("left out: " + what);
+    add_unknown(source, unknown);
   }
+  if (unknown.empty()) return;
+  const size_t named = std::min(unknown.size(), most_statements_named);
+  warn(fmt::format("left out: statements that eyeray does not know ({}{})",
+                   fmt::join(unknown.begin(), std::next(unknown.begin(), std::ptrdiff_t(named)), ", "),
+                   named < unknown.size() ? ", …" : ""));
 }
 
 std::shared_ptr<const ImageTexture> ObjMaterials::picture(const std::string& name, bool clamp, MapUse use) {

@@ -16,7 +16,7 @@ namespace eyeray::engine::importers {
 namespace {
 
 // The meaning of a vertex's property; `none` if it has none here.
-enum Slot { x, y, z, nx, ny, nz, u, v, red, green, blue, none };
+enum Slot { x, y, z, nx, ny, nz, u, v, red, green, blue, alpha, none };
 
 constexpr std::pair<std::string_view, Slot> slot_names[] = {
     {"x", x},
@@ -42,6 +42,9 @@ constexpr std::pair<std::string_view, Slot> slot_names[] = {
     {"diffuse_red", red},
     {"diffuse_green", green},
     {"diffuse_blue", blue},
+    {"alpha", alpha},
+    {"a", alpha},
+    {"diffuse_alpha", alpha},
 };
 
 Slot slot_of(std::string_view name) {
@@ -86,6 +89,7 @@ class PlyReader {
 
   VertexPool vertices;
   PlyPolygons polygons;
+  bool transparent = false;  // true if a colour has an alpha below 1
 
  private:
   void check_count(const PlyElement& element) const;
@@ -152,6 +156,7 @@ void PlyReader<Values>::read_vertices(const PlyElement& element) {
     if (normals) vertices.normals.emplace_back(row[nx], row[ny], row[nz]);
     if (uv) vertices.uv.emplace_back(row[u], row[v]);
     if (colors) vertices.colors.push_back(color_from_display({row[red], row[green], row[blue]}));
+    transparent = transparent || (colors && has[alpha] && row[alpha] < 1);
   }
 }
 
@@ -198,7 +203,7 @@ void PlyReader<Values>::read_faces(const PlyElement& element) {
         read_uv(property, uv);
       } else if (&property == picture) {
         polygons.pictures.push_back(read_index(property.type));
-      } else if (colored && meaning[k] >= red && meaning[k] <= blue) {
+      } else if (colored && meaning[k] >= red && meaning[k] <= alpha) {
         row[meaning[k]] = values_.next(property.type) / brightest(property.type);
       } else {
         skip_value(property);
@@ -206,6 +211,7 @@ void PlyReader<Values>::read_faces(const PlyElement& element) {
     }
     polygons.sizes.push_back(static_cast<uint32_t>(size));
     if (colored) polygons.colors.push_back(color_from_display({row[red], row[green], row[blue]}));
+    transparent = transparent || (colored && has[alpha] && row[alpha] < 1);
     if (uv_list && !uv.empty() && uv.size() != size)
       values_.fail(fmt::format("a face of {} corners has {} pairs of texcoord", size, uv.size()));
     if (uv_list) {
@@ -301,8 +307,8 @@ std::vector<int> show_pictures(const PlyHeader& header, MeshFile& file, size_t s
   if (pictures == 0) return materials;
   if (!has_uv || pictures != shown) {
     scene.warnings.emplace_back(
-        fmt::format("its {} (comment TextureFile) left out: {}; give the mesh a `material`",
-                    pictures > 1 ? "pictures were" : "picture was",
+        fmt::format("its {} (comment TextureFile) {} left out: {}; give the mesh a `material`",
+                    pictures > 1 ? "pictures" : "picture", pictures > 1 ? "were" : "was",
                     has_uv ? "no texnumber of its faces selects one" : "it has no uv"));
     return materials;
   }
@@ -330,9 +336,23 @@ ImportedScene import_values(const PlyHeader& header, MeshFile& file) {
   add_values_of_faces(reader.polygons, reader.vertices, scene.warnings);
   const std::vector<RawTriangles> lists =
       triangulate(reader.polygons, reader.vertices, header.pictures.size(), own_uv, counts, file.name);
+  const bool other_pictures =
+      header.pictures.size() == 1 &&
+      std::ranges::any_of(reader.polygons.pictures, [](uint32_t n) { return n != 0; });
   reader.polygons = {};
   const std::vector<int> materials =
       show_pictures(header, file, lists.size(), !reader.vertices.uv.empty(), scene);
+  if (other_pictures && materials[0] >= 0)
+    scene.warnings.emplace_back(
+        "faces have a texnumber other than 0, but there is one picture: they show it");
+  if (reader.transparent)
+    scene.warnings.emplace_back(
+        "the transparency of colours (alpha) was left out: give the mesh a `material` with `alpha`");
+  const auto has_material = [](const PlyElement& element) {
+    return std::ranges::count(element.properties, "material_index", &PlyProperty::name) > 0;
+  };
+  if (std::ranges::any_of(header.elements, has_material))
+    scene.warnings.emplace_back("its materials (material_index) were left out: give the mesh a `material`");
   MeshBuilder builder(reader.vertices, counts);
   for (size_t i = 0; i < lists.size(); ++i) {
     if (lists.size() > 1 && lists[i].positions.empty()) continue;

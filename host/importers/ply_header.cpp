@@ -1,5 +1,6 @@
 #include "host/importers/ply_header.hpp"
 
+#include <algorithm>
 #include <charconv>
 
 #include "host/importers/malformed.hpp"
@@ -30,6 +31,12 @@ std::vector<std::string_view> split(std::string_view line) {
   return words;
 }
 
+// True for `TextureFile`, in any case.
+bool is_texture_file(std::string_view word) {
+  return std::ranges::equal(word, std::string_view("texturefile"),
+                            [](char a, char b) { return a == b || a == b - 32; });
+}
+
 class HeaderReader {
  public:
   HeaderReader(std::string_view bytes, const std::string& file) : bytes_(bytes), file_(file) {}
@@ -39,7 +46,8 @@ class HeaderReader {
       fail("this is not a PLY file: it does not start with `ply`");
     for (;;) {
       const std::vector<std::string_view> words = next_line();
-      if (words.size() > 2 && words[0] == "comment" && words[1] == "TextureFile") {
+      if (words.size() > 2 && (words[0] == "comment" || words[0] == "obj_info") &&
+          is_texture_file(words[1])) {
         // A picture's name may contain blanks.
         const std::string_view last = words.back();
         header_.pictures.emplace_back(words[2].data(), last.data() + last.size());

@@ -34,8 +34,9 @@ struct PlyElement {
 struct PlyHeader {
   PlyFormat format;
   std::vector<PlyElement> elements;
-  std::vector<std::string> pictures;  // from comments `TextureFile NAME`, which MeshLab and others write
-  size_t size = 0;                    // bytes up to the data
+  std::vector<std::string>
+      pictures;     // from comments and obj_infos `TextureFile NAME`, which MeshLab and others write
+  size_t size = 0;  // bytes up to the data
 };
 
 // Reads the header. InputError, with the line, if it is wrong.

@@ -24,7 +24,7 @@ std::vector<std::string> warnings_of(const importers::ImportedScene& scene, cons
   const size_t lights = scene.lights.size();
   if (lights > 0 || scene.camera) {
     all.push_back(
-        fmt::format("its {} not used: the scene sets its own",
+        fmt::format("its {} not used: only those of the scene file count",
                     lights == 0 ? "camera is" : (scene.camera ? "camera and lights are" : "lights are")));
   }
   for (std::string& warning : all) warning = fmt::format("{}: {}", file.string(), warning);

@@ -334,7 +334,7 @@ std::unique_ptr<Shape> Builder::parse_shape(const Section& section, reading::Tab
   if (!section.shape->flat && !scene_.materials.empty() && scene_.materials[size_t(material)]->mask)
     reader.error(
         "material",
-        fmt::format("a material with `alpha` has cutouts, and a ray may hit a {} again behind one; only "
+        fmt::format("a material with `alpha` has cutouts, and a ray may hit the {} again behind one; only "
                     "planes, triangles, polygons, parallelograms, disks and meshes can have such a material",
                     section.shape->name));
   shape->material = material;

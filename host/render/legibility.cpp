@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
 
 namespace eyeray::engine::render {
 
@@ -11,11 +14,13 @@ namespace {
 constexpr double alike = 1.0 / 512;
 // The least share of a picture that must differ from the background.
 constexpr double least_foreground = 1e-3;
+// The most stops beyond white that a tone mapping can show.
+constexpr size_t most_stops_of_tone = 4;
 
 }  // namespace
 
 Legibility::Legibility(const Vec3& background, double exposure)
-    : background_(background), gain_(std::exp2(exposure)) {}
+    : background_(background), exposure_(exposure), gain_(std::exp2(exposure)) {}
 
 void Legibility::see(const image::Image& rows) {
   for (int y = 0; y < rows.height(); ++y)
@@ -26,7 +31,8 @@ void Legibility::see(const image::Image& rows) {
       ++pixels_;
       if (!(std::max({apart.x, apart.y, apart.z}) > alike)) continue;
       ++foreground_;
-      bright_ += std::min({color.x, color.y, color.z}) * gain_ > 1;
+      const double darkest = std::min({color.x, color.y, color.z}) * gain_;
+      if (darkest > 1) ++bright_[std::min(bright_.size() - 1, size_t(std::ilogb(darkest)))];
     }
 }
 
@@ -35,9 +41,13 @@ std::string Legibility::warning() const {
     return "the model cannot be distinguished from the background: smooth metal mirrors it, or the camera "
            "misses the model; add an environment, such as -D environment.image=studio.hdr, or choose another "
            "camera.eye";
-  if (2 * bright_ > foreground_)
-    return "more than half of the model is brighter than white: try --exposure -4, or --tone neutral";
-  return "";
+  // Count the stops after which half of the foreground is not brighter than white.
+  int64_t brighter = std::accumulate(bright_.begin(), bright_.end(), int64_t{0});
+  size_t stops = 0;
+  for (; 2 * brighter > foreground_; ++stops) brighter -= bright_[stops];
+  if (stops == 0) return "";
+  return fmt::format("more than half of the model is brighter than white: try --exposure {}{}",
+                     exposure_ - double(stops), stops <= most_stops_of_tone ? ", or --tone neutral" : "");
 }
 
 std::optional<Legibility> legibility_of(const Scene& scene) {

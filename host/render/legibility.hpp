@@ -2,6 +2,7 @@
 // than the background.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 
@@ -24,10 +25,12 @@ class Legibility {
 
  private:
   Vec3 background_;
+  double exposure_;
   double gain_;
   int64_t pixels_ = 0;
   int64_t foreground_ = 0;  // pixels that differ from the background
-  int64_t bright_ = 0;      // pixels of the foreground with all channels beyond 1
+  // Pixels of the foreground with all channels beyond 1, by the whole stops that they are beyond it.
+  std::array<int64_t, 64> bright_{};
 };
 
 // The check for a scene that is a model alone, in eyeray's own light; empty for other scenes, or with an

@@ -56,7 +56,8 @@ TEST_CASE("rules of glTF: samplers, and pictures without uv") {
   image["bufferView"] = 0;
   CHECK(
       message_of(file) ==
-      "a picture was left out: a.gltf: error: images[0] has both a uri and a bufferView: it is one picture");
+      "a picture was left out: a.gltf: error: images[0] has both a uri and a bufferView: it is one picture; "
+      "pictures with both or neither of uri and bufferView: 1, the first images[0]");
   image = {{"uri", image["uri"]}};
 
   // The pixels of the picture count among those of all images of the scene.

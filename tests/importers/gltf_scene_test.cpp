@@ -285,6 +285,10 @@ TEST_CASE("a single-sided material is visible and emits only in front; glass has
   CHECK(material_of({{"emissiveFactor", {1, 1, 1}}})->emits_in_front);
   CHECK_FALSE(material_of({{"doubleSided", true}})->front_only);
   CHECK_FALSE(material_of({{"doubleSided", true}, {"emissiveFactor", {1, 1, 1}}})->emits_in_front);
+  const ImportedScene plain = import_sound(square_file().gltf(), "a.gltf");
+  REQUIRE(plain.materials.size() == 1);
+  CHECK(plain.instances[0].material == 0);
+  CHECK(plain.materials[0]->front_only);
   for (const double share : {0.25, 1.0}) {
     Json glass = {{"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", share}}}}}};
     CHECK_FALSE(material_of(glass)->front_only);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <numbers>
 
 #include "support.hpp"
@@ -166,12 +167,53 @@ ImportedScene square_of(const Folder& folder, const std::string& statements) {
 
 }  // namespace
 
+TEST_CASE("values of a .mtl file that do not count are named") {
+  const Folder folder;
+  for (const auto& [statements, warning] : {
+           std::pair("illum 4\nNi 1.5\nTf 1 0.5 0.5", "the tint (Tf) of glass"),
+           {"illum 4\nNi 1.5\nd 0.5", "the transparency (d) of glass"},
+           {"illum 9\nNi 1.5\nPr 0.5", "the values Pr, Pm, Pc and Ps of glass"},
+           {"illum 9\nNi 1.5\nmap_Kd x.png", "pictures (map_Kd) of glass"},
+           {"map_Pc x.png\nmap_Tr x.png\nmap_RMA x.png\ndecal x.png\nmap_aat on",
+            "statements that eyeray does not know (decal, map_Pc, map_RMA, map_Tr)"},
+           {"anisor 1", "anisotropy (aniso, anisor)"},
+           {"map_Ka x.png", "maps of ambient light (map_Ka)"},
+           {"Kd spectral x.rfl", "colours by `spectral`: write Kd with three numbers, R G B"},
+           {"Kd xyz 0.4 0.2 0.1", "colours by `xyz`"},
+       }) {
+    const std::string text = statements, words = warning;
+    CAPTURE(text);
+    CHECK(warns(square_of(folder, text), "left out: " + words));
+  }
+  CHECK(square_of(folder, "illum 4\nNi 1.5\nTf 1 1 1").warnings.empty());
+}
+
+TEST_CASE("lines may end with CR alone, and a .mtl file in UTF-16 is named") {
+  const Folder folder;
+  folder.write("a.mtl", "newmtl m\rKd 1 0 0\r");
+  std::string text = square + "mtllib a.mtl\nusemtl m\nf 1 2 3\n";
+  std::ranges::replace(text, '\n', '\r');
+  const ImportedScene scene = import_file(folder.write("a.obj", text));
+  CHECK(scene.warnings.empty());
+  CHECK(scene.materials.size() == 1);
+  folder.write("a.mtl", "\xff\xfen");
+  CHECK(warns(import_file(folder / "a.obj"), "a.mtl is text in UTF-16: save it as UTF-8"));
+}
+
 TEST_CASE("an index of 1 makes no glass") {
   const Folder folder;
   CHECK(!square_of(folder, "Kd 1 0 0\nillum 4\nTf 1.00 1.00 1.00\nNi 1.00").materials[0]->medium());
   CHECK(!square_of(folder, "Kd 1 0 0\nillum 7").materials[0]->medium());
   CHECK(square_of(folder, "illum 4\nNi 1.45").materials[0]->medium()->ior == 1.45);
-  CHECK(square_of(folder, "illum 4\nd 0.2").materials[0]->medium()->ior == 1.5);
+  CHECK(square_of(folder, "illum 4\nNi 5").materials[0]->medium()->ior == 1.5);
+  for (const std::string quarter :
+       {"illum 9\nd 0.25\nNi 1.0", "illum 4\nd 0.25\nTf .5 .5 .5\nNi 1", "illum 4\nd -halo 0.25"}) {
+    const ImportedScene scene = square_of(folder, "Kd 1 0 0\n" + quarter);
+    CHECK(!scene.materials[0]->medium());
+    REQUIRE(scene.materials[0]->mask);
+    CHECK(scene.materials[0]->mask->alpha->alpha_at(Vec2(0)) == 0.25);
+    CHECK(warns(scene, "the halo of transparency (d -halo)") == contains(quarter, "halo"));
+  }
 }
 
 TEST_CASE("a byte order mark before OBJ, MTL and PLY is skipped") {
@@ -193,8 +235,8 @@ TEST_CASE("options of maps may omit numbers; -s and -o transform the picture") {
   const Folder folder;
   std::filesystem::copy_file("tests/image/pictures/rgb.png", folder / "my picture.png");
   const auto corner = [&](const std::string& options) {
-    const ImportedScene scene = square_of(folder, "map_Kd " + options + " my picture.png");
     CAPTURE(options);
+    const ImportedScene scene = square_of(folder, "map_Kd " + options + " my picture.png");
     CHECK(scene.warnings.empty());
     CHECK(scene.files.back() == folder / "my picture.png");
     return scene.meshes[0].uv[2];  // the uv of the corner (1, 1)
@@ -203,7 +245,19 @@ TEST_CASE("options of maps may omit numbers; -s and -o transform the picture") {
   CHECK(corner("-s 2") == Vec2(2, 1));
   CHECK(corner("-s 2 3") == Vec2(2, 3));
   CHECK(corner("-s -2 3 1 -o 0.5 -clamp on") == Vec2(-1.5, 3));
-  CHECK(corner("-mm 0 -o .25 -1e0 -texres 512 -t 1") == Vec2(1.25, 0));
+  CHECK(corner("-mm 0 -o .25 -1e0 -t 0 0 -blendu on -clamp off") == Vec2(1.25, 0));
+  for (const std::string option :
+       {"-mm 0.5 0.5", "-imfchan r", "-t 0.1", "-boost 2", "-bm 0.5", "-texres 512 512", "-type sphere",
+        "-cc on", "-blendv off", "-colorspace linear"})
+    for (const std::string name : {"my picture.png", "\"my picture.png\""}) {
+      const ImportedScene scene =
+          square_of(folder, "map_Kd -s 2 " + option + " " + name + "\nbump -bm 3 x.png");
+      CHECK(scene.warnings == std::vector<std::string>{
+                                  "left out: the option " + option.substr(0, option.find(' ')) + " of maps",
+                                  "left out: bump maps"});
+      CHECK(scene.meshes[0].uv[2] == Vec2(2, 1));
+      CHECK(scene.files.back() == folder / "my picture.png");
+    }
   CHECK(warns(square_of(folder, "map_Kd -s 2 my picture.png\nmap_d my picture.png"), "that differ"));
 }
 

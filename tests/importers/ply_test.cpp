@@ -254,6 +254,25 @@ TEST_CASE("colours of faces are shown, but colours of vertices take precedence")
         std::vector<std::string>{"the colours of faces were left out: those of vertices are shown"});
 }
 
+TEST_CASE("alpha of colours and numbers of materials get a warning") {
+  const auto scene_of = [](const std::string& alpha) {
+    return import_sound(two_faces("", face_corners + face_colors + "property uchar alpha\n",
+                                  "3 0 1 2 255 0 0 " + alpha, "3 0 2 3 0 0 255 255"),
+                        "a.ply");
+  };
+  CHECK(scene_of("255").warnings.empty());
+  CHECK(warns(scene_of("0"), "the transparency of colours (alpha) was left out"));
+  const ImportedScene numbered = import_sound(
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n" +
+          face_colors + "property uchar a\nelement face 1\n" + face_corners +
+          "property int material_index\nend_header\n"
+          "0 0 0 0 255 0 0\n1 0 0 0 255 0 9\n0 1 0 0 255 0 255\n3 0 1 2 5\n",
+      "a.ply");
+  CHECK(numbered.warnings.size() == 2);
+  CHECK(warns(numbered, "the transparency of colours (alpha) was left out"));
+  CHECK(warns(numbered, "its materials (material_index) were left out"));
+}
+
 TEST_CASE("faces' uv map one picture, or several by their number") {
   const Folder folder;
   for (const char* name : {"a.png", "b.png"})
@@ -291,7 +310,15 @@ TEST_CASE("faces' uv map one picture, or several by their number") {
   CHECK(contains(refused("3 0 1 2 0 2"),
                  "a face has the texnumber 2, but there are 2 pictures, counted from 0"));
   CHECK(warns(scene_of(two_faces("comment TextureFile a.png\n", face_corners, "3 0 1 2", "3 0 2 3")),
-              "it has no uv"));
+              "its picture (comment TextureFile) was left out: it has no uv"));
+  for (const std::string start : {"comment texturefile", "obj_info TextureFile"}) {
+    const ImportedScene other = scene_of(
+        two_faces(start + " a.png\n", numbered, "3 0 1 2 6 0 0 1 0 1 1 7", "3 0 2 3 6 0 0 1 0 1 1 0"));
+    CHECK(other.materials.size() == 1);
+    CHECK(other.warnings ==
+          std::vector<std::string>{
+              "faces have a texnumber other than 0, but there is one picture: they show it"});
+  }
 }
 
 TEST_CASE("a comment's picture is shown if vertices have uv") {

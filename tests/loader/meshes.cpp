@@ -204,7 +204,8 @@ TEST_CASE("overrides apply to mesh files; a file's own camera and lights are use
   const Scene shown = load_scene(folder.write("scene.toml", light + "[[mesh]]\nfile = 'a.gltf'\n"));
   CHECK(shown.lights.size() == 1);
   REQUIRE(shown.warnings.size() == 1);
-  CHECK(contains(shown.warnings[0].message, "its camera and lights are not used"));
+  CHECK(contains(shown.warnings[0].message,
+                 "its camera and lights are not used: only those of the scene file count"));
 }
 
 TEST_CASE("a mesh file that cannot be read is an error") {

@@ -29,5 +29,8 @@ TEST_CASE("a picture of background alone, or of overexposed pixels, is reported"
   CHECK(warning(5000, 1) == "");
   CHECK(warning(5000, 1.5f).find("brighter than white") != std::string::npos);
   CHECK(warning(5000, 1.5f, -1) == "");
+  CHECK(warning(5000, 1.5f, 0.5).ends_with("try --exposure -1.5, or --tone neutral"));
+  CHECK(warning(5000, 30000).ends_with("try --exposure -15"));
+  CHECK(warning(5000, 30000, -15) == "");
   CHECK(warning(5000, 0.75f, 1).find("brighter than white") != std::string::npos);
 }
