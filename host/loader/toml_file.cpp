@@ -99,6 +99,9 @@ void report(const toml::parse_error& error, const std::string& text, const State
 }  // namespace
 
 std::string read_scene_text(const std::filesystem::path& file) {
+  if (std::error_code error; std::filesystem::is_directory(file, error))
+    throw Error(ExitCode::file_io, "cannot read the scene {}: it is a folder; name a scene or a mesh in it",
+                file.string());
   std::string text = read_input_file(file, "the scene", most_bytes);
   if (file.extension() != ".toml" && text.find('\0') != std::string::npos)
     throw Error(ExitCode::bad_input,

@@ -120,11 +120,11 @@ constexpr Word words[] = {
     {"instance", " use clone "},
     // Values
     {"point", " omni bulb pointlight "},
-    {"directional", " distant distantlight sun parallel infinite "},
+    {"directional", " distant distantlight sun parallel "},
     {"phong", " blinn "},
     {"mirror", " specular reflective "},
     {"dielectric", " glass transparent refractive water roughdielectric frosted "},
-    {"diffuse", " matte lambert lambertian orennayar emissive diffuselight "},
+    {"diffuse", " matte lambert lambertian orennayar "},
     {"conductor", " metal roughconductor "},
     {"plastic", " glossy roughplastic coateddiffuse "},
     {"principled", " standard disney pbr metallicroughness openpbr "},
@@ -140,6 +140,24 @@ constexpr Word words[] = {
     {"linear", " raw noncolor "},
     {"intersection", " intersect and common "},
     {"union", " merge add or join "},
+};
+
+// Words for which no single value stands: they mean a key or a table, or a value that needs another key.
+struct Advice {
+  std::string_view choice;  // the advice is for keys that have this value
+  std::string_view theirs;  // as in Word
+  std::string_view text;
+};
+
+constexpr Advice advices[] = {
+    {"diffuse", " emissive emission emitter light diffuselight arealight ",
+     "write another type, such as \"diffuse\", with the key `emission`"},
+    {"directional",
+     " environment environmentmap envmap envlight hdri hdr ibl dome domelight sky skylight "
+     "infinite constant ",
+     "write the table [environment], with `image` or type = \"sky\""},
+    {"area", " rect rectangle quad square rectlight arealight disk disc sphere triangle ",
+     "write type = \"area\", with `shape`: \"rectangle\", \"disk\", \"sphere\" or \"triangle\""},
 };
 
 std::string plain(std::string_view word) {
@@ -165,6 +183,15 @@ std::string suggest_name(std::string_view word, std::span<const std::string_view
         std::ranges::find(names, each.ours) != names.end())
       return std::string(each.ours);
   return nearest_name(word, names);
+}
+
+std::string_view advice_on(std::string_view word, std::span<const std::string_view> choices) {
+  const std::string whole = " " + plain(word.substr(0, 32)) + " ";
+  for (const Advice& each : advices)
+    if (each.theirs.find(whole) != std::string_view::npos &&
+        std::ranges::find(choices, each.choice) != choices.end())
+      return each.text;
+  return "";
 }
 
 }  // namespace eyeray::engine::reading

@@ -11,4 +11,8 @@ namespace eyeray::engine::reading {
 // Blender have `word`. Else it is a name of which `word` may be a typing error (nearest_name), or "".
 std::string suggest_name(std::string_view word, std::span<const std::string_view> names);
 
+// What to write where `word` is none of the choices of a value, and means something that is written in
+// another way; or "".
+std::string_view advice_on(std::string_view word, std::span<const std::string_view> choices);
+
 }  // namespace eyeray::engine::reading

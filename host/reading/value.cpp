@@ -109,6 +109,11 @@ int64_t Reader::choice(const toml::node& node) {
   if (const auto* text = node.as_string()) {
     const auto found = std::ranges::find(key_.choices, std::string_view(text->get()));
     if (found != key_.choices.end()) return found - key_.choices.begin();
+    if (const std::string_view advice = advice_on(text->get(), key_.choices); !advice.empty()) {
+      fail(node, fmt::format("`{}` must be {}, not {}; {}", key_.name, describe(key_), describe_node(node),
+                             advice));
+      return 0;
+    }
     if (const std::string nearest = suggest_name(text->get(), key_.choices); !nearest.empty()) {
       fail(node, fmt::format("`{}` must be {}, not {}; did you mean \"{}\"?", key_.name, describe(key_),
                              describe_node(node), nearest));

@@ -163,7 +163,8 @@ TEST_CASE("errors beyond the first thousand are counted") {
 TEST_CASE("devices, folders, pipes, and missing or too large files are refused") {
   const test::TemporaryFolder folder;
   CHECK(unreadable("/dev/zero") == "cannot read the scene /dev/zero: it is not a regular file");
-  CHECK(unreadable(folder.path()) == "cannot read the scene " + folder.path().string() + ": it is a folder");
+  CHECK(unreadable(folder.path()) ==
+        "cannot read the scene " + folder.path().string() + ": it is a folder; name a scene or a mesh in it");
   CHECK(unreadable("") == "cannot read the scene : No such file or directory");
   CHECK(unreadable(folder / std::string(300, 'x')).ends_with(": File name too long"));
 
