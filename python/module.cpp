@@ -211,10 +211,12 @@ void add_picture(py::module_& module) {
            "Write it as .png, .pfm, .hdr or .exr.");
 }
 
-// Closing a device waits for calls that render, and those may wait for the GIL, to report progress.
+// Closing a device waits for calls that render, and those may wait for the GIL, to report progress. An
+// abandoned call may own the last reference: its thread closes the device, perhaps when Python has ended.
+// From then on PyGILState_Check() is true in any thread, but no thread has a state.
 void close_without_gil(Renderer* renderer) {
   std::optional<py::gil_scoped_release> released;
-  if (PyGILState_Check()) released.emplace();
+  if (PyGILState_GetThisThreadState() && PyGILState_Check()) released.emplace();
   delete renderer;
 }
 
@@ -235,6 +237,8 @@ void add_renderer(py::module_& module) {
       .def_readonly("json", &Report::json)
       .def("__bool__", [](const Report& report) { return report.passed; });
   const auto make = [](const std::string& device, const std::optional<Path>& shaders, double timeout) {
+    const py::gil_scoped_release
+        released;  // it looks for a device that is named, after the calls that render
     return std::shared_ptr<Renderer>(new Renderer({device, shaders.value_or(Path()), timeout}),
                                      close_without_gil);
   };

@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "host/cli/command.hpp"
+#include "host/core/option_text.hpp"
 #include "host/program/option_values.hpp"
 
 namespace eyeray::engine::cli {
@@ -22,6 +23,7 @@ struct ProbeCommand {
 };
 
 ExitCode ProbeCommand::run() {
+  const OptionBackends backends;
   std::tie(options.x, options.y) = parse_pixel(pixel);
   const Scene scene = scene_options.load();
   std::shared_ptr<void> compiling = show_compiling();

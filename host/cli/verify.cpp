@@ -14,6 +14,7 @@
 #include "host/core/content_hash.hpp"
 #include "host/core/escaped_text.hpp"
 #include "host/core/make_folder.hpp"
+#include "host/core/option_text.hpp"
 #include "host/core/standard_streams.hpp"
 #include "host/loader/scene_edit.hpp"
 #include "host/loader/suite.hpp"
@@ -214,6 +215,7 @@ void VerifyCommand::check_options() const {
 }
 
 ExitCode VerifyCommand::run() {
+  const OptionBackends backends;
   if (record) {
     const std::string changed = scene_options.as_written();
     if (!changed.empty() || options.crop.pixels() > 0 || options.max_explained)

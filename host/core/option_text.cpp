@@ -8,10 +8,19 @@ namespace eyeray::engine {
 namespace {
 
 std::atomic<bool> to_library = false;
+std::atomic<bool> has_backends = false;
 
 }  // namespace
 
+OptionBackends::OptionBackends() {
+  has_backends = true;
+}
+OptionBackends::~OptionBackends() {
+  has_backends = false;
+}
+
 std::string option_text(std::string_view name) {
+  if (name == "backend" && has_backends) name = "backends";
   if (!to_library) return fmt::format("--{}", name);
   return fmt::format("`{}`", name == "allow-path"    ? "allowed_folders"
                              : name == "no-formulas" ? "formulas"

@@ -4,6 +4,7 @@
 
 #include "host/core/content_hash.hpp"
 #include "host/executors/shader_files.hpp"
+#include "host/gpu/device_choice.hpp"
 
 namespace eyeray::engine::executors {
 namespace {
@@ -44,6 +45,10 @@ std::shared_ptr<gpu::Kernel> OpenDevice::kernel(std::span<const uint32_t> spirv,
     if (built_.size() > most_kernels) built_.pop_back();
   }
   return built_.front().kernel;
+}
+
+void check_device(const GpuOptions& options) {
+  gpu::check_choice(device_options(options, false));
 }
 
 std::shared_ptr<OpenDevice> open_device(const GpuOptions& options) {

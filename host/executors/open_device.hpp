@@ -43,6 +43,9 @@ class OpenDevice {
   std::list<Built> built_;  // the most recently used first
 };
 
+// Error (no_device) if there is no usable device that the options select. Opens none.
+void check_device(const GpuOptions& options);
+
 // Opens a device for GpuOptions::open_device. Error (no_device) if no device suffices.
 std::shared_ptr<OpenDevice> open_device(const GpuOptions& options);
 

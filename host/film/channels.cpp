@@ -249,9 +249,10 @@ bool any_needs(const Channels& channels, Needs what) {
 Channels channels_of(const Scene& scene, Channels wanted) {
   if (walks_at_random(scene.render.integrator) || !any_needs(wanted, Needs::auxiliary)) return wanted;
   if (wanted.size() != std::size(types))
-    throw Error(ExitCode::bad_input,
-                "only paths have the AOVs albedo and shading_normal: use -D render.integrator=path, or the "
-                "AOV normal, which every integrator has");
+    throw Error(
+        ExitCode::bad_input,
+        "only paths have the AOVs albedo and shading_normal: set integrator = \"path\" in [render], or "
+        "request the AOV normal, which every integrator has");
   std::erase_if(wanted, [](Channel each) { return each->needs == Needs::auxiliary; });
   return wanted;
 }

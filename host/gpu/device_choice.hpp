@@ -13,4 +13,7 @@ namespace eyeray::engine::gpu {
 // such device or it is not usable.
 const DeviceInfo& choose_device(std::span<const DeviceInfo> devices, std::string_view select);
 
+// The same error if this machine lacks the device that the options select. Opens no device.
+void check_choice(const DeviceOptions& options);
+
 }  // namespace eyeray::engine::gpu

@@ -31,8 +31,8 @@ Plane Picture::aov(std::string_view name) const {
   for (const auto& [aov, image] : data_->aovs)
     if (aov->name == name) return engine::library::plane_of(image);
   throw Error(ErrorKind::bad_input,
-              fmt::format("the picture has no AOV '{}'{}; list the AOVs to make in RenderOptions::aovs", name,
-                          data_->complete ? "" : ", since it was cancelled"));
+              fmt::format("the picture has no AOV '{}'{}; request it by the option `aovs` of the render",
+                          name, data_->complete ? "" : ", since it was cancelled"));
 }
 
 int Picture::samples_done() const noexcept {

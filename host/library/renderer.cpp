@@ -42,15 +42,21 @@ void open_device(v0::Renderer::Data& renderer, const executors::GpuOptions& opti
                      }};
 }
 
+executors::GpuOptions gpu_options(const v0::Renderer::Data& renderer) {
+  executors::GpuOptions options;
+  options.device = renderer.options.device;
+  options.timeout_seconds = renderer.options.timeout_seconds;
+  // The environment that a driver reads belongs to the process, and other threads may be reading it.
+  options.sets_environment = false;
+  return options;
+}
+
 }  // namespace
 
 executors::ExecutorOptions executor_options(v0::Renderer::Data& renderer, bool gpu) {
   executors::ExecutorOptions options;
-  options.gpu.device = renderer.options.device;
+  options.gpu = gpu_options(renderer);
   options.shader_folder = renderer.options.shaders;
-  options.gpu.timeout_seconds = renderer.options.timeout_seconds;
-  // The environment that a driver reads belongs to the process, and other threads may be reading it.
-  options.gpu.sets_environment = false;
   options.twin.compile = !renderer.options.shaders.empty();
   if (gpu) open_device(renderer, options.gpu);
   options.gpu.open_device = renderer.device;
@@ -98,9 +104,14 @@ bool Cancellation::requested() const noexcept {
 Renderer::Renderer(const RendererOptions& options) : data_(std::make_unique<Data>(Data{options})) {
   const double seconds = options.timeout_seconds;
   if (!(seconds >= 0.001 && seconds <= 1e6))
-    throw Error(ErrorKind::bad_input, "timeout_seconds must be from 0.001 to 1000000");
+    throw Error(ErrorKind::bad_input,
+                fmt::format("`timeout` must be from 0.001 to 1000000 seconds, not {}", seconds));
   if (!options.shaders.empty() && !std::filesystem::is_directory(options.shaders))
     throw Error(ErrorKind::file_io, options.shaders.string() + ": no such folder of shaders");
+  // Listing the devices takes time, so the default is not checked: nobody chose it.
+  if (options.device != RendererOptions().device)
+    engine::library::call_engine(
+        [this] { engine::executors::check_device(engine::library::gpu_options(*data_)); });
 }
 
 Renderer::~Renderer() {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "host/core/option_text.hpp"
 #include "host/library/renderer.hpp"
 #include "host/library/scene.hpp"
 #include "host/session/request.hpp"
@@ -12,6 +13,7 @@ namespace eyeray::inline v0 {
 Report Renderer::verify(const Scene& scene, const VerifyOptions& options) {
   Report report;
   engine::library::call_renderer(*data_, options.cancellation, [&] {
+    const engine::OptionBackends names;
     const engine::Scene& what = scene.data().scene;
     engine::verify::Options how;
     how.backends.clear();

@@ -15,7 +15,7 @@ std::span<const FlagText> flag_texts() {
        "render.min_throughput"},
       {loop_budget, "loop_budget",
        "the driver's limit on loop iterations was near: lower render.max_depth or raise "
-       "render.min_throughput; else show fewer shapes, or use --backend twin or a newer driver"},
+       "render.min_throughput; else show fewer shapes, or use the backend twin or a newer driver"},
       {iteration_limit, "iteration_limit",
        "the search for a shape ran out of steps; the AOV flags shows where"},
   };

@@ -330,6 +330,8 @@ struct RendererOptions {
 // of the backend gpu opens the device.
 class EYERAY_API Renderer {
  public:
+  // Error: bad_input, file_io, and no_device where no usable device is the one that `device` selects; with
+  // "auto" only the first use finds that.
   explicit Renderer(const RendererOptions& options = {});
   ~Renderer();
   Renderer(Renderer&&) noexcept;

@@ -95,8 +95,8 @@ TEST_CASE("albedo and normal are .exr layers with the denoisers' names, and only
       run_eyeray({"render", "scenes/whitted.toml", "--aov", "albedo", "-o", folder / "no.pfm"});
   CHECK(refused.code == 2);
   CHECK(refused.err ==
-        "eyeray: error: only paths have the AOVs albedo and shading_normal: use -D render.integrator=path, "
-        "or the AOV normal, which every integrator has\n");
+        "eyeray: error: only paths have the AOVs albedo and shading_normal: set integrator = \"path\" in "
+        "[render], or request the AOV normal, which every integrator has\n");
 }
 
 TEST_CASE("fireflies are counted; --clamp clamps them, and warns that the picture is biased") {

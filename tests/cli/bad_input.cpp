@@ -200,6 +200,9 @@ TEST_CASE("without a Vulkan driver or loader nothing is rendered, and the messag
     CHECK(render.err.find("apt install") != std::string::npos);
     CHECK(render.err.find("with --backend twin") != std::string::npos);
     CHECK(run_eyeray({"devices"}, environment).code == 3);
+    const ProcessResult verify = run_eyeray({"verify", folder.scene()}, environment);
+    CHECK(verify.code == 3);
+    CHECK(verify.err.find("with --backends twin") != std::string::npos);
     // The CPU backends need neither a driver nor a loader.
     CHECK(run_eyeray({"render", folder.scene(), "--backend", "twin", "-o", folder / "twin.png"}, environment)
               .code == 0);

@@ -75,7 +75,7 @@ def test_pictures_from_several_threads():
     results = []
 
     def work():
-        own = eyeray.Renderer()  # closed here, while others render
+        own = eyeray.Renderer(device="0")  # found and closed here, while others render
         results.append(np.array_equal(own.render(scene, progress=lambda share: True).color, expected))
 
     threads = [threading.Thread(target=work) for _ in range(3)]
@@ -167,14 +167,36 @@ print(eyeray.render(eyeray.Scene.read({SMALL!r})).complete)
     assert (process.stdout, process.returncode) == ("free True False\nTrue\n", 0), process.stderr
 
 
-def test_errors_of_devices():
+def test_python_ends_while_a_kernel_compiles(tmp_path):
+    """The thread of the abandoned call then closes the device, after Python has ended."""
+    code = """
+import eyeray, signal, threading
+scene = eyeray.Scene.read("scenes/path/materials.toml", defines=["image.width=8", "image.height=8"])
+threading.Timer(0.5, signal.raise_signal, [signal.SIGINT]).start()
+try:
+    eyeray.render(scene)
+except KeyboardInterrupt:
+    print("interrupted")
+"""
+    caches = {"XDG_CACHE_HOME": str(tmp_path), "MESA_SHADER_CACHE_DISABLE": "true"}
+    process = subprocess.run([sys.executable, "-c", code], env=os.environ | caches, capture_output=True, text=True, timeout=600)
+    assert (process.stdout, process.stderr, process.returncode) == ("interrupted\n", "", 0)
+
+
+def test_errors_of_renderers():
+    """They name options as Python does, and the constructor raises them."""
     with pytest.raises(eyeray.DeviceError, match="matches `device` no such device; the devices are\\n  0  "):
-        eyeray.Renderer(device="no such device").render(eyeray.Scene.read(SMALL))
+        eyeray.Renderer(device="no such device")
     with pytest.raises(eyeray.FileError):
         eyeray.Renderer(shaders="no-such-folder")
-    with pytest.raises(eyeray.InputError):
-        eyeray.Renderer(timeout=0)
-    assert eyeray.Renderer(device="no such device").render(eyeray.Scene.read(SMALL), backend="twin").complete
+    with pytest.raises(eyeray.InputError, match="^`timeout` must be from 0.001 to 1000000 seconds, not -1$"):
+        eyeray.Renderer(timeout=-1)
+    scene = eyeray.Scene.read(SMALL)
+    assert eyeray.Renderer(device="0").render(scene).complete
+    with pytest.raises(eyeray.InputError, match="^the picture has no AOV 'depth'; request it by the option `aovs` of the render$"):
+        eyeray.render(scene, backend="twin").aov("depth")
+    with pytest.raises(eyeray.InputError, match='albedo and shading_normal: set integrator = "path" in .render., or request'):
+        eyeray.render(scene, backend="twin", aovs=["albedo"])
 
 
 def test_environment_variables_are_unchanged():
