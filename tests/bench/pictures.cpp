@@ -16,7 +16,7 @@ namespace {
 
 PictureReport sample_picture(double seconds) {
   const auto spread = [](double median) { return Spread{median, 0.9 * median, 1.1 * median}; };
-  PictureReport report{"scenes/a.toml", 640, 480, 4, 3, 1000, {}, {}};
+  PictureReport report{"scenes/a.toml", 640, 480, 4, 3, 1000, {}, {}, {}};
   report.series = {{"gpu",
                     "gpu: a device",
                     {{"whole process", spread(2 * seconds)}, {"load", spread(0.001)}},

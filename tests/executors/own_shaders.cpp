@@ -15,7 +15,7 @@ Error error_of(ShaderFiles files) {
   StageTimes times;
   ExecutorFacts facts;
   UploadedScene scene(device->device(), false);
-  SceneKernels kernels({*device, times, facts, {}, nullptr, 1, false}, scene, std::move(files));
+  SceneKernels kernels({*device, times, facts, {}, nullptr, 1, false, false}, scene, std::move(files));
   try {
     const auto kernel = kernels.make("kernels/render.comp.glsl");
   } catch (const Error& error) {
