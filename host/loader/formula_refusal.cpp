@@ -14,7 +14,7 @@ namespace eyeray::engine::loader {
 namespace {
 
 // The tables whose `file` is a file of functions. `code` is a function in any table.
-constexpr std::string_view owners[] = {"camera", "formula", "implicit"};
+constexpr std::string_view tables_with_functions[] = {"camera", "formula", "implicit"};
 
 // Adds the errors in a node. `may_have`: true if tables in the node may have a file of functions.
 void refuse(const toml::node& node, bool may_have, DiagnosticLog& log) {
@@ -26,7 +26,9 @@ void refuse(const toml::node& node, bool may_have, DiagnosticLog& log) {
     if (key == "code" || (may_have && key == "file"))
       log.error(reading::position_of(value.source()),
                 fmt::format("`{}` has a function, which {} refuses", key.str(), option_text("no-formulas")));
-    refuse(value, may_have || std::ranges::find(owners, key.str()) != std::end(owners), log);
+    refuse(value,
+           may_have || std::ranges::find(tables_with_functions, key.str()) != std::end(tables_with_functions),
+           log);
   }
 }
 

@@ -1,6 +1,7 @@
 // No submission keeps a watched device busy for longer than 100 ms. The device is a shim (tests/gpu/shim)
 // whose clock does not depend on the machine.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <csignal>

@@ -50,14 +50,15 @@ TEST_CASE("every shape of the registry occurs in a scene of its name") {
 }
 
 TEST_CASE(
-    "some scene has each texture, light and camera type, and each material on a shape; no scene warns") {
+    "some scene has each texture, light and camera type, and each material on a shape; one scene warns") {
   Kinds used;
   std::set<std::string_view> lights;
   std::set<uint32_t> cameras;
   for (const std::filesystem::path& file : scenes_below("scenes")) {
     CAPTURE(file);
     const Scene scene = load_scene(file);
-    CHECK(scene.warnings.empty());
+    // In that scene glass stands before lights without a size.
+    CHECK(scene.warnings.empty() == (file != "scenes/path/lamps.toml"));
     Kinds kinds = kinds_of(scene);
     used.materials.merge(kinds.materials);
     used.textures.merge(kinds.textures);
