@@ -5,9 +5,6 @@
 
 namespace eyeray::engine::formula {
 
-// Nobody reads more faults of one text.
-inline constexpr size_t most_faults = 20;
-
 struct Fault {
   int line;    // line of the text, from 1
   int column;  // from 1; 0 where unknown

@@ -20,6 +20,7 @@
 #include "host/formula/machine.hpp"
 #include "host/formula/text.hpp"
 #include "host/formula/vocabulary.hpp"
+#include "host/gpu/compiler_messages.hpp"
 #include "host/gpu/shader_compiler.hpp"
 
 namespace eyeray::engine::formula {
@@ -182,10 +183,10 @@ Formula::Formula(FormulaText text, std::vector<FormulaParameter> parameters, std
   }
   if (faults.empty()) return;
   std::vector<Diagnostic> diagnostics;
-  for (const Fault& fault : std::span(faults).first(std::min(faults.size(), most_faults)))
+  for (const Fault& fault : std::span(faults).first(std::min(faults.size(), gpu::most_messages)))
     diagnostics.push_back(located(text_, fault.line, fault.column, fault.message));
-  if (faults.size() > most_faults)
-    diagnostics.back().message += fmt::format(" (and {} more errors)", faults.size() - most_faults);
+  if (faults.size() > gpu::most_messages)
+    diagnostics.back().message += gpu::more_errors(faults.size() - gpu::most_messages);
   throw InputError(std::move(diagnostics));
 }
 

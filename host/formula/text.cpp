@@ -10,6 +10,7 @@
 
 #include "host/core/diagnostic.hpp"
 #include "host/formula/vocabulary.hpp"
+#include "host/gpu/compiler_messages.hpp"
 
 namespace eyeray::engine::formula {
 
@@ -145,7 +146,7 @@ bool Judge::judge_word(size_t i) {
     fail(i, "PROBE is for shaders: to see a value of a formula, return it");
     return false;
   }
-  if (faults_.size() >= most_faults) {
+  if (faults_.size() >= gpu::most_messages) {
     faults_.push_back({t_.tokens[i].line, t_.tokens[i].column, ""});  // only counted
     return false;
   }

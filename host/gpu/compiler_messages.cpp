@@ -12,9 +12,6 @@
 namespace eyeray::engine::gpu {
 namespace {
 
-// Nobody reads more messages of a kind. Each costs a search in the source.
-constexpr int most_messages = 20;
-
 bool is_word(char c) {
   return std::isalnum(uint8_t(c)) || c == '_';
 }
@@ -127,10 +124,14 @@ std::string tidy(std::string_view message) {
 
 }  // namespace
 
+std::string more_errors(size_t count) {
+  return fmt::format(" (and {} more errors)", count);
+}
+
 std::vector<Diagnostic> parse_compiler_messages(std::string_view log, const ShaderSource& source) {
   std::vector<Diagnostic> diagnostics;
   std::istringstream lines{std::string(log)};
-  int errors = 0, warnings = 0;
+  size_t errors = 0, warnings = 0;
   for (std::string line; std::getline(lines, line);) {
     const bool warning = line.starts_with("WARNING: ");
     if (!warning && !line.starts_with("ERROR: ")) continue;
@@ -151,7 +152,7 @@ std::vector<Diagnostic> parse_compiler_messages(std::string_view log, const Shad
   if (errors > most_messages) {
     const auto last =
         std::ranges::find(diagnostics.rbegin(), diagnostics.rend(), Severity::error, &Diagnostic::severity);
-    last->message += fmt::format(" (and {} more errors)", errors - most_messages);
+    last->message += more_errors(errors - most_messages);
   }
   return diagnostics;
 }

