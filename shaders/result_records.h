@@ -91,7 +91,7 @@ struct PacketHit {
   uint unused_1;
 };
 
-// The state from which a pixel's path goes on, 64 bytes.
+// The state from which a pixel's path goes on, 80 bytes.
 struct PathState {
   vec3 origin;
   uint media;
@@ -100,7 +100,9 @@ struct PathState {
   vec3 throughput;
   uint pixel;
   vec3 normal;
-  uint unused;
+  uint unused_0;
+  vec3 point;
+  uint unused_1;
 };
 
 // A value of a pixel's rays that a probe records, 32 bytes. `name` of the buffer's first record is the number that there would be if all
@@ -143,7 +145,7 @@ static_assert(sizeof(eyeray::engine::shader::HitResult) == 80);
 static_assert(sizeof(eyeray::engine::shader::QueryRay) == 32);
 static_assert(sizeof(eyeray::engine::shader::QueryHit) == 16);
 static_assert(sizeof(eyeray::engine::shader::PacketHit) == 32);
-static_assert(sizeof(eyeray::engine::shader::PathState) == 64);
+static_assert(sizeof(eyeray::engine::shader::PathState) == 80);
 static_assert(sizeof(eyeray::engine::shader::ProbeRecord) == 32);
 #endif
 #endif

@@ -7,6 +7,9 @@
 
 SHADER_BEGIN
 
+// Whether light BVHs are asked about another point than a ray's start, which smooth surfaces lift.
+#define KEEPS_POINT (RANDOM_WALK && HAS_LIGHT_BVH && HAS_SMOOTH)
+
 struct Path {
   vec3 o;
   vec3 d;
@@ -16,6 +19,9 @@ struct Path {
 #if RANDOM_WALK
   float density;  // by solid angle, that its direction was chosen with; 0 from the eye, a mirror or glass, which leave no choice
   vec3 normal;    // where it chose that, by which it asks for lights; 0 where light may come from either side
+#endif
+#if KEEPS_POINT
+  vec3 point;  // where it chose that
 #endif
 #if RANDOM_WALK || HAS_BLEND
   uint pixel;     // pixel of the picture, and which of its samples: selects its random numbers

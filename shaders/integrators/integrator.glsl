@@ -45,6 +45,9 @@ Path begin(Frame frame, Ray camera_ray, uint pixel, uint index) {
   path.density = 0.0f;
   path.normal = vec3(0.0f, 0.0f, 0.0f);
 #endif
+#if KEEPS_POINT
+  path.point = path.o;
+#endif
 #if RANDOM_WALK || HAS_BLEND
   path.pixel = pixel;
   path.index = index;

@@ -34,6 +34,15 @@ vec3 last_vertex(Path path) {
 #endif
 }
 
+// The point where the path's direction was chosen, for queries of a light BVH.
+vec3 chosen_at(Path path) {
+#if KEEPS_POINT
+  return path.point;
+#else
+  return last_vertex(path);
+#endif
+}
+
 // A point's own frame: z is the normal towards where the ray came from.
 LocalFrame local_frame(Interaction at) { return frame_around(at.seen.normal); }
 
@@ -84,7 +93,7 @@ vec3 path_emitted(Frame frame, Path path, Interaction at) {
     EmitterSample point;
     point.p = at.surface.p;
     point.normal = at.surface.normal_geometric;
-    float share = light_share(frame, last_vertex(path), path.normal, emitter) * (1.0f - environment_share(frame));
+    float share = light_share(frame, chosen_at(path), path.normal, emitter) * (1.0f - environment_share(frame));
     float density = share * emitter_density(load_emitter(emitter), last_vertex(path), point);
     light = light * power_heuristic(path.density, density);
   }
@@ -306,6 +315,9 @@ Path path_after(Path path, Interaction at, ScatterEvent event, bool straight) {
 #endif
   if (!straight) next.depth = path.depth + 1u;
   if (!straight && HAS_LIGHT_BVH == 1) next.normal = normal_for_lights(at);
+#if KEEPS_POINT
+  if (!straight) next.point = at.seen.p;
+#endif
 #if HAS_PANES
   next.panes = straight ? path.panes + 1u : 0u;
   if (!straight) {

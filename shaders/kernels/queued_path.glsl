@@ -18,6 +18,9 @@ Path queued_path(uint slot) {
   path.normal = paths[slot].normal;
 #endif
 #endif
+#if KEEPS_POINT
+  path.point = paths[slot].point;
+#endif
 #if RANDOM_WALK || HAS_BLEND
   path.pixel = paths[slot].pixel;
   path.index = dispatch.sample_index;
@@ -39,6 +42,9 @@ void queue_path(uint slot, Path path) {
 #if HAS_LIGHT_BVH
   paths[slot].normal = path.normal;
 #endif
+#endif
+#if KEEPS_POINT
+  paths[slot].point = path.point;
 #endif
 #if RANDOM_WALK || HAS_BLEND
   paths[slot].pixel = path.pixel;

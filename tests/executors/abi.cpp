@@ -200,7 +200,8 @@ TEST_CASE("every record has the same members at the same offsets in SPIR-V and i
   check_struct(wavefront, "PathState", sizeof(shader::PathState),
                {MEMBER(PathState, origin), MEMBER(PathState, media), MEMBER(PathState, direction),
                 MEMBER(PathState, density), MEMBER(PathState, throughput), MEMBER(PathState, pixel),
-                MEMBER(PathState, normal), MEMBER(PathState, unused)});
+                MEMBER(PathState, normal), MEMBER(PathState, unused_0), MEMBER(PathState, point),
+                MEMBER(PathState, unused_1)});
 
   const gpu::Reflection hits =
       gpu::reflect(test::compile_entry("kernels/render.comp.glsl", scene, {}, "#define FIRST_HITS\n"));
