@@ -226,9 +226,14 @@ TexturePtr Reader::texture(const toml::node& node) {
     named = type;
   }
   if (named && named->is_flat()) return texture(*named, *table);
-  const toml::node* own = named ? table->get(named->name) : nullptr;
-  if (table->size() != 1 || !own || !own->is_table()) return mismatch(node), nullptr;
-  return texture(*named, *own->as_table());
+  if (!named || table->size() != 1) return mismatch(node), nullptr;
+  const toml::node& own = *table->get(named->name);
+  if (const toml::table* keys = own.as_table()) return texture(*named, *keys);
+  std::vector<std::string_view> names;
+  for (const Key& key : named->keys) names.push_back(key.name);
+  fail(own, fmt::format("`{}` must be a table of `{}`, not {}", named->name, fmt::join(names, "`, `"),
+                        describe_node(own)));
+  return nullptr;
 }
 
 TexturePtr Reader::texture(const TextureType& type, const toml::table& table) {
