@@ -7,7 +7,7 @@
 
 SHADER_BEGIN
 
-// Whether light BVHs are asked about another point than a ray's start, which smooth surfaces lift.
+// True if queries of a light BVH need the point where a path's direction was chosen: smooth surfaces lift the ray's start off it.
 #define KEEPS_POINT (RANDOM_WALK && HAS_LIGHT_BVH && HAS_SMOOTH)
 
 struct Path {
