@@ -24,6 +24,7 @@ struct MeshFile {
 // file that it refers to is refused or cannot be read.
 ImportedScene import_obj(MeshFile& file);
 ImportedScene import_ply(MeshFile& file);
+ImportedScene import_stl(MeshFile& file);
 ImportedScene import_gltf(MeshFile& file);  // .gltf and .glb, distinguished by their first bytes
 
 // Default angle of smoothing in degrees, for files without normals other than glTF.

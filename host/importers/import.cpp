@@ -1,5 +1,7 @@
 #include "host/importers/import.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "host/core/input_file.hpp"
@@ -21,6 +23,7 @@ Reader find_reader(const std::filesystem::path& file) {
                          [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
   if (ending == ".obj") return import_obj;
   if (ending == ".ply") return import_ply;
+  if (ending == ".stl") return import_stl;
   if (ending == ".gltf" || ending == ".glb") return import_gltf;
   return nullptr;
 }
@@ -39,7 +42,7 @@ void drop_empty(ImportedScene& scene) {
 
 ImportedScene read_mesh_file(MeshFile& file) {
   const Reader read = find_reader(file.name);
-  if (!read) throw malformed(file.name, "a mesh file's name must end in .obj, .ply, .gltf or .glb");
+  if (!read) throw malformed(file.name, fmt::format("a mesh file's name must end in {}", mesh_endings));
   if (is_utf16(file.bytes)) throw malformed(file.name, "it is text in UTF-16: save it as UTF-8");
   drop_byte_order_mark(file.bytes);
   ImportedScene scene;

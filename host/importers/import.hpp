@@ -1,4 +1,4 @@
-// Reads mesh files as parts of a scene: Wavefront OBJ, PLY, glTF 2.0.
+// Reads mesh files as parts of a scene: Wavefront OBJ, PLY, STL, glTF 2.0.
 #pragma once
 
 #include <filesystem>
@@ -30,7 +30,7 @@ struct Playing {
 
 struct ImportOptions {
   // For a file without normals: the greatest angle, in degrees, between faces that are shaded as one smooth
-  // surface; 0: flat. Absent: 40 for OBJ and PLY; 0 for glTF, by its specification.
+  // surface; 0: flat. Absent: 40 for OBJ, PLY and STL; 0 for glTF, by its specification.
   std::optional<double> smooth = {};
   // Folders, beside the file's own folder tree, that may contain the files it names (materials, buffers,
   // pictures).
@@ -65,7 +65,10 @@ struct ImportedScene {
   std::vector<std::filesystem::path> files;  // every file that was read, the mesh file first
 };
 
-// True if the name has a mesh file's ending, in upper or lower case: .obj .ply .gltf .glb.
+// The endings of mesh files, for messages.
+inline constexpr std::string_view mesh_endings = ".obj, .ply, .stl, .gltf or .glb";
+
+// True if the name has a mesh file's ending, in upper or lower case.
 bool is_mesh_file(const std::filesystem::path& file);
 
 // Reads a mesh file by its ending, and the files it refers to. Error (file_io) if a file cannot be read.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "host/core/input_file.hpp"
+#include "host/importers/import.hpp"
 #include "host/loader/statements.hpp"
 #include "host/reading/source_position.hpp"
 
@@ -105,9 +106,8 @@ std::string read_scene_text(const std::filesystem::path& file) {
   std::string text = read_input_file(file, "the scene", most_bytes);
   if (file.extension() != ".toml" && text.find('\0') != std::string::npos)
     throw Error(ExitCode::bad_input,
-                "{} is not a scene: it contains bytes that are not text; a scene is a .toml, a mesh an .obj, "
-                ".ply, .gltf or .glb",
-                file.string());
+                "{} is not a scene: it contains bytes that are not text; a scene ends in .toml, a mesh in {}",
+                file.string(), importers::mesh_endings);
   return text;
 }
 

@@ -133,7 +133,8 @@ TEST_CASE("files with random damage are refused or read") {
 }
 
 TEST_CASE("files other than mesh files are refused") {
-  CHECK(refusal("", "a.stl") == "a.stl: error: a mesh file's name must end in .obj, .ply, .gltf or .glb");
+  CHECK(refusal("", "a.3ds") ==
+        "a.3ds: error: a mesh file's name must end in .obj, .ply, .stl, .gltf or .glb");
   CHECK_FALSE(is_mesh_file("a.toml"));
   CHECK_FALSE(is_mesh_file("obj"));
   CHECK(is_mesh_file("x/A.GLB"));
