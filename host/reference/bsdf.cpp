@@ -109,6 +109,27 @@ double through_sheen(const Vec3& sheen, double roughness, double cosine) {
   return sheen == Vec3(0) ? 1 : 1 - largest(sheen) * tables::sheen_albedo(cosine, roughness).albedo;
 }
 
+// Most light that a smooth surface reflects between its microfacets leaves edge-on, where directions chosen
+// by cosine are rare. This share of its directions is uniform on the half sphere instead.
+double uniform_share(double roughness) {
+  return std::max(0.0, 1 - 3 * roughness);
+}
+constexpr double uniform_density = 1 / (2 * M_PI);
+double between_facets_density(double roughness, double cosine) {
+  return cosine > 0 ? std::lerp(cosine / M_PI, uniform_density, uniform_share(roughness)) : 0;
+}
+
+// Malley's method: a uniform point on the disk, projected up to the half sphere.
+Vec3 cosine_direction(const Vec2& u) {
+  const double radius = std::max(std::abs(2 * u.x - 1), std::abs(2 * u.y - 1));
+  return {on_disk(u), std::sqrt(1 - radius * radius)};
+}
+// Archimedes' map: equal areas of the disk become equal areas of the half sphere.
+Vec3 uniform_direction(const Vec2& u) {
+  const double radius = std::max(std::abs(2 * u.x - 1), std::abs(2 * u.y - 1));
+  return {std::sqrt(2 - radius * radius) * on_disk(u), 1 - radius * radius};
+}
+
 // The EON model of rough diffuse reflection, without the light's cosine.
 Vec3 rough_diffuse(const Vec3& color, double r, const Vec3& o, const Vec3& i) {
   const double a = 1 / (1 + r * (0.5 - 2 / (3 * M_PI)));
@@ -219,7 +240,7 @@ BsdfValue ViewedBsdf::value(Lobe lobe, const Vec3& i) const {
     case multiple:
       return {mirrored_often(bsdf_, albedo(o_)) * (1 - albedo(o_).once) * (1 - albedo(i).once) /
                   (1 - albedo(o_).mean_once) * even,
-              even};
+              between_facets_density(bsdf_.roughness, i.z)};
     case coat: {
       const Vec3& own_o = coat_o_;
       const Vec3 own_i = coat_.into(i);
@@ -254,7 +275,7 @@ BsdfValue ViewedBsdf::value(Lobe lobe, const Vec3& i) const {
       const double half_way = std::min(1.0, glm::normalize(o_ + i).z), r = bsdf_.sheen_roughness;
       const double edge_on =
           std::max({1.0, tables::sheen_albedo(o_.z, r).unweakened, tables::sheen_albedo(i.z, r).unweakened});
-      return {bsdf_.sheen * optics::sheen(half_way, o_.z, i.z, r) / edge_on * cosine, even};
+      return {bsdf_.sheen * optics::sheen(half_way, o_.z, i.z, r) / edge_on * cosine, uniform_density};
     }
     case thin: {
       if (i.z >= 0) return {};
@@ -264,8 +285,9 @@ BsdfValue ViewedBsdf::value(Lobe lobe, const Vec3& i) const {
       const Vec3 let_in = 1.0 - bsdf_.layer.at(std::min(1.0, glm::dot(o_, glm::normalize(o_ + up))));
       const Vec3 scattered = (1.0 - often(bsdf_.layer, there)) * (1 - there.once) * (1 - here.once) /
                              (1 - there.mean_once) * up.z / M_PI;
-      return {bsdf_.thin * (let_in * blurred.value + scattered),
-              there.once * blurred.density + (1 - there.once) * up.z / M_PI};
+      return {
+          bsdf_.thin * (let_in * blurred.value + scattered),
+          there.once * blurred.density + (1 - there.once) * between_facets_density(bsdf_.roughness, up.z)};
     }
     default:
       return {};
@@ -309,12 +331,13 @@ bool ViewedBsdf::faces(const Vec3& i, bool before) const {
 }
 
 Vec3 ViewedBsdf::direction(Lobe lobe, double part, const Vec2& u) const {
-  const double spread = lobe == thin ? tables::ggx_albedo(o_.z, bsdf_.roughness).once : 0;
-  if (lobe == diffuse || lobe == multiple || lobe == sheen || (lobe == thin && part >= spread)) {
-    // Malley's method: a uniform point on the disk, projected up to the half sphere.
-    const double radius = std::max(std::abs(2 * u.x - 1), std::abs(2 * u.y - 1));
-    const double up = std::sqrt(1 - radius * radius);
-    return {on_disk(u), lobe == thin ? -up : up};
+  if (lobe == diffuse) return cosine_direction(u);
+  if (lobe == sheen) return uniform_direction(u);
+  const double once = lobe == thin ? tables::ggx_albedo(o_.z, bsdf_.roughness).once : 0;
+  if (lobe == multiple || (lobe == thin && part >= once)) {
+    const double rest = (part - once) / (1 - once);
+    const Vec3 i = rest < uniform_share(bsdf_.roughness) ? uniform_direction(u) : cosine_direction(u);
+    return {i.x, i.y, lobe == thin ? -i.z : i.z};
   }
   if (lobe == coat) {
     const Vec3 h = ggx_normal(coat_o_, width_of(bsdf_.coat_roughness), u);

@@ -4,7 +4,7 @@
 #define THIN_GLSL
 #include "bsdf/bsdf_record.glsl"
 #include "bsdf/ggx.glsl"
-#include "math/sampling.glsl"
+#include "bsdf/multiple.glsl"
 
 SHADER_BEGIN
 
@@ -22,14 +22,15 @@ LobeValue thin_value(Bsdf bsdf, Directions at) {
     float rest = bsdf.albedo.x * at.albedo.x / maximum(bsdf.albedo.z, 1.0e-20f);
     result.value = bsdf.thin * ((one - mirrored_share(bsdf.layer, dot3(at.o, h))) * reflection.x +
                                 (one - mirrored_often(bsdf.layer, bsdf.albedo)) * (rest * even));
-    result.density = (1.0f - bsdf.albedo.x) * reflection.y + bsdf.albedo.x * even;
+    result.density = (1.0f - bsdf.albedo.x) * reflection.y + bsdf.albedo.x * between_facets_density(bsdf.roughness, -at.i.z);
   }
   return result;
 }
 
 vec3 thin_direction(Bsdf bsdf, vec3 o, vec2 u, float part) {
-  vec3 i = cosine_direction(u);
-  if (part < 1.0f - bsdf.albedo.x) i = mirror3(o, ggx_normal(o, ggx_width(bsdf.roughness), u));
+  float once = 1.0f - bsdf.albedo.x;
+  vec3 i = between_facets_direction(bsdf.roughness, u, (part - once) / maximum(bsdf.albedo.x, 1.0e-20f));
+  if (part < once) i = mirror3(o, ggx_normal(o, ggx_width(bsdf.roughness), u));
   return i.z > 0.0f ? vec3(i.x, i.y, -i.z) : vec3(0.0f, 0.0f, 0.0f);
 }
 

@@ -23,6 +23,14 @@ vec3 cosine_direction(vec2 u) {
   return vec3(at.x, at.y, sqrt((1.0f - radius) * (1.0f + radius)));
 }
 
+// Uniform on the half sphere about z: at x on the disk, z is 1 − x², so the length across is |x| √(2 − x²).
+vec3 half_sphere_direction(vec2 u) {
+  vec2 at = on_disk(u);
+  float radius = maximum(abs(2.0f * u.x - 1.0f), abs(2.0f * u.y - 1.0f));
+  float across = sqrt(2.0f - radius * radius);
+  return vec3(at.x * across, at.y * across, (1.0f - radius) * (1.0f + radius));
+}
+
 // Two directions that are perpendicular to the unit vector n and to each other. The first turns about an axis that no wall stands
 // along.
 void tangents(vec3 n, OUT(vec3) s, OUT(vec3) t) {

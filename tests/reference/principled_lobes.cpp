@@ -79,7 +79,7 @@ void for_each_direction(const F& f) {
 // sample.
 template <typename F>
 void for_each_sample(const ViewedBsdf& viewed, const F& of) {
-  constexpr int lobes = 32, side = 32;
+  constexpr int lobes = 32, side = 24;
   Random random(7);
   for (int l = 0; l < lobes; ++l)
     for (int x = 0; x < side; ++x)
@@ -132,4 +132,42 @@ TEST_CASE("principled's samples bring the light of its published formulas, and t
     // The density of light through glass jumps where microfacets would stand upright.
     CHECK(density == doctest::Approx(1).epsilon(0.008));
   });
+}
+
+TEST_CASE("no sample of principled weighs more than 100 times the light that is scattered") {
+  const Look bases[] = {{.metallic = 1},
+                        {.metallic = 0.5, .transmission = 0.5, .ior = 2.5},
+                        {.transmission = 1, .ior = 2.5},
+                        {.transmission = 1, .thin = true},
+                        {.transmission = 0.5, .coat = 1, .sheen = 0.5},
+                        {.sheen = 1}};
+  double greatest = 0, greatest_square = 0;
+  for (Look look : bases)
+    for (const double roughness : {0.03, 0.1, 0.3, 0.8, 1.0})
+      for (const bool leaving : {false, true}) {
+        if (leaving && (look.transmission == 0 || look.thin)) continue;
+        look.roughness = look.coat_roughness = look.sheen_roughness = roughness;
+        for (const double cosine : {1.0, 0.2, 0.05, 0.01}) {
+          CAPTURE(look.metallic);
+          CAPTURE(look.transmission);
+          CAPTURE(look.sheen);
+          CAPTURE(roughness);
+          CAPTURE(leaving);
+          CAPTURE(cosine);
+          const Bsdf bsdf = bsdf_of(look, cosine, leaving);
+          double most = 0, square = 0;
+          for_each_sample(ViewedBsdf(bsdf, direction_of(cosine)),
+                          [&](const Vec3&, const BsdfValue& value, double share) {
+                            if (!(value.density > 0)) return;
+                            const double weight = value.value.x / value.density;
+                            most = std::max(most, weight);
+                            square += share * weight * weight;
+                          });
+          CHECK(most < 100);
+          CHECK(square < 8);
+          greatest = std::max(greatest, most);
+          greatest_square = std::max(greatest_square, square);
+        }
+      }
+  MESSAGE("weights up to " << greatest << ", their squares on average up to " << greatest_square);
 }

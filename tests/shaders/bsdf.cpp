@@ -117,7 +117,7 @@ double critical_z(int tests) {
 void check_samples(const std::vector<double>& roughnesses, const std::vector<double>& cosines, int samples) {
   const records::PackedScene scene = scene_with_albedos();
   const shader::Binding binding(twin::view_of(scene));
-  Random random(2);
+  Random random(3);
   constexpr int rows = 24, columns = 32;
   const Vec2 size(M_PI / rows, 2 * M_PI / columns);
   const int tests = int(roughnesses.size() * cosines.size() * examples(1).size());
