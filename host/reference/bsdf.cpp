@@ -119,6 +119,14 @@ double between_facets_density(double roughness, double cosine) {
   return cosine > 0 ? std::lerp(cosine / M_PI, uniform_density, uniform_share(roughness)) : 0;
 }
 
+// The share of a rough pane's directions that are mirrored to the other side: about that of their light in
+// all light that goes through.
+double thin_mirrored(const Fresnel& layer, const GgxAlbedo& albedo) {
+  const double all = largest(1.0 - layer_albedo(layer, albedo));
+  const double scattered = largest(1.0 - often(layer, albedo)) * (1 - albedo.once);
+  return all > 0 ? 1 - std::min(scattered / all, 1.0) : 0;
+}
+
 // Malley's method: a uniform point on the disk, projected up to the half sphere.
 Vec3 cosine_direction(const Vec2& u) {
   const double radius = std::max(std::abs(2 * u.x - 1), std::abs(2 * u.y - 1));
@@ -285,9 +293,9 @@ BsdfValue ViewedBsdf::value(Lobe lobe, const Vec3& i) const {
       const Vec3 let_in = 1.0 - bsdf_.layer.at(std::min(1.0, glm::dot(o_, glm::normalize(o_ + up))));
       const Vec3 scattered = (1.0 - often(bsdf_.layer, there)) * (1 - there.once) * (1 - here.once) /
                              (1 - there.mean_once) * up.z / M_PI;
-      return {
-          bsdf_.thin * (let_in * blurred.value + scattered),
-          there.once * blurred.density + (1 - there.once) * between_facets_density(bsdf_.roughness, up.z)};
+      return {bsdf_.thin * (let_in * blurred.value + scattered),
+              std::lerp(between_facets_density(bsdf_.roughness, up.z), blurred.density,
+                        thin_mirrored(bsdf_.layer, there))};
     }
     default:
       return {};
@@ -333,9 +341,10 @@ bool ViewedBsdf::faces(const Vec3& i, bool before) const {
 Vec3 ViewedBsdf::direction(Lobe lobe, double part, const Vec2& u) const {
   if (lobe == diffuse) return cosine_direction(u);
   if (lobe == sheen) return uniform_direction(u);
-  const double once = lobe == thin ? tables::ggx_albedo(o_.z, bsdf_.roughness).once : 0;
-  if (lobe == multiple || (lobe == thin && part >= once)) {
-    const double rest = (part - once) / (1 - once);
+  const double mirrored =
+      lobe == thin ? thin_mirrored(bsdf_.layer, tables::ggx_albedo(o_.z, bsdf_.roughness)) : 0;
+  if (lobe == multiple || (lobe == thin && part >= mirrored)) {
+    const double rest = (part - mirrored) / (1 - mirrored);
     const Vec3 i = rest < uniform_share(bsdf_.roughness) ? uniform_direction(u) : cosine_direction(u);
     return {i.x, i.y, lobe == thin ? -i.z : i.z};
   }

@@ -147,7 +147,7 @@ TEST_CASE("no sample of principled weighs more than 100 times the light that is 
       for (const bool leaving : {false, true}) {
         if (leaving && (look.transmission == 0 || look.thin)) continue;
         look.roughness = look.coat_roughness = look.sheen_roughness = roughness;
-        for (const double cosine : {1.0, 0.2, 0.05, 0.01}) {
+        for (const double cosine : {1.0, 0.2, 0.05, 0.01, 0.001}) {
           CAPTURE(look.metallic);
           CAPTURE(look.transmission);
           CAPTURE(look.sheen);
