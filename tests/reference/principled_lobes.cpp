@@ -141,7 +141,7 @@ TEST_CASE("no sample of principled weighs more than 100 times the light that is 
                         {.transmission = 1, .thin = true},
                         {.transmission = 0.5, .coat = 1, .sheen = 0.5},
                         {.sheen = 1}};
-  double greatest = 0, greatest_square = 0;
+  double greatest = 0, greatest_square = 0, worst_light = 0;
   for (Look look : bases)
     for (const double roughness : {0.03, 0.1, 0.3, 0.8, 1.0})
       for (const bool leaving : {false, true}) {
@@ -155,19 +155,23 @@ TEST_CASE("no sample of principled weighs more than 100 times the light that is 
           CAPTURE(leaving);
           CAPTURE(cosine);
           const Bsdf bsdf = bsdf_of(look, cosine, leaving);
-          double most = 0, square = 0;
+          double most = 0, light = 0, square = 0;
           for_each_sample(ViewedBsdf(bsdf, direction_of(cosine)),
                           [&](const Vec3&, const BsdfValue& value, double share) {
                             if (!(value.density > 0)) return;
                             const double weight = value.value.x / value.density;
                             most = std::max(most, weight);
+                            light += share * weight;
                             square += share * weight * weight;
                           });
           CHECK(most < 100);
           CHECK(square < 8);
+          CHECK(light == doctest::Approx(1).epsilon(0.03));  // all of these are white
+          worst_light = std::max(worst_light, std::abs(light - 1));
           greatest = std::max(greatest, most);
           greatest_square = std::max(greatest_square, square);
         }
       }
-  MESSAGE("weights up to " << greatest << ", their squares on average up to " << greatest_square);
+  MESSAGE("weights up to " << greatest << ", their squares on average up to " << greatest_square
+                           << ", light 1 but for " << worst_light);
 }
