@@ -10,16 +10,6 @@
 #include "host/scene/integrator.hpp"
 
 namespace eyeray::engine::loader {
-namespace {
-
-// True if shadow rays pass through the surface of a medium of the index around it: only a `dielectric` is
-// such an interface.
-bool is_interface(const Material& material) {
-  const ScatteringContext context{.point = Vec2(0.5), .cos_view = 1, .ior_from = 1, .ior_to = 1};
-  return material.bsdf(context, material.scattering(context)).passed != Vec3(0);
-}
-
-}  // namespace
 
 void warn_of_paths(const Scene& scene, DiagnosticLog& log) {
   for (const auto& material : scene.materials) {
@@ -41,19 +31,15 @@ void warn_of_paths(const Scene& scene, DiagnosticLog& log) {
   const std::vector<SourcePosition>& unsampled = found.unsampled;
   const auto has_size = [&](const auto& light) { return light->illuminate(scene.camera.eye).angle > 0; };
   const auto glass = std::ranges::find_if(scene.materials, [&](const auto& material) {
-    return fills(*material, scene.render.integrator) &&
-           (material->medium()->ior != scene.medium.ior || !is_interface(*material));
+    return fills(*material, scene.render.integrator) && material->medium()->ior != scene.medium.ior;
   });
   const bool photons = sends_photons(scene.render.integrator);
   if (!photons && glass != scene.materials.end() && !std::ranges::all_of(scene.lights, has_size))
     log.warning({}, fmt::format("paths cannot find lights without a size through glass (material \"{}\"): "
                                 "its shadow lacks their light and their caustics; use integrator = "
                                 "\"sppm\", or lights with a size (`emission`, or the `angle` of a "
-                                "directional light){}",
-                                (*glass)->name,
-                                (*glass)->medium()->ior == scene.medium.ior
-                                    ? "; shadow rays pass a `dielectric` of ior = 1 straight"
-                                    : ""));
+                                "directional light)",
+                                (*glass)->name));
   if (!photons && scene.lights.empty() && found.sampled.empty() && unsampled.empty() &&
       scene.render.background == Vec3(0) && !scene.environment)
     log.warning({},

@@ -103,9 +103,7 @@ class Dielectric final : public Material {
       const optics::Fresnel surface = optics::schlick(Vec3(1 - pane_transmittance()), Vec3(1));
       return {.layer = surface, .roughness = bsdf.roughness, .thin = Vec3(1)};
     }
-    if (context.ior_from == context.ior_to)
-      std::swap(bsdf.transmitted, bsdf.passed);
-    else if (bsdf.roughness > 0) {
+    if (bsdf.roughness > 0 && context.ior_from != context.ior_to) {
       bsdf.mirror = bsdf.transmitted = Vec3(0);
       bsdf.glass = Vec3(1);
       bsdf.ior_from = context.ior_from;

@@ -36,10 +36,11 @@ at grazing incidence (Schlick). Microfacets are as in `conductor`.
 
 Light that enters the non-metal part hits a Lambert body of `color`, and leaves through the surface again. The
 share `transmission` of it passes through instead, tinted by `color`. It is refracted as in `dielectric` and
-fills the shape. The surface of that share reflects by `ior` alone. With `thin` the light passes straight
-through, blurred by `roughness`. Rough glass of a high `ior` is noisy, since it reflects most light inside many
-times. A coat has index 1.5. Sheen is a layer of fibres of `sheen_color` above the body, as cloth has them.
-`whitted` and `raycast` show an approximation: glass where `transmission` is 0.5 or more.
+fills the shape. The surface of that share reflects by `ior` alone. Where the index is the same on both
+sides, it continues straight, as in `dielectric`. Rough glass of a high `ior` is noisy, since it reflects most
+light inside many times. With `thin` the light passes straight through, blurred by `roughness`. A coat has
+index 1.5. Sheen is a layer of fibres of `sheen_color` above the body, as cloth has them. `whitted` and
+`raycast` show an approximation: glass where `transmission` is 0.5 or more.
 
 **Source.** Khronos: glTF 2.0 Specification, appendix B; KHR_materials_ior, _specular, _clearcoat, _sheen, _transmission, _volume. Kelemen,
 Szirmay-Kalos: A Microfacet Based Coupled Specular-Matte BRDF Model, Eurographics 2001. Estevez, Kulla: Production Friendly Microfacet

@@ -168,7 +168,8 @@ ViewedBsdf::ViewedBsdf(const Bsdf& bsdf, const Vec3& o, bool adjoint)
   // A photon's viewer is not known yet.
   const double coated = adjoint_ ? 1 : crossed.coat, under = coated * (adjoint_ ? 1 : crossed.sheen);
   const Vec3 let_in = 1.0 - layer_albedo(bsdf.layer, albedo);
-  passed_ = crossed.coat * crossed.sheen * let_in;
+  passed_ =
+      bsdf.passed * (crossed.coat * crossed.sheen * let_in) + bsdf.crossed * (crossed.coat * crossed.sheen);
   Vec3 albedos[lobes];
   albedos[diffuse] = under * bsdf.diffuse * let_in;
   albedos[glossy] = under * mirrored_once(bsdf, albedo);

@@ -40,7 +40,7 @@ class ViewedBsdf {
   // The probability that one of its lobes is followed: 1, or less for a partial BSDF.
   double followed() const;
   // The share of light that goes straight on.
-  Vec3 passed() const { return bsdf_.passed * passed_; }
+  Vec3 passed() const { return passed_; }
   // About the share of light that the BSDF scatters towards the viewer.
   Vec3 albedo() const { return glm::min(albedo_, Vec3(1)); }
   // True if light leaves in single directions alone.
@@ -80,7 +80,7 @@ class ViewedBsdf {
   double shares_[lobes] = {};
   double sum_ = 0;
   Vec3 albedo_{0};
-  Vec3 passed_;  // the share of light going straight on that the layers leave
+  Vec3 passed_;
 };
 
 }  // namespace eyeray::engine::reference

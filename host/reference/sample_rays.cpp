@@ -133,7 +133,8 @@ Bsdf SampleRays::bsdf(const Material& material, const ScatteringContext& context
                       const Scattering& scattering) const {
   Bsdf bsdf = material.bsdf(context, scattering);
   // Without interfaces a material with the same index on both sides is glass like any other.
-  if (!tracer_.any_interface() && !material.thin()) bsdf.transmitted += std::exchange(bsdf.passed, Vec3(0));
+  if (tracer_.any_interface() && context.ior_from == context.ior_to)
+    bsdf.crossed = std::exchange(bsdf.transmitted, Vec3(0));
   return bsdf;
 }
 

@@ -27,6 +27,7 @@ struct Bsdf {
   Vec3 mirror{0};       // throughput of the mirrored direction
   Vec3 transmitted{0};  // throughput of the refracted direction
   Vec3 passed{0};       // throughput of light that goes straight through a pane, under `layer`
+  Vec3 crossed{0};      // throughput of light that goes straight through an interface
 };
 
 }  // namespace eyeray::engine

@@ -81,11 +81,15 @@ vec3 passed_straight(Bsdf bsdf, vec3 color, float through) {
   return passed;
 }
 
+// The light that an interface with that surface lets through. Its glass lies under coat and sheen alone.
+vec3 crossed_straight(Bsdf bsdf, vec3 color, float through) { return color * through * under_layers(layers_towards_viewer(bsdf), 2u); }
+
 vec3 principled_passed(Material material, ScatteringContext context) {
-  if ((material.flags & MATERIAL_PANE) == 0u) return vec3(0.0f, 0.0f, 0.0f);
   float metallic = metallic_of(material, context.point).z;
   vec3 color = principled_color(material, context);
-  return passed_straight(principled_surface(material, context, color, metallic), color, principled_through(material, context, metallic));
+  Bsdf surface = principled_surface(material, context, color, metallic);
+  float through = principled_through(material, context, metallic);
+  return is_interface(material, context) ? crossed_straight(surface, color, through) : passed_straight(surface, color, through);
 }
 #endif
 
@@ -110,7 +114,12 @@ Bsdf principled_bsdf(Material material, ScatteringContext context, Scattering sc
       Scattering surface = no_scattering();
       surface.reflected = white * mirrored;
       surface.transmitted = white * (1.0f - mirrored);
-      add_glass(bsdf, surface, bsdf.roughness, through, color, context);
+      bool crosses = false;
+#if HAS_PANES
+      crosses = is_interface(material, context);
+      if (crosses) bsdf.passed = crossed_straight(bsdf, color, through);
+#endif
+      if (!crosses) add_glass(bsdf, surface, bsdf.roughness, through, color, context);
 #if HAS_GLOSSY
       bsdf.layered = bsdf.layered - through;
 #endif

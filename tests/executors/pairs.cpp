@@ -43,6 +43,7 @@ const std::vector<std::string> materials = {
     "type = 'principled'\ncoat = 1\ncoat_roughness = 0.2",
     "type = 'principled'\ntransmission = 1\nroughness = 0",
     "type = 'principled'\ntransmission = { checker = { even = 0.1, odd = 1, size = 1 } }\nroughness = 0.4",
+    "type = 'principled'\ntransmission = 0.8\nior = 1\ncoat = 0.5",
     "type = 'principled'\ntransmission = 1\nthin = true\nroughness = 0",
     "type = 'principled'\ntransmission = 0.5\nthin = true\nroughness = 0.4\ncoat = 0.5",
     "type = 'principled'\ncoat = 1\ncoat_normal = { image = 'studs_normal.png' }",

@@ -26,6 +26,37 @@ TEST_CASE("interfaces: the light of a sun and of a point is absorbed by the Beer
   }
 }
 
+// The share `transmission` · (1 - metallic) · color² crosses both borders of a slab. The other shares block
+// light, or reflect it.
+TEST_CASE("interfaces of principled materials tint the light of suns and points, and do not blur it") {
+  constexpr double absorption = 0.3, slab = 0.5;
+  for (const double roughness : {0.0, 0.6}) {
+    CAPTURE(roughness);
+    Scene scene = floor(1024);
+    add(scene, make_box({-50, 1, -50}, {50, 1 + slab, 50}),
+        add(scene, make_principled({.color = gray(0.9),
+                                    .metallic = gray(0.25),
+                                    .roughness = gray(roughness),
+                                    .ior = 1,
+                                    .transmission = gray(0.5),
+                                    .absorption = Vec3(absorption)})));
+    add_point_light(scene, {0, 3, 0}, Vec3(3), Falloff::inverse_square);
+    add_sun(scene, {0, 1, 0}, Vec3(0.5));
+    scene.camera.eye = {0.1, 0.25, 0.1};
+    const double border = 0.9 * 0.5 * 0.75;
+    check(scene, albedo * (3.0 / 9 + 0.5) * border * border * std::exp(-absorption * slab), 1e-4);
+  }
+}
+
+TEST_CASE("interfaces under a coat lose at each border the light that the coat reflects") {
+  Scene scene = floor(16);
+  add(scene, make_box({-50, 1, -50}, {50, 1.5, 50}),
+      add(scene, make_principled({.color = gray(1), .ior = 1, .transmission = gray(1), .coat = gray(1)})));
+  add_sun(scene, {0, 1, 0}, Vec3(0.5));
+  scene.camera.eye = {0.1, 0.25, 0.1};
+  check(scene, albedo * 0.5 * 0.96 * 0.96, 1e-3);
+}
+
 // ∫ σₛ / 4π · e^(−σₜ t) · e^(−σₜ h) · π I dt through a box of depth 2, at h = 1 below its top.
 TEST_CASE("interfaces: a box of air scatters a sun's light once as its integral gives") {
   const double scattering = 0.3, extinction = 0.4, sun = 2;
