@@ -135,6 +135,7 @@ std::vector<std::string> left_out(const tinyobj::material_t& source) {
   const bool emits = color(source.emission) != Vec3(0) || !source.emissive_texname.empty();
   // A `Tf` of 0 is absent.
   const Vec3 tint(source.transmittance[0], source.transmittance[1], source.transmittance[2]);
+  add(glass && color(source.diffuse) != Vec3(0), "the colour (Kd) of glass");
   add(glass && tint != Vec3(0) && tint != Vec3(1), "the tint (Tf) of glass");
   add(glass && source.dissolve > 0 && source.dissolve < 1,
       "the transparency (d) of glass: an index (Ni) of 1 makes it count");

@@ -39,7 +39,11 @@ bool is_texture_file(std::string_view word) {
 
 class HeaderReader {
  public:
-  HeaderReader(std::string_view bytes, const std::string& file) : bytes_(bytes), file_(file) {}
+  HeaderReader(std::string_view bytes, const std::string& file) : bytes_(bytes), file_(file) {
+    // The first line shows how lines end: a LF after the header's last CR may be binary data.
+    const size_t end = bytes.find_first_of("\r\n");
+    if (end != std::string_view::npos && !bytes.substr(end).starts_with("\r\n")) line_break_ = bytes[end];
+  }
 
   PlyHeader read() {
     if (next_line() != std::vector<std::string_view>{"ply"})
@@ -76,7 +80,7 @@ class HeaderReader {
 
   std::vector<std::string_view> next_line() {
     start_ = at_;
-    const size_t end = bytes_.find('\n', at_);
+    const size_t end = bytes_.find(line_break_, at_);
     if (end == std::string_view::npos) fail("the header ends without `end_header`");
     at_ = end + 1;
     return split(bytes_.substr(start_, end - start_));
@@ -129,6 +133,7 @@ class HeaderReader {
 
   std::string_view bytes_;
   const std::string& file_;
+  char line_break_ = '\n';
   size_t at_ = 0;
   size_t start_ = 0;  // the beginning of the last line read
   bool formatted_ = false;

@@ -171,6 +171,7 @@ TEST_CASE("values of a .mtl file that do not count are named") {
   const Folder folder;
   for (const auto& [statements, warning] : {
            std::pair("illum 4\nNi 1.5\nTf 1 0.5 0.5", "the tint (Tf) of glass"),
+           {"illum 6\nNi 1.5\nKd 0.2 0.6 0.3", "the colour (Kd) of glass"},
            {"illum 4\nNi 1.5\nd 0.5", "the transparency (d) of glass"},
            {"illum 9\nNi 1.5\nPr 0.5", "the values Pr, Pm, Pc and Ps of glass"},
            {"illum 9\nNi 1.5\nmap_Kd x.png", "pictures (map_Kd) of glass"},
@@ -185,7 +186,7 @@ TEST_CASE("values of a .mtl file that do not count are named") {
     CAPTURE(text);
     CHECK(warns(square_of(folder, text), "left out: " + words));
   }
-  CHECK(square_of(folder, "illum 4\nNi 1.5\nTf 1 1 1").warnings.empty());
+  CHECK(square_of(folder, "illum 4\nNi 1.5\nKd 0 0 0\nTf 1 1 1").warnings.empty());
 }
 
 TEST_CASE("lines may end with CR alone, and a .mtl file in UTF-16 is named") {

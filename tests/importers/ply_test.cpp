@@ -151,6 +151,35 @@ TEST_CASE("strips of triangles flip every other triangle") {
   CHECK(signed_area(scene.meshes[0], {0, 0, 1}) == 5);
 }
 
+TEST_CASE("lines of PLY may end with CR alone, or with CR LF") {
+  const std::string text = ascii("0 0 0\n1 0 0\n1 1 0\n0 1 0\n", "4 0 1 2 3\n");
+  const auto ending = [](const std::string& lines, const std::string& end) {
+    std::string ended;
+    for (const char c : lines) ended += c == '\n' ? end : std::string(1, c);
+    return ended;
+  };
+  // The first byte of the data, 10, is also that of a line break.
+  Bytes data;
+  data.add(uint8_t(10)).add(uint8_t(0)).add(uint8_t(0));
+  data.add(uint8_t(11)).add(uint8_t(0)).add(uint8_t(0));
+  data.add(uint8_t(10)).add(uint8_t(2)).add(uint8_t(0));
+  data.add(uint8_t(3)).add(uint8_t(0)).add(uint8_t(1)).add(uint8_t(2));
+  const std::string binary = header("binary_little_endian",
+                                    "element vertex 3\nproperty uchar x\nproperty uchar y\nproperty uchar z\n"
+                                    "element face 1\nproperty list uchar uchar vertex_indices\n");
+  for (const std::string end : {"\n", "\r", "\r\n"}) {
+    CAPTURE(end.size());
+    check_ply_square(import_sound(ending(text, end), "a.ply"));
+    const ImportedScene scene = import_sound(ending(binary, end) + data.text(), "a.ply");
+    CHECK(scene.meshes[0].triangles.size() == 1);
+    CHECK(signed_area(scene.meshes[0], {0, 0, 1}) == 2);
+    CHECK(refusal(ending("ply\nelement vertex -1\n", end), "a.ply") ==
+          "a.ply:2:1: error: `-1` is not a number of elements");
+    CHECK(refusal(ending(ascii("0 0 0\n1 0 0\n1 1 0\n0 1 0\n", "4 0 1 x 3"), end), "a.ply") ==
+          "a.ply:15:7: error: this is not a number");
+  }
+}
+
 TEST_CASE("wrong PLY is refused, with the position in a text") {
   const auto message = [](const std::string& bytes) { return refusal(bytes, "a.ply"); };
   const std::string good = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
