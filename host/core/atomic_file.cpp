@@ -4,11 +4,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "host/core/diagnostic.hpp"
 #include "host/core/error.hpp"
@@ -75,6 +77,24 @@ void keep_mode(int part, const struct stat& replaced) {
   ::fchmod(part, mode);
 }
 
+// Writes all of `bytes` at `offset`; false, with errno, if that fails.
+bool write_all(int file, uint64_t offset, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::pwrite(file, bytes.data(), bytes.size(), off_t(offset));
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return false;
+    bytes = bytes.subspan(size_t(count));
+    offset += uint64_t(count);
+  }
+  return true;
+}
+
+// True if the file has other names, which a rename would leave with the old content.
+bool has_hard_links(const fs::path& path) {
+  struct stat file{};
+  return ::lstat(path.c_str(), &file) == 0 && file.st_nlink > 1;
+}
+
 }  // namespace
 
 AtomicFile::AtomicFile(const fs::path& path, unsigned mode) : named_(path), path_(behind_links(path)) {
@@ -102,7 +122,7 @@ AtomicFile::AtomicFile(const fs::path& path, unsigned mode) : named_(path), path
 
 AtomicFile::~AtomicFile() {
   if (file_ >= 0) ::close(file_);
-  if (renamed_) return;
+  if (committed_) return;
   UnfinishedFiles unfinished;
   ::unlink(part_.c_str());
   unfinished.drop(part_);
@@ -114,13 +134,7 @@ void AtomicFile::write(std::span<const std::byte> bytes) {
 }
 
 void AtomicFile::write_at(uint64_t offset, std::span<const std::byte> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t count = ::pwrite(file_, bytes.data(), bytes.size(), off_t(offset));
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) fail("write", named_, errno);
-    bytes = bytes.subspan(size_t(count));
-    offset += uint64_t(count);
-  }
+  if (!write_all(file_, offset, bytes)) fail("write", named_, errno);
 }
 
 void AtomicFile::read_at(uint64_t offset, std::span<std::byte> bytes) const {
@@ -136,12 +150,17 @@ void AtomicFile::read_at(uint64_t offset, std::span<std::byte> bytes) const {
 
 void AtomicFile::commit() {
   if (::fsync(file_) != 0) fail("write", named_, errno);
+  if (has_hard_links(path_)) {
+    const Descriptor target(path_, O_WRONLY | O_NOFOLLOW);
+    // A file that is read-only is replaced.
+    if (target.valid()) return copy_to(target.get());
+  }
   // Some file systems report a full disk only here.
   if (::close(std::exchange(file_, -1)) != 0) fail("write", named_, errno);
   {
     UnfinishedFiles unfinished;
     if (::rename(part_.c_str(), path_.c_str()) != 0) fail("replace", named_, errno);
-    renamed_ = true;
+    committed_ = true;
     unfinished.drop(part_);
   }
 
@@ -149,6 +168,31 @@ void AtomicFile::commit() {
   const Descriptor folder(folder_of(path_), O_RDONLY | O_DIRECTORY);
   if (!folder.valid() || (::fsync(folder.get()) != 0 && errno != EINVAL))
     fail("sync the folder of", named_, errno);
+}
+
+void AtomicFile::copy_to(int target) {
+  struct stat part{};
+  if (::fstat(file_, &part) != 0) fail("write", named_, errno);
+  // On a full disk, fail before the first byte of the old content is lost.
+  if (::fallocate(target, FALLOC_FL_KEEP_SIZE, 0, part.st_size) != 0 && (errno == ENOSPC || errno == EDQUOT))
+    fail("write", named_, errno);
+  // From here on the part file is the only whole one, so it stays until the copy is complete.
+  UnfinishedFiles().drop(part_);
+  committed_ = true;
+  const auto copied = [&] {
+    std::vector<std::byte> bytes(size_t(1) << 20);
+    const auto size = uint64_t(part.st_size);
+    for (uint64_t at = 0; at < size; at += bytes.size()) {
+      bytes.resize(size_t(std::min<uint64_t>(bytes.size(), size - at)));
+      read_at(at, bytes);
+      if (!write_all(target, at, bytes)) return false;
+    }
+    return ::ftruncate(target, part.st_size) == 0 && ::fsync(target) == 0;
+  };
+  if (!copied())
+    throw Error(ExitCode::file_io, "cannot write {}: {}; {} has its new content", printable(named_.string()),
+                std::generic_category().message(errno), printable(part_.string()));
+  ::unlink(part_.c_str());
 }
 
 void write_file_atomically(const fs::path& path, std::span<const std::byte> bytes) {

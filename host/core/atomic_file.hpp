@@ -12,7 +12,9 @@ namespace eyeray::engine {
 // A file that grows as PATH.part.PID beside `path`, so that the rename stays within one file system, and
 // replaces `path` at commit(). Without commit(), the destructor removes the part file, and a file at `path`
 // is untouched. If `path` is a symbolic link, the file that it points to is replaced, or made. The mode of a
-// replaced file is kept; a new file gets `mode`, less the umask. Every failure is an Error (file_io) that
+// replaced file is kept; a new file gets `mode`, less the umask. If the file has other names (hard links) and
+// may be written, commit() copies the part file into it instead. A copy that is cut off leaves the whole part
+// file beside it. Every failure is an Error (file_io) that
 // gives the reason, and `path` as the caller wrote it.
 class AtomicFile {
  public:
@@ -28,16 +30,19 @@ class AtomicFile {
   void write_at(uint64_t offset, std::span<const std::byte> bytes);
   // Reads bytes that were written at `offset`.
   void read_at(uint64_t offset, std::span<std::byte> bytes) const;
-  // Syncs and renames; nothing may be written afterwards.
+  // Syncs, and renames or copies; nothing may be written afterwards.
   void commit();
 
  private:
+  // Replaces the content of the open file `target` by that of the part file.
+  void copy_to(int target);
+
   std::filesystem::path named_;  // as the caller wrote it
   std::filesystem::path path_;   // behind links
   std::filesystem::path part_;
   int file_ = -1;
   uint64_t end_ = 0;
-  bool renamed_ = false;
+  bool committed_ = false;  // from then on the part file is left alone
 };
 
 void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);

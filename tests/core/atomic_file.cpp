@@ -129,6 +129,23 @@ TEST_CASE("a symbolic link stays, and the file that it points to is written") {
   CHECK(std::filesystem::is_symlink(folder / "loop"));
 }
 
+TEST_CASE("all hard links of a file have the new content") {
+  const TemporaryFolder folder;
+  const std::string longer(3'000'000, 'x');
+  write_text(folder / "a", "old");
+  std::filesystem::create_hard_link(folder / "a", folder / "b");
+  std::filesystem::create_symlink("a", folder / "link");
+  for (const std::string& content : {longer, std::string("short"), std::string()}) {
+    write_file_atomically(folder / "link", content);
+    CHECK(read_text(folder / "a") == content);
+    CHECK(read_text(folder / "b") == content);
+  }
+  CHECK(std::filesystem::hard_link_count(folder / "b") == 2);
+  CHECK(folder.names() == std::set<std::string>{"a", "b", "link"});
+  check_writable(folder / "a");
+  CHECK(std::filesystem::hard_link_count(folder / "b") == 2);
+}
+
 TEST_CASE("a replaced file keeps its mode") {
   using std::filesystem::perms;
   const TemporaryFolder folder;
