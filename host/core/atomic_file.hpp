@@ -14,8 +14,8 @@ namespace eyeray::engine {
 // is untouched. If `path` is a symbolic link, the file that it points to is replaced, or made. The mode of a
 // replaced file is kept; a new file gets `mode`, less the umask. If the file has other names (hard links) and
 // may be written, commit() copies the part file into it instead. A copy that is cut off leaves the whole part
-// file beside it. Every failure is an Error (file_io) that
-// gives the reason, and `path` as the caller wrote it.
+// file beside it. Every failure is an Error (file_io) that gives the reason, and `path` as the caller wrote
+// it.
 class AtomicFile {
  public:
   explicit AtomicFile(const std::filesystem::path& path, unsigned mode = 0666);

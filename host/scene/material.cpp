@@ -2,7 +2,7 @@
 
 namespace eyeray::engine {
 
-// A diffuse albedo above 1 would make light without end.
+// A diffuse albedo above 1 would make light without end. Keys limit the other terms to 1.
 Bsdf Material::bsdf(const ScatteringContext&, const Scattering& scattering) const {
   return {.diffuse = glm::min(scattering.diffuse, Vec3(1)),
           .mirror = scattering.reflected,

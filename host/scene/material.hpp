@@ -83,8 +83,8 @@ class Material {
   virtual ~Material() = default;
 
   virtual Scattering scattering(const ScatteringContext& context) const = 0;
-  // The BSDF for paths. `scattering`: the result of scattering(), whose terms the default returns, none of
-  // them above 1.
+  // The BSDF for paths. `scattering`: the result of scattering(). The default returns its terms, with the
+  // diffuse one cut to 1. Together they may exceed 1, which the loader warns of (loader/path_check.hpp).
   virtual Bsdf bsdf(const ScatteringContext& context, const Scattering& scattering) const;
   // The colour that `raycast` shades.
   virtual Vec3 base_color(const TextureContext& point) const = 0;

@@ -89,9 +89,9 @@ point if the box were stretched to a cube. The texture is projected straight ont
 
 **Numeric trap.** All values are computed in the coordinates of the box. Rounding is 10⁻⁷ of its size, so
 choose the box no larger than necessary, and near the origin of f. With `lipschitz` the smallest step of a ray
-is 10⁻⁵ of half the box, so a ray passes through walls thinner than that. Normals come from
-`vec3 gradient(vec3 p)`, if the text has that function. Otherwise they are fourth-order differences over 1/256
-of half the box. Much shorter waves, and edges, look smoother than they are.
+is 10⁻⁵ of half the box, so a ray may pass through walls thinner than that. With `lipschitz`, normals come
+from `vec3 gradient(vec3 p)`, if the text has that function. Otherwise they are fourth-order differences over
+1/256 of half the box. Much shorter waves, and edges, look smoother than they are.
 
 A ray that has not ended after 4096 steps (without `lipschitz`, 4096 pieces) has reached the iteration limit,
 and its pixel is reported. Without `lipschitz`, only this last limit applies. A change of sign is then

@@ -53,7 +53,7 @@ Scattering no_scattering() {
 }
 
 #if RANDOM_WALK
-// The BSDF of a material in Whitted's terms. It scatters no more light than arrives, or paths would gain light without end.
+// The BSDF of a material in Whitted's terms. Its diffuse albedo is cut to 1, or paths would gain light without end.
 Bsdf bsdf_of_scattering(Scattering scattering) {
   Bsdf bsdf = black_bsdf();
   vec3 diffuse = scattering.diffuse;
