@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "host/core/option_text.hpp"
+#include "host/core/stopwatch.hpp"
 #include "host/core/termination.hpp"
 
 namespace eyeray::engine::library {
@@ -20,19 +21,24 @@ namespace {
 struct Engine {
   pid_t process = ::getpid();
   std::timed_mutex mutex;
+  std::atomic<uint64_t> callbacks = 0;  // begun and ended: odd while one runs
 };
 
-std::timed_mutex& engine() {
+Engine& engine() {
   static std::atomic<Engine*> current = new Engine;
   Engine* known = current;
-  if (known->process == ::getpid()) return known->mutex;
+  if (known->process == ::getpid()) return *known;
   auto* const own = new Engine;
-  if (current.compare_exchange_strong(known, own)) return own->mutex;
+  if (current.compare_exchange_strong(known, own)) return *own;
   delete own;
-  return known->mutex;
+  return *known;
 }
 
 thread_local bool within_call = false;
+
+// The limit on a call's wait for one callback of another call. The callback may itself be waiting for that
+// call's thread, and would never return.
+constexpr int most_seconds_in_callback = 10;
 
 v0::ErrorKind kind_of(ExitCode code) {
   switch (code) {
@@ -53,10 +59,20 @@ v0::ErrorKind kind_of(ExitCode code) {
 
 // Waits for earlier calls, and takes the lock.
 std::unique_lock<std::timed_mutex> enter(const std::atomic<bool>* stop) {
-  std::unique_lock lock(engine(), std::defer_lock);
+  Engine& here = engine();
+  std::unique_lock lock(here.mutex, std::defer_lock);
   constexpr std::chrono::milliseconds slice(10);
-  while (!lock.try_lock_for(slice))
+  WakefulStopwatch watch;
+  uint64_t callback = here.callbacks;
+  while (!lock.try_lock_for(slice)) {
     if (stop && *stop) throw Error(ExitCode::interrupted, "cancelled");
+    if (const uint64_t now = here.callbacks; now != std::exchange(callback, now)) watch = {};
+    if (callback % 2 == 1 && watch.seconds() > most_seconds_in_callback)
+      throw Error(ExitCode::bad_input,
+                  "eyeray was called while `progress` of another call runs, which has not returned for {} "
+                  "seconds and may be waiting for this call: let it return first",
+                  most_seconds_in_callback);
+  }
   return lock;
 }
 
@@ -65,6 +81,13 @@ std::unique_lock<std::timed_mutex> enter(const std::atomic<bool>* stop) {
 InsideCall::InsideCall() : before_(std::exchange(within_call, true)) {}
 InsideCall::~InsideCall() {
   within_call = before_;
+}
+
+InsideCallback::InsideCallback() : callbacks_(engine().callbacks) {
+  ++callbacks_;
+}
+InsideCallback::~InsideCallback() {
+  ++callbacks_;
 }
 
 std::vector<v0::Diagnostic> to_public(const std::vector<Diagnostic>& diagnostics) {

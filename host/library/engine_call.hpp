@@ -4,6 +4,7 @@
 #include <eyeray/eyeray.hpp>
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -16,8 +17,7 @@ namespace eyeray::engine::library {
 
 std::vector<v0::Diagnostic> to_public(const std::vector<Diagnostic>& diagnostics);
 
-// While an InsideCall is alive, its thread runs a call or the call's callback. So that thread must not wait
-// for the call's end.
+// While an InsideCall is alive, its thread runs a call. So that thread must not wait for the call's end.
 class InsideCall {
  public:
   InsideCall();
@@ -27,6 +27,20 @@ class InsideCall {
 
  private:
   bool before_;
+};
+
+// The same around a callback. Calls of other threads do not wait for it without end: they are refused after
+// some seconds, since the callback may be waiting for them.
+class InsideCallback {
+ public:
+  InsideCallback();
+  ~InsideCallback();
+  InsideCallback(const InsideCallback&) = delete;
+  InsideCallback& operator=(const InsideCallback&) = delete;
+
+ private:
+  InsideCall inside_;
+  std::atomic<uint64_t>& callbacks_;  // the counter of the process that began it; the callback may fork
 };
 
 // Runs `work`, alone in this process: the engine's device, signals and time-outs belong to the process. An

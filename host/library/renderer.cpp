@@ -69,7 +69,7 @@ std::function<void(const render::Progress&)> progress_of(
   return [&progress, cancelled = v0::Cancellation(cancellation)](const render::Progress& now) mutable {
     if (now.samples_total == 0) return;  // kernels compile
     const double share = double(now.samples_done) / double(std::max<uint64_t>(now.samples_total, 1));
-    const InsideCall inside;
+    const InsideCallback inside;
     if (!progress({std::min(share, 1.0), now.rays, now.seconds})) cancelled.request();
   };
 }

@@ -110,6 +110,28 @@ def test_a_call_within_progress_is_refused():
     assert eyeray.render(scene).complete
 
 
+def test_a_thread_that_progress_waits_for_is_refused():
+    """It would wait for the end of the call that waits for it."""
+    scene = eyeray.Scene.read(SMALL)
+    ended = []
+
+    def work():
+        with pytest.raises(eyeray.InputError, match="has not returned for 10 seconds"):
+            eyeray.render(scene)
+        ended.append("refused")
+
+    def progress(share):
+        for target in (lambda: ended.append("calls nothing"), work):
+            thread = threading.Thread(target=target)
+            thread.start()
+            thread.join()
+        return False
+
+    eyeray.render(scene, progress=progress)
+    assert ended == ["calls nothing", "refused"]
+    assert eyeray.render(scene).complete
+
+
 def test_a_forked_child_uses_no_device_of_its_parent():
     code = f"""
 import eyeray, os, sys
