@@ -1,5 +1,6 @@
 // Names and values are shown so that no line is a command to a terminal or to GitHub's workflows, and JSON
-// can be read. The table lists each output that shows a text of a file, a name or the command line.
+// can be read; reports in files hide no characters. The table lists each output that shows a text of a file,
+// a name or the command line.
 #include <functional>
 #include <nlohmann/json.hpp>
 
@@ -131,7 +132,7 @@ const Case cases[] = {
                                      "8x6", "--backends", "twin,reference", "--json"}),
     CASE("verify: scenes that are wrong",
          {"verify", broken_scene_named(folder, text), broken_scene_named(folder, text + "2"), "--junit",
-          folder / "junit.xml", "--json"}),
+          folder / "junit.xml", "--report", folder / "page", "--json"}),
     CASE("verify: a golden picture",
          {"verify", file_named(folder, text, ".toml", small_scene), "-s", "8x6", "--backends", "twin",
           "--against", name_of(folder, text, ".pfm"), "--update"}),
@@ -139,7 +140,7 @@ const Case cases[] = {
         "verify: a difference",
         {"verify", file_named(folder, text, ".toml", small_scene), "-s", "8x6", "--backends", "twin",
          "--against", file_named(folder, text, ".pfm", std::string("PF\n8 6\n-1\n") + std::string(576, '\0')),
-         "--junit", folder / "junit.xml", "--keep", folder / "kept"}),
+         "--junit", folder / "junit.xml", "--report", folder / "page", "--keep", folder / "kept"}),
     CASE("new: its folder", {"new", name_of(folder, text, "")}),
     CASE("new: a folder with other files",
          [&] {
@@ -226,6 +227,18 @@ void check_lines(const std::string& text) {
   for (std::string line; std::getline(lines, line);) CHECK(line == log_line(line));
 }
 
+// Checks the reports that the command wrote: JSON by the rules of lines, XML and HTML for hidden characters.
+void check_files(const SceneFolder& folder) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path())) {
+    const std::string ending = entry.path().extension();
+    if (ending == ".json") check_lines(read_text(entry.path()));
+    if (ending != ".xml" && ending != ".html") continue;
+    CAPTURE(ending);
+    std::istringstream lines(read_text(entry.path()));
+    for (std::string line; std::getline(lines, line);) CHECK(line == printable(line));
+  }
+}
+
 void check_cases(const std::vector<std::string>& texts) {
   for (const Case& each : cases) {
     CAPTURE(each.name);
@@ -245,8 +258,7 @@ void check_cases(const std::vector<std::string>& texts) {
         std::istringstream lines(result.out);
         for (std::string line; std::getline(lines, line);) CHECK(nlohmann::json::accept(line));
       }
-      for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
-        if (entry.path().extension() == ".json") check_lines(read_text(entry.path()));
+      check_files(folder);
     }
   }
 }

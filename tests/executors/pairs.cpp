@@ -58,7 +58,7 @@ std::string many_points() {
   return text;
 }
 
-enum Factor { integrator, camera, light, medium, surface, shape, sampler, storage, factors };
+enum Factor { integrator, camera, light, medium, surface, shape, sampler, motion, storage, factors };
 
 const std::array<std::vector<std::string>, factors> levels = {{
     {"'path'", "'sppm'\nphotons = 256\nphoton_radius = 0.1", "'whitted'", "'raycast'"},
@@ -78,7 +78,19 @@ const std::array<std::vector<std::string>, factors> levels = {{
      "checker = "
      "{ even = 1, odd = 9, size = 1 } }\n[[parallelogram]]\nedge_u = [0.1, 0, 0]\nedge_v = [0, 0, "
      "0.1]\nmaterial = 'lamp'\nbatch = { origin = [" +
-         many_points() + "] }"},
+         many_points() + "] }",
+     // Several lights.
+     "[[light]]\ntype = 'point'\nposition = [0, 4, 0]\nintensity = 9\n[[light]]\ntype = 'spot'\nposition = "
+     "[1, 4, 1]\n"
+     "direction = [0, -1, 0]\nintensity = 9\n[[material]]\nname = 'lamp'\ntype = 'phong'\ndiffuse = "
+     "0\nemission = 9\n"
+     "[[sphere]]\ncenter = [0, 5, 0]\nradius = 1\nmaterial = 'lamp'\n[[disk]]\ncenter = [3, 3, 0]\nnormal = "
+     "[-1, -1, 0]\n"
+     "radius = 0.5\nmaterial = 'lamp'",
+     "[environment]\ntype = 'sky'\nsun = [0, 1, 0]\n[[light]]\ntype = 'directional'\ndirection = [0.3, -1, "
+     "0]\nangle = 3\n"
+     "[[light]]\ntype = 'directional'\ndirection = [0, -1, 0.3]\n[[light]]\ntype = 'point'\nposition = [0, "
+     "4, 0]\nintensity = 9"},
     {"", "[medium]\nscattering = 0.1", "[medium]\nabsorption = 0.1",
      "[medium]\nscattering = 0.1\nscale_height = 2", "[medium]\nabsorption = 0.1\ntop = 3"},
     {"",
@@ -100,24 +112,33 @@ const std::array<std::vector<std::string>, factors> levels = {{
      "[[material]]\nname = 'lid'\ntype = 'mirror'\n[[csg]]\noperation = 'union'\nmaterial = "
      "'a'\n[[csg.torus]]\ncenter = [0, 0, 0]\nmajor_radius = "
      "0.8\nminor_radius = 0.2\n[[csg.sphere]]\ncenter = [0.5, 0, 0]\nradius = 0.4\nmaterial = 'lid'",
-     "[[mesh]]\nfile = 'triangle.gltf'", "[[mesh]]\nfile = 'ring.ply'\nmaterial = 'a'",
+     "[[mesh]]\nfile = 'triangle.gltf'", "[[mesh]]\nfile = 'unlit.gltf'",
+     "[[mesh]]\nfile = 'ring.ply'\nmaterial = 'a'",
      "[[group]]\nbatch = { transform = [[{ translate = [-1, 0, 0] }], [{ translate = [1, 0, 0] }]] "
      "}\n[[group.mesh]]\nfile = 'ring.ply'\nmaterial = 'a'\n[[group.sphere]]\ncenter = [0, 0, 0]\nradius = "
      "0.2\nmaterial = 'a'",
      "[[implicit]]\nready = 'gyroid'\nmin = [-0.8, -0.8, -0.8]\nmax = [0.8, 0.8, 0.8]\nmaterial = 'a'"},
     {"pattern = 'regular'", "pattern = 'jittered'", "pattern = 'random'", "pattern = 'sobol'",
      "pattern = 'sobol'\nfilter = 'gaussian'"},
+    {"",
+     "[animation]\nframe = 1\nshutter = 1\nshutter_steps = 2\n[[track]]\ntarget = "
+     "'sphere.mover.center'\nkeyframes = [[0, "
+     "[-1, 1, 0]], [2, [1, 1, 0]]]\n[[material]]\nname = 'moved'\ntype = 'diffuse'\n[[sphere]]\nname = "
+     "'mover'\ncenter = "
+     "[0, 0, 0]\nradius = 0.4\nmaterial = 'moved'"},
     {"constants", "buffers"},
 }};
 
-// Materials of glTF that are not doubleSided have a front only.
-constexpr const char* one_sided_triangle =
-    R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
-  "nodes": [{"mesh": 0}], "materials": [{}],
+// A triangle of glTF with a material. Materials that are not doubleSided have a front only.
+std::string gltf_triangle(const std::string& material) {
+  return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+  "extensionsUsed": ["KHR_materials_unlit"], "nodes": [{"mesh": 0}], "materials": [)" +
+         material + R"(],
   "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
   "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
   "bufferViews": [{"buffer": 0, "byteLength": 36}],
   "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
+}
 
 using Levels = std::array<size_t, factors>;
 
@@ -129,7 +150,7 @@ struct Row {
 // True if a scene may combine these levels.
 bool possible(const Levels& level) {
   const bool paths = level[integrator] < 2, raycast = level[integrator] == 3;
-  const bool environment = level[light] == 5 || level[light] == 6;
+  const bool environment = level[light] == 5 || level[light] == 6 || level[light] == 9;
   const bool from_afar = level[light] == 2 || level[light] == 3 || environment;
   const bool any_medium = level[medium] > 0, endless = level[medium] == 1 || level[medium] == 2;
   if ((any_medium && !paths) || (endless && from_afar)) return false;
@@ -200,7 +221,7 @@ std::string text_of(const Row& row, const std::string& eye = "[0, 1, 5]") {
   return "[image]\nwidth = 8\nheight = 8\n" + levels[sampler][row.level[sampler]] +
          "\n[camera]\neye = " + eye + "\n" + at(camera) +
          "[render]\ngroups = 'instanced'\nintegrator = " + at(integrator) + at(light) + at(medium) +
-         "[[material]]\nname = 'a'\n" + materials[row.first] + "\n" + at(surface) +
+         at(motion) + "[[material]]\nname = 'a'\n" + materials[row.first] + "\n" + at(surface) +
          "[[material]]\nname = 'b'\n" + materials[row.second] + "\n" + at(shape) +
          "[[parallelogram]]\norigin = [-2, -1, 1]\nedge_u = [4, 0, 0]\nedge_v = [0, 2, 0]\nmaterial = 'b'\n" +
          // A floor on which photons are gathered.
@@ -234,7 +255,8 @@ std::string write_scene(const TemporaryFolder& folder, const std::string& text) 
        {"scenes/cameras/little_planet.glsl", "scenes/patterns/hexagons.glsl", "scenes/meshes/ring.ply",
         "scenes/path/studio.hdr", "scenes/textures/studs_normal.png"})
     std::filesystem::copy_file(file, folder.path() / std::filesystem::path(file).filename());
-  write_text(folder / "triangle.gltf", one_sided_triangle);
+  write_text(folder / "triangle.gltf", gltf_triangle("{}"));
+  write_text(folder / "unlit.gltf", gltf_triangle(R"({"extensions": {"KHR_materials_unlit": {}}})"));
   write_text(folder / "scene.toml", text);
   return folder / "scene.toml";
 }
