@@ -208,7 +208,7 @@ class GpuExecutor final : public Executor {
     gpu::KernelOptions how{.strict = device_.info().float_modes,
                            .optimise = options_.gpu.optimise,
                            .flatten = profile_.flatten,
-                           .worst = options_.gpu.worst_division,
+                           .worst = options_.gpu.worst_device,
                            .validate = options_.gpu.validate_spirv};
     how.exact = options_.gpu.division == Division::exact ||
                 (options_.gpu.division == Division::automatic && !open_device_->facts().exact_division);

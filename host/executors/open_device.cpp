@@ -31,7 +31,7 @@ OpenDevice::OpenDevice(const GpuOptions& options, bool wide_vectors, StageTimes&
         if (device_.info().compiles_only) return gpu::expected_of_gpus();
         return gpu::self_test(
             device_, [](std::string_view name) { return ShaderFiles({}, "").read(name); }, cache_,
-            options.worst_division);
+            options.worst_device);
       })) {}
 
 std::shared_ptr<gpu::Kernel> OpenDevice::kernel(std::span<const uint32_t> spirv, const std::string& name) {

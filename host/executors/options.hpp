@@ -6,6 +6,7 @@
 #include <string>
 
 #include "host/executors/profile_options.hpp"
+#include "host/gpu/worst_device.hpp"
 #include "host/pack/options.hpp"
 #include "host/scene/photons.hpp"
 
@@ -29,7 +30,7 @@ struct GpuOptions {
   ProfileOptions profile;
   bool fast_math = false;  // let the driver contract and re-associate
   Division division = Division::automatic;
-  bool worst_division = false;         // for tests: KernelOptions::worst
+  gpu::WorstDevice worst_device;       // for tests: KernelOptions::worst
   bool validate_spirv = false;         // validate a kernel's SPIR-V before the driver gets it
   bool constants = true;               // compile the primitives of a small scene into the kernel
   bool formula_numbers = false;        // kernels load the numbers of formulas, and so suit other numbers too

@@ -16,6 +16,11 @@ void choose_part(ExecutorOptions& options, std::string_view value) {
   options.gpu.profile.*part = value;
 }
 
+template <bool gpu::WorstDevice::* part>
+void choose_worst(ExecutorOptions& options, std::string_view value) {
+  options.gpu.worst_device.*part = value == "worst";
+}
+
 void choose_acceleration(ExecutorOptions& options, std::string_view value) {
   options.pack.acceleration = value == "bvh"    ? Acceleration::bvh
                               : value == "auto" ? Acceleration::automatic
@@ -70,7 +75,19 @@ const Tuning tuning_rows[] = {
     {"device-division",
      {"own", "worst"},
      "for tests: makes the device's division and roots as wrong as Vulkan allows",
-     [](ExecutorOptions& options, std::string_view value) { options.gpu.worst_division = value == "worst"; }},
+     choose_worst<&gpu::WorstDevice::division>},
+    {"device-contraction",
+     {"own", "worst"},
+     "for tests: rounds a·b + c once where the kernel does not forbid it",
+     choose_worst<&gpu::WorstDevice::contraction>},
+    {"device-denormals",
+     {"own", "worst"},
+     "for tests: flushes denormals to zero",
+     choose_worst<&gpu::WorstDevice::denormals>},
+    {"device-nan",
+     {"own", "worst"},
+     "for tests: lets min, max and clamp of a NaN return either operand",
+     choose_worst<&gpu::WorstDevice::nan>},
 };
 
 const Tuning& tuning_of(std::string_view key) {

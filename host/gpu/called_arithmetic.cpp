@@ -13,6 +13,44 @@
 namespace eyeray::engine::gpu {
 namespace {
 
+// The functions of floats whose result Vulkan leaves to the device, in its rounding, or for NaN and zeros.
+constexpr struct {
+  uint32_t function;
+  std::string_view name;
+} inexact_functions[] = {{GLSLstd450Radians, "radians"},
+                         {GLSLstd450Degrees, "degrees"},
+                         {GLSLstd450Sin, "sin"},
+                         {GLSLstd450Cos, "cos"},
+                         {GLSLstd450Tan, "tan"},
+                         {GLSLstd450Asin, "asin"},
+                         {GLSLstd450Acos, "acos"},
+                         {GLSLstd450Atan, "atan"},
+                         {GLSLstd450Sinh, "sinh"},
+                         {GLSLstd450Cosh, "cosh"},
+                         {GLSLstd450Tanh, "tanh"},
+                         {GLSLstd450Asinh, "asinh"},
+                         {GLSLstd450Acosh, "acosh"},
+                         {GLSLstd450Atanh, "atanh"},
+                         {GLSLstd450Atan2, "atan"},
+                         {GLSLstd450Pow, "pow"},
+                         {GLSLstd450Exp, "exp"},
+                         {GLSLstd450Log, "log"},
+                         {GLSLstd450Exp2, "exp2"},
+                         {GLSLstd450Log2, "log2"},
+                         {GLSLstd450InverseSqrt, "inversesqrt"},
+                         {GLSLstd450FMin, "min"},
+                         {GLSLstd450FMax, "max"},
+                         {GLSLstd450FClamp, "clamp"},
+                         {GLSLstd450FMix, "mix"},
+                         {GLSLstd450SmoothStep, "smoothstep"},
+                         {GLSLstd450Fma, "fma"},
+                         {GLSLstd450Length, "length"},
+                         {GLSLstd450Distance, "distance"},
+                         {GLSLstd450Cross, "cross"},
+                         {GLSLstd450Normalize, "normalize"},
+                         {GLSLstd450Reflect, "reflect"},
+                         {GLSLstd450Refract, "refract"}};
+
 class Caller {
  public:
   Caller(std::span<const uint32_t> spirv, std::string_view prefix)
@@ -92,17 +130,20 @@ class Caller {
   }
 
   static void refuse(const SpirvInstruction& i) {
-    if (opcode_of(i) == spv::OpFRem || opcode_of(i) == spv::OpFMod) return unknown("mod");
-    if (opcode_of(i) != spv::OpExtInst) return;
-    switch (i[4]) {
-      case GLSLstd450InverseSqrt:
-        return unknown("inversesqrt");
-      case GLSLstd450Length:
-        return unknown("length");
-      case GLSLstd450Distance:
-        return unknown("distance");
-      case GLSLstd450Normalize:
-        return unknown("normalize");
+    switch (opcode_of(i)) {
+      case spv::OpFRem:
+      case spv::OpFMod:
+        return unknown("mod");
+      case spv::OpDot:
+        return unknown("dot");
+      case spv::OpVectorTimesMatrix:
+      case spv::OpMatrixTimesVector:
+      case spv::OpMatrixTimesMatrix:
+        return unknown("a product of matrices");
+      case spv::OpExtInst:
+        for (const auto& [function, name] : inexact_functions)
+          if (i[4] == function) unknown(name);
+        return;
       default:
         return;
     }
@@ -111,7 +152,7 @@ class Caller {
   [[noreturn]] static void unknown(std::string_view what) {
     throw Error(
         ExitCode::bad_input,
-        "a shader uses {}, whose result the device may round in any way; write it with division, sqrt "
+        "a shader uses {}, whose result differs between devices; write it with + - * / sqrt, comparisons "
         "and the functions of math/math.glsl",
         what);
   }

@@ -12,8 +12,8 @@ namespace eyeray::engine::gpu {
 // The module with calls of the functions PREFIX_quotient(a, b) and PREFIX_root(a) instead of each division
 // and square root of float32, by component. In functions whose names begin with PREFIX or `worst` they stay.
 // The prefix is `exact` (shaders/math/exact.glsl), or, after that, `worst` (shaders/math/worst.glsl). `spirv`
-// has names, and both functions, with constant parameters. Error (bad_input) if it calls GLSL's inversesqrt,
-// length, distance, normalize or mod, which contain divisions or roots.
+// has names, and both functions, with constant parameters. Error (bad_input) if it uses an operation whose
+// result Vulkan leaves to the device: GLSL's dot, mod, fma, min, normalize, exp and the like, or matrices.
 std::vector<uint32_t> call_for_arithmetic(std::span<const uint32_t> spirv, std::string_view prefix);
 
 }  // namespace eyeray::engine::gpu

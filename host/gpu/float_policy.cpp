@@ -8,9 +8,7 @@
 #include "host/gpu/spirv.hpp"
 
 namespace eyeray::engine::gpu {
-namespace {
 
-// The arithmetic instructions (SPIR-V 3.42.13) with a float result.
 bool is_float_arithmetic(uint32_t opcode) {
   switch (opcode) {
     case spv::OpFNegate:
@@ -32,6 +30,8 @@ bool is_float_arithmetic(uint32_t opcode) {
       return false;
   }
 }
+
+namespace {
 
 // True for the declaration of a type. The first one follows the module's annotations.
 bool is_type(uint32_t opcode) {

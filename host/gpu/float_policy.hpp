@@ -10,6 +10,9 @@
 
 namespace eyeray::engine::gpu {
 
+// True for the arithmetic instructions (SPIR-V 3.42.13) with a float result.
+bool is_float_arithmetic(uint32_t opcode);
+
 // The module with NoContraction on every float arithmetic result, so that no driver fuses or re-associates:
 // each operation rounds once, as in the twin. (glslang's `precise` does not reach into called functions, and
 // never decorates OpDot.)

@@ -40,7 +40,7 @@ CompiledShader compile(const ShaderSource& source, const std::string& preamble, 
   }
   CompiledShader compiled = compile_shader(source, preamble);
   if (options.exact) compiled.spirv = call_for_arithmetic(compiled.spirv, "exact");
-  if (options.worst) compiled.spirv = call_for_arithmetic(compiled.spirv, "worst");
+  if (options.worst.division) compiled.spirv = call_for_arithmetic(compiled.spirv, "worst");
   if (options.strict) compiled.spirv = decorate_no_contraction(compiled.spirv);
   if (options.optimise) compiled.spirv = optimise(compiled.spirv, options.flatten);
   if (options.validate) validate(compiled.spirv, source.entry);
@@ -56,9 +56,14 @@ CompiledShader compile_kernel(const ShaderSource& source, std::string_view pream
                               const KernelOptions& options, const DiskCache& cache) {
   std::string defines(preamble);
   if (options.exact) defines += "#define EXACT_ARITHMETIC\n";
-  if (options.worst) defines += "#define WORST_ARITHMETIC\n";
+  if (options.worst.division) defines += "#define WORST_ARITHMETIC\n";
   CompiledShader compiled = compile(source, defines, options, cache);
-  if (options.strict) compiled.spirv = set_float_modes(compiled.spirv, *options.strict);
+  if (options.strict) {
+    FloatModes modes = *options.strict;
+    if (options.worst.denormals) modes.denorm_preserve = false;
+    compiled.spirv = set_float_modes(compiled.spirv, modes);
+  }
+  if (options.worst != WorstDevice()) compiled.spirv = on_worst_device(compiled.spirv, options.worst);
   return compiled;
 }
 

@@ -7,6 +7,7 @@
 #include "host/core/disk_cache.hpp"
 #include "host/gpu/device.hpp"
 #include "host/gpu/shader_compiler.hpp"
+#include "host/gpu/worst_device.hpp"
 
 namespace eyeray::engine::gpu {
 
@@ -15,8 +16,8 @@ struct KernelOptions {
   bool optimise = true;                   // run the passes of spirv_optimiser.hpp
   bool flatten = false;                   // flatten selections, too; only if `optimise`
   bool exact = false;                     // corrects division and square root; only if `strict`
-  bool worst = false;     // for tests: makes the device's division and square root as wrong as Vulkan allows
-  bool validate = false;  // checks the result by SPIRV-Tools' validator, as spirv-val does
+  WorstDevice worst = {};  // for tests: simulates a device that keeps no more than Vulkan promises
+  bool validate = false;   // checks the result by SPIRV-Tools' validator, as spirv-val does
 };
 
 // The result of compile_shader and `options`, or the earlier result of the same text and preamble from the

@@ -53,9 +53,25 @@ TEST_CASE("a driver that computes wrong is refused") {
 }
 
 TEST_CASE("division as wrong as Vulkan allows is found, and corrected") {
-  const gpu::DeviceFacts facts = gpu::self_test(device(), project_shader, no_cache, true);
+  const gpu::DeviceFacts facts = gpu::self_test(device(), project_shader, no_cache, {.division = true});
   CHECK(!facts.exact_division);
   CHECK(facts.exact_arithmetic);
+}
+
+TEST_CASE("each freedom that Vulkan leaves to a device is measured, so that none passes as exact") {
+  const auto facts = [](const gpu::WorstDevice& worst) {
+    return gpu::self_test(device(), project_shader, no_cache, worst);
+  };
+  CHECK(facts({}).exact_arithmetic);
+  // The float policy forbids it to round a·b + c once, so that it does not.
+  CHECK(facts({.contraction = true}).exact_arithmetic);
+  CHECK(facts({.nan = true}).exact_arithmetic);
+  const gpu::DeviceFacts flushing = facts({.denormals = true});
+  CHECK(!flushing.denormals_kept);
+  CHECK(flushing.infinities_kept);
+  CHECK(!flushing.exact_arithmetic);
+  CHECK(flushing.exact_division);
+  CHECK(!facts({true, true, true, true}).exact_arithmetic);
 }
 
 TEST_CASE("loose arithmetic is a fact, not a refusal") {
@@ -66,7 +82,25 @@ TEST_CASE("loose arithmetic is a fact, not a refusal") {
   CHECK(!facts("floatBitsToUint(sqrt(abs(a)))", "floatBitsToUint(sqrt(abs(a))) ^ 1u").exact_arithmetic);
   CHECK(!facts("floatBitsToUint(a * b + c)", "floatBitsToUint(float(double(a) * double(b) + double(c)))")
              .exact_arithmetic);
-  CHECK(!facts("denormal * 0.5", "denormal * 0.0").denormals_kept);
-  CHECK(!facts("1.0 / zero", "3.4e38").infinities_kept);
+  // Denormals, infinities, zeros of both signs and NaN.
+  const gpu::DeviceFacts flushed =
+      facts("floatBitsToUint(a - b)", "floatBitsToUint(a - b) * (abs(a - b) < 1.17549435e-38 ? 0u : 1u)");
+  CHECK(!flushed.denormals_kept);
+  CHECK(!flushed.exact_arithmetic);
+  CHECK(flushed.infinities_kept);
+  CHECK(!facts("floor(a)", "(abs(a) >= 1.17549435e-38 ? floor(a) : 0.0)").denormals_kept);
+  CHECK(!facts("a < b ?", "a - b < -1.17549435e-38 ?").exact_arithmetic);
+  const gpu::DeviceFacts finite =
+      facts("floatBitsToUint(a + b)", "floatBitsToUint(isinf(a + b) ? 3.4e38 : a + b)");
+  CHECK(!finite.infinities_kept);
+  CHECK(!finite.exact_arithmetic);
+  CHECK(finite.denormals_kept);
+  CHECK(!facts("floatBitsToUint(a * b);", "floatBitsToUint(a * b == 0.0 ? 0.0 : a * b);").exact_arithmetic);
+  CHECK(!facts("a != b", "a < b || a > b").exact_arithmetic);
+  // A division that alone loses denormals is corrected.
+  const gpu::DeviceFacts divided =
+      facts("floatBitsToUint(a / b)", "floatBitsToUint(abs(a / b) < 1.17549435e-38 ? 0.0 : a / b)");
+  CHECK(!divided.exact_division);
+  CHECK(divided.denormals_kept);
   CHECK(facts("made < loop_iterations", "made < 1000u").loop_cap);
 }
