@@ -22,11 +22,22 @@ void validate(const std::vector<uint32_t>& spirv, const std::string& entry) {
     throw Error(ExitCode::bad_input, "kernel '{}' compiles to SPIR-V that is not valid: {}", entry, messages);
 }
 
+const std::string& hash_of_sources() {
+  static const std::string hash = [] {
+    ContentHash all;
+    for (const EmbeddedFile& file : own_sources()) all.add(file.name).add(file.text);
+    return all.hex();
+  }();
+  return hash;
+}
+
 // Compiles a kernel, except for the float modes, which depend on the device.
 CompiledShader compile(const ShaderSource& source, const std::string& preamble, const KernelOptions& options,
                        const DiskCache& cache) {
   ContentHash hash;
-  hash.add(compiler_version()).add(options.optimise ? optimiser_version(options.flatten) : "");
+  hash.add(hash_of_sources())
+      .add(compiler_version())
+      .add(options.optimise ? optimiser_version(options.flatten) : "");
   hash.add(options.strict ? "strict" : "fast");
   hash.add(preamble).add(source.entry);
   for (const auto& [path, text] : source.files) hash.add(path).add(text);

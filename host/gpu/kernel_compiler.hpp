@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "host/core/disk_cache.hpp"
+#include "host/core/embedded_file.hpp"
 #include "host/gpu/device.hpp"
 #include "host/gpu/shader_compiler.hpp"
 #include "host/gpu/worst_device.hpp"
@@ -20,9 +21,12 @@ struct KernelOptions {
   bool validate = false;   // checks the result by SPIRV-Tools' validator, as spirv-val does
 };
 
-// The result of compile_shader and `options`, or the earlier result of the same text and preamble from the
-// cache. Error (bad_input) if the result is not valid. A shader with warnings is compiled every time, so that
-// they are seen every time.
+// The source files of this layer. Their code decides the SPIR-V of a shader.
+std::span<const EmbeddedFile> own_sources();
+
+// The result of compile_shader and `options`, or the earlier result of the same text and preamble, by the
+// same sources of this layer, from the cache. Error (bad_input) if the result is not valid. A shader with
+// warnings is compiled every time, so that they are seen every time.
 CompiledShader compile_kernel(const ShaderSource& source, std::string_view preamble,
                               const KernelOptions& options, const DiskCache& cache);
 

@@ -185,6 +185,15 @@ TEST_CASE("SPIR-V is cached by content, and a damaged entry is replaced") {
   CHECK(entries().size() == 3);
 }
 
+TEST_CASE("the names of cached SPIR-V depend on every source file that makes it") {
+  std::map<std::string, std::string> embedded, present;
+  for (const EmbeddedFile& file : gpu::own_sources()) embedded[std::string(file.name)] = file.text;
+  for (const auto& entry : std::filesystem::directory_iterator("host/gpu"))
+    present[entry.path().filename().string()] = read_text(entry.path());
+  CHECK(present.contains("called_arithmetic.cpp"));
+  CHECK(embedded == present);
+}
+
 TEST_CASE("a shader with warnings is compiled every time, so that they are seen every time") {
   const TemporaryFolder folder;
   const DiskCache cache(folder.path());
