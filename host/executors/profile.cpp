@@ -41,6 +41,7 @@ Profile choose_profile(const ProfileOptions& options, const gpu::DeviceInfo& dev
           chosen(options.rays, "packets"),
           chosen(options.stack, "shift"),
           !small,
+          cpu,
           chosen_for_incoherent(options.incoherent, cpu),
           small};
 }

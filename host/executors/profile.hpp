@@ -19,7 +19,8 @@ struct Profile {
   bool packets = false;        // trace coherent rays together
   bool shift_stack =
       false;              // keep the stack in registers, shifted as a whole, instead of in an indexed array
-  bool constants = true;  // compile a small scene in, instead of loading it
+  bool constants = true;  // compile materials and lights in, instead of loading them
+  bool unrolls = true;    // compile a small scene's primitives in, too
   // The way of tracing incoherent rays, where the scene allows it. No value: the scene decides, for
   // `cooperative` in big BVHs and for `lanes` in small ones.
   std::optional<Rays> incoherent = Rays::lanes;

@@ -189,7 +189,7 @@ std::string registries(const records::PackedScene& scene, const Used& used) {
 
 std::string specialise(const records::PackedScene& scene, const Specialisation& options) {
   const Used used = used_by(scene);
-  const bool unrolled = options.constants && few_primitives(scene);
+  const bool unrolled = options.constants && options.profile.unrolls && few_primitives(scene);
   std::string text = "// Made for this scene by executors/specialise.cpp.\n" +
                      defines(scene, used, options, unrolled) +
                      (options.formula_numbers ? "#define FORMULA_NUMBERS\n" : "") +
