@@ -123,17 +123,29 @@ class GpuExecutor final : public Executor {
  private:
   std::string description() const {
     const gpu::DeviceInfo& info = device_.info();
-    return fmt::format("gpu: {}, {}; {}", info.name, info.driver_version, describe(profile_));
+    const std::string text =
+        fmt::format("gpu: {}, {}; {}", info.name, info.driver_version, describe(profile_));
+    return is_exact() ? text : text + "; arithmetic not exact, " + kept_numbers();
+  }
+
+  bool is_exact() const {
+    const gpu::DeviceFacts& facts = open_device_->facts();
+    const bool divides_exactly = facts.exact_division || options_.gpu.division != Division::own;
+    return facts.exact_arithmetic && divides_exactly && !options_.gpu.fast_math;
+  }
+
+  std::string kept_numbers() const {
+    const auto kept = [](bool is) { return is ? "kept" : "lost"; };
+    const gpu::DeviceFacts& facts = open_device_->facts();
+    return fmt::format("denormals {}, infinities {}", kept(facts.denormals_kept),
+                       kept(facts.infinities_kept));
   }
 
   std::string arithmetic() const {
     const gpu::DeviceFacts& facts = open_device_->facts();
-    const auto kept = [](bool is) { return is ? "kept" : "lost"; };
-    std::string text =
-        fmt::format("denormals {}, infinities {}", kept(facts.denormals_kept), kept(facts.infinities_kept));
+    std::string text = kept_numbers();
     if (facts.loop_cap) text += fmt::format(", loops end after {} iterations", facts.loop_iterations);
-    const bool divides_exactly = facts.exact_division || options_.gpu.division != Division::own;
-    if (facts.exact_arithmetic && divides_exactly && !options_.gpu.fast_math) return "exact, " + text;
+    if (is_exact()) return "exact, " + text;
     return fmt::format("not exact, {}, on {}, {}", text, device_.info().name, device_.info().driver_version);
   }
 

@@ -1,7 +1,5 @@
 #include "host/verify/verify.hpp"
 
-#include "host/core/error.hpp"
-#include "host/core/option_text.hpp"
 #include "host/core/stopwatch.hpp"
 #include "host/executors/executors.hpp"
 #include "host/executors/open_device.hpp"
@@ -64,17 +62,6 @@ compare::Frame render_frame(executors::Backend backend, executors::Executor& exe
   report.participants.push_back({std::string(executors::backend_name(backend)), executor.facts().description,
                                  rendering.seconds, rendering.rays, compare::inspect(frame)});
   return frame;
-}
-
-// Refuses a device that cannot have the twin's bits, whether or not this picture would show it.
-void require_exact(const executors::Executor& executor, const Options& options) {
-  const auto& device = executor.facts().device;
-  if (!device || device->facts().exact_arithmetic || options.ulp > 0 || options.backends.size() < 2) return;
-  throw Error(
-      ExitCode::no_device,
-      "gate A compares bits, but the arithmetic is {}; allow a distance with {}, or choose another device "
-      "with {}",
-      executor.facts().arithmetic, option_text("ulp", "N"), option_text("device"));
 }
 
 // Gate A: compares every executor of the shaders with the first of them.
@@ -191,7 +178,6 @@ compare::Report verify_scene(const Subject& subject, const Options& options) {
     else
       other = executors::make_executor(backend, scene, how);
     executors::Executor& executor = other ? *other : *twin;
-    require_exact(executor, options);
     frames.push_back(render_frame(backend, executor, scene, options, std::move(progress), report));
   }
   frames.push_back(render_frame(executors::Backend::reference, *reference_executor, scene, options,

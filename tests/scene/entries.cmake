@@ -215,8 +215,7 @@ foreach(seed 2 3)
   eyeray_verify(mode.seed-${seed} mode NIGHTLY ${quick} ${EDGES} ${of_seed} --seed ${seed})
 endforeach()
 
-# A second driver with its own compiler: SwiftShader (docs/lavapipe.md, another driver), within 8 GiB. It flushes denormals, so that gate A
-# must allow a distance. No test takes 60 s of processor time; how
+# A second driver with its own compiler: SwiftShader (docs/lavapipe.md, another driver), within 8 GiB. No test takes 60 s of processor time; how
 # long that is depends on what else the machine does.
 set(SWIFTSHADER /usr/lib/chromium/vk_swiftshader_icd.json CACHE FILEPATH "The manifest of the driver that the label `driver` asks")
 set(driver ${SCENES})
@@ -229,7 +228,7 @@ function(eyeray_driver name)
 endfunction()
 foreach(scene IN LISTS driver ITEMS scenes/whitted.toml scenes/cornell.toml scenes/sphereflake.toml)
   get_filename_component(name ${scene} NAME_WE)
-  eyeray_driver(${name} verify ${scene} -s 24x18 --quiet --timeout 600 --ulp 1)
+  eyeray_driver(${name} verify ${scene} -s 24x18 --quiet --timeout 600)
 endforeach()
 # That driver's profile, on any device.
 eyeray_verify(mode.profile-small mode QUICK ${few} --tune profile=small)
