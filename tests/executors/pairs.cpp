@@ -13,6 +13,7 @@
 
 #include "host/loader/scene_file.hpp"
 #include "host/pack/pack.hpp"
+#include "host/scene/integrator.hpp"
 #include "host/verify/verify.hpp"
 #include "tests/support/entries.hpp"
 #include "tests/support/process.hpp"
@@ -84,7 +85,7 @@ const std::array<std::vector<std::string>, factors> levels = {{
      "[1, 4, 1]\n"
      "direction = [0, -1, 0]\nintensity = 9\n[[material]]\nname = 'lamp'\ntype = 'phong'\ndiffuse = "
      "0\nemission = 9\n"
-     "[[sphere]]\ncenter = [0, 5, 0]\nradius = 1\nmaterial = 'lamp'\n[[disk]]\ncenter = [3, 3, 0]\nnormal = "
+     "[[sphere]]\ncenter = [0, 6, 0]\nradius = 1\nmaterial = 'lamp'\n[[disk]]\ncenter = [3, 3, 0]\nnormal = "
      "[-1, -1, 0]\n"
      "radius = 0.5\nmaterial = 'lamp'",
      "[environment]\ntype = 'sky'\nsun = [0, 1, 0]\n[[light]]\ntype = 'directional'\ndirection = [0.3, -1, "
