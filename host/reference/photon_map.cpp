@@ -33,7 +33,7 @@ PhotonMap::PhotonMap(const Tracer& tracer, uint32_t index, std::span<const uint3
   std::vector<Photon> all;
   for (const auto& its : stopped) all.insert(all.end(), its.begin(), its.end());
   std::vector<std::pair<uint64_t, size_t>> order(all.size());
-  for (size_t i = 0; i < all.size(); ++i) order[i] = {cell(all[i].position), i};
+  for (size_t i = 0; i < all.size(); ++i) order[i] = {number_of(cell_of(all[i].position)), i};
   std::ranges::sort(order);
   for (const auto& [cell, i] : order) {
     cells_.push_back(cell);
@@ -41,12 +41,13 @@ PhotonMap::PhotonMap(const Tracer& tracer, uint32_t index, std::span<const uint3
   }
 }
 
-uint64_t PhotonMap::cell(const Vec3& p) const {
+Vec3 PhotonMap::cell_of(const Vec3& p) const {
+  return glm::clamp(glm::floor(p / (2 * radius_)), -0x1p50, 0x1p50);
+}
+
+uint64_t PhotonMap::number_of(const Vec3& cell) {
   uint64_t number = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double cell_position = std::clamp(std::floor(p[axis] / (2 * radius_)), -0x1p50, 0x1p50);
-    number = number << 21 | (uint64_t(int64_t(cell_position)) & 0x1fffff);
-  }
+  for (int axis = 0; axis < 3; ++axis) number = number << 21 | (uint64_t(int64_t(cell[axis])) & 0x1fffff);
   return number;
 }
 

@@ -29,7 +29,7 @@ class PhotonMap {
   // Traces and sorts the photons of sample `index`. The photons of `left_out` contribute nothing.
   PhotonMap(const Tracer& tracer, uint32_t index, std::span<const uint32_t> left_out);
 
-  // Calls visit(photon) for each photon not farther from p than radius(), and perhaps for more.
+  // Calls visit(photon) once for each photon not farther from p than radius(), and perhaps for more.
   template <typename Visit>
   void near(const Vec3& p, const Visit& visit) const;
 
@@ -39,9 +39,10 @@ class PhotonMap {
   const std::vector<PhotonWay>& ways() const { return ways_; }
 
  private:
-  // The number of the cell that contains p. Cells are cubes as wide as two radii; cells 2²¹ apart may share a
-  // number.
-  uint64_t cell(const Vec3& p) const;
+  // The whole coordinates of the cell that contains p. Cells are cubes as wide as two radii.
+  Vec3 cell_of(const Vec3& p) const;
+  // The number of a cell. Cells 2²¹ apart may share one.
+  static uint64_t number_of(const Vec3& cell);
   std::pair<size_t, size_t> in_cell(uint64_t cell) const;
 
   double radius_;
@@ -52,9 +53,10 @@ class PhotonMap {
 
 template <typename Visit>
 void PhotonMap::near(const Vec3& p, const Visit& visit) const {
+  // Cells of other corners are counted from the lowest: found by their own points, two may be rounded to one.
+  const Vec3 lowest = cell_of(p - radius_);
   for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 offset(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-    const auto [begin, end] = in_cell(cell(p + radius_ * offset));
+    const auto [begin, end] = in_cell(number_of(lowest + Vec3(corner & 1, corner >> 1 & 1, corner >> 2)));
     for (size_t i = begin; i < end; ++i) visit(photons_[i]);
   }
 }

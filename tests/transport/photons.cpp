@@ -74,6 +74,31 @@ TEST_CASE("light scattered by one surface agrees with paths: no photon counts tw
   check_photons(scene, albedo * 3 / 4, 1e-4);
 }
 
+TEST_CASE("the reference finds each photon near a point once, also where cells end") {
+  constexpr double radius = 0.4;
+  Scene ball = by_photons(patch({0, 0, 0}, {0, 0, -1}), 1 << 11, radius, 1, 4);
+  add(ball, make_sphere({0, 0, 0}, 2), add(ball, make_phong({.diffuse = gray(0.5)})));
+  add_point_light(ball, {0.3, 0.1, 0}, Vec3(1), Falloff::inverse_square);
+  const reference::Renderer renderer(ball);
+  const auto map = renderer.tracer().photons(0);
+  for (const double far : {1, -1, 3, -3, 5, -5})
+    for (int axis = 0; axis < 3; ++axis) {
+      // A disk around this point ends at the borders of cells.
+      Vec3 p(radius);
+      p[axis] = far * radius;
+      CAPTURE(far);
+      CAPTURE(axis);
+      std::vector<const reference::Photon*> found, near;
+      map->near(p, [&](const reference::Photon& photon) {
+        if (glm::length(photon.position - p) < radius) found.push_back(&photon);
+      });
+      for (const reference::Photon& photon : map->photons())
+        if (glm::length(photon.position - p) < radius) near.push_back(&photon);
+      std::ranges::sort(found);
+      CHECK(found == near);
+    }
+}
+
 TEST_CASE("a sun through a slab of glass has E = π I cos θ (1 − R)²") {
   for (const double degrees : {0.0, 40.0}) {
     CAPTURE(degrees);
