@@ -316,7 +316,7 @@ Path path_after(Path path, Interaction at, ScatterEvent event, bool straight) {
   if (!straight) next.depth = path.depth + 1u;
   if (!straight && HAS_LIGHT_BVH == 1) next.normal = normal_for_lights(at);
 #if KEEPS_POINT
-  if (!straight) next.point = at.seen.p;
+  if (!straight) next.point = lifts(at.seen) ? at.seen.p : next.o;
 #endif
 #if HAS_PANES
   next.panes = straight ? path.panes + 1u : 0u;
