@@ -1,5 +1,7 @@
 #include "host/reading/value.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
