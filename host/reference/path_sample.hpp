@@ -68,8 +68,8 @@ class PathSample {
   }
   // Traces one photon of a sample. Each time that a surface stores the photon, appends it to `stopped`. The
   // id's index is the photon's number; the id's pixel is photons_of | the sample's number. Returns the
-  // photon's trail.
-  uint32_t photon(const PhotonSources& sources, std::vector<Photon>& stopped);
+  // photon's way.
+  PhotonWay photon(const PhotonSources& sources, std::vector<Photon>& stopped);
   AuxiliarySample auxiliary(Ray ray, MediaStack media);
 
  private:

@@ -20,11 +20,9 @@ PhotonMap::PhotonMap(const Tracer& tracer, uint32_t index, std::span<const uint3
   constexpr uint32_t at_once = 256;
   parallel_for_alone(0, int((settings.count + at_once - 1) / at_once), [&](int piece) {
     const uint32_t begin = uint32_t(piece) * at_once, end = std::min(settings.count, begin + at_once);
-    for (uint32_t number = begin; number < end; ++number) {
-      PhotonWay& way = ways_[number];
-      way.trail = PathSample(tracer, {photons_of | index, number}, {}, {}).photon(sources, stopped[number]);
-      for (const Photon& photon : stopped[number]) way.add(photon.position, photon.direction, photon.flux);
-    }
+    for (uint32_t number = begin; number < end; ++number)
+      ways_[number] =
+          PathSample(tracer, {photons_of | index, number}, {}, {}).photon(sources, stopped[number]);
   });
   for (const uint32_t number : left_out)
     for (Photon& photon : stopped[number]) photon.flux = Vec3(0);

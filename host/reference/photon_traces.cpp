@@ -9,9 +9,8 @@ PhotonTrace PhotonTraces::trace(uint32_t index, uint32_t number,
   PhotonTrace trace;
   std::vector<Photon> stopped;
   const Observer observer(trace.events);
-  trace.way.trail =
+  trace.way =
       PathSample(tracer_, {photons_of | index, number}, displacement, observer).photon(sources_, stopped);
-  for (const Photon& photon : stopped) trace.way.add(photon.position, photon.direction, photon.flux);
   return trace;
 }
 

@@ -87,17 +87,18 @@ std::optional<Ray> PathSample::hit_gathering(const Interaction& at, const LocalF
   return goes_on ? scatter(at, frame, sharp, media) : std::nullopt;
 }
 
-uint32_t PathSample::photon(const PhotonSources& sources, std::vector<Photon>& stopped) {
+PhotonWay PathSample::photon(const PhotonSources& sources, std::vector<Photon>& stopped) {
   const PhotonSource source = sources.draw([&](uint32_t use) { return pair_of(use); });
   rays_.decided(Event::light, 2 * (source.light + 2) + (source.below ? 1 : 0));
   if (!sources.settings().targets.empty()) rays_.decided(Event::aim, source.aim);
   MediaStack media = source.media;
   Ray ray = rays_.start_ray(source.ray);
   vertex_ = ray.o;
-  if (source.flux == Vec3(0)) return rays_.sample(Vec3(0)).trail;
+  if (source.flux == Vec3(0)) return {.trail = rays_.sample(Vec3(0)).trail};
   // Radiance is index² times the value that paths carry; flux is as well.
   const auto squared_index = [&](const MediaStack& in) { return std::pow(rays_.medium(in).ior, 2); };
   const Vec3 sent = source.flux * squared_index(media);
+  PhotonWay way{.sent = sent};
   while (depth_ <= scene_.render.max_depth) {
     ray = with_key(ray, 0);
     const auto hit = rays_.trace(ray);
@@ -114,9 +115,11 @@ uint32_t PathSample::photon(const PhotonSources& sources, std::vector<Photon>& s
       const LocalFrame frame(at.surface.normal);
       const ViewedBsdf bsdf(at.bsdf, frame.seen(-at.d));
       const Vec3 &bent = at.surface.normal, &n = at.surface.normal_geometric;
-      if (depth_ > 0 && !bsdf.part(true).black())
-        stopped.push_back(
-            {at.surface.position, -at.d, n, sent * throughput_ / squared_index(media), id_.index, depth_});
+      if (depth_ > 0 && !bsdf.part(true).black()) {
+        const Vec3 flux = sent * throughput_ / squared_index(media);
+        stopped.push_back({at.surface.position, -at.d, n, flux, id_.index, depth_});
+        way.add(at.surface.position, -at.d, flux);
+      }
       next = scatter(at, frame, bsdf.adjoint(), media);
       // Weigh a path from the light by the cosines with the bent normal, for the incoming and the outgoing
       // direction. Veach: Robust Monte Carlo Methods for Light Transport Simulation, 1997, section 5.3.
@@ -136,7 +139,8 @@ uint32_t PathSample::photon(const PhotonSources& sources, std::vector<Photon>& s
     }
     ray = *next;
   }
-  return rays_.sample(Vec3(0)).trail;
+  way.trail = rays_.sample(Vec3(0)).trail;
+  return way;
 }
 
 namespace {

@@ -38,5 +38,9 @@ inline constexpr double float32_room = 16 * float32_share;
 inline constexpr double photon_displacement = 1e-3;  // distance, as a share of the radius
 inline constexpr double photon_turn = 1e-4;          // distance between their unit directions
 inline constexpr double photon_flux_change = 1e-3;   // difference in flux, as a share of the flux
+// The least flux of which that share is taken, as a share of the flux with which the photon starts. Its
+// throughput starts at 1, and float32 may lose it below 2⁻¹²⁶. The room between is for later factors above 1,
+// for instance of roulette.
+inline constexpr double photon_least_flux = 0x1p-100;
 
 }  // namespace eyeray::engine::rounding

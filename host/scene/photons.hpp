@@ -26,6 +26,7 @@ struct PhotonWay {
   Vec3 positions{0};
   Vec3 directions{0};
   Vec3 flux{0};
+  Vec3 sent{0};  // the flux with which it starts; set by the reference only
 
   void add(const Vec3& position, const Vec3& direction, const Vec3& its_flux) {
     positions += position;

@@ -29,7 +29,8 @@ struct Apart {
   bool diverged() const { return twin.trail != reference.trail; }
 };
 
-// The differences of two photons that took the same path, each as a share of the largest that counts as none.
+// The differences of the twin's photon from the reference's, which took the same path: each as a share of the
+// largest that counts as none.
 struct Differences {
   double position, direction, flux;
 
@@ -41,7 +42,9 @@ Differences differences(const PhotonWay& a, const PhotonWay& b, double radius) {
   };
   return {share(a.positions, b.positions, rounding::photon_displacement * radius),
           share(a.directions, b.directions, rounding::photon_turn),
-          share(a.flux, b.flux, rounding::photon_flux_change * glm::length(b.flux))};
+          share(a.flux, b.flux,
+                rounding::photon_flux_change *
+                    std::max(glm::length(b.flux), rounding::photon_least_flux * glm::length(b.sent)))};
 }
 
 // True if the reference explains the photon by other rounding: it takes all of the twin's path, or its own

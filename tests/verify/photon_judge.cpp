@@ -2,11 +2,15 @@
 // others.
 #include "host/verify/photon_judge.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <functional>
 
 #include "host/core/error.hpp"
 #include "host/executors/executors.hpp"
 #include "host/loader/scene_file.hpp"
+#include "host/reference/photon_map.hpp"
 //
 #include "tests/support/doctest.hpp"
 
@@ -100,4 +104,61 @@ TEST_CASE("more diverged or displaced photons than allowed fail, explained or no
   --tally.diverged;
   ++tally.displaced;
   CHECK_FALSE(tally.passes());
+}
+
+TEST_CASE("float32 may lose the flux of a photon that a medium has all but absorbed") {
+  // A lit wall scatters photons to another wall, at this distance.
+  const auto across = [](int distance) {
+    return loader::parse_scene(fmt::format(R"(
+[image]
+width = 24
+height = 18
+samples = 1
+[camera]
+eye = [0, 0, 2]
+[render]
+integrator = "sppm"
+photons = 4096
+photon_radius = 2
+[medium]
+absorption = 0.5
+[[light]]
+type = "point"
+position = [0, 0, 1]
+intensity = 1000
+[[material]]
+name = "white"
+type = "diffuse"
+[[parallelogram]]
+origin = [-10, -10, 0]
+edge_u = [20, 0, 0]
+edge_v = [0, 20, 0]
+material = "white"
+[[parallelogram]]
+origin = [-{0}, -{0}, {0}]
+edge_u = [{1}, 0, 0]
+edge_v = [0, {1}, 0]
+material = "white"
+)",
+                                           distance, 2 * distance),
+                               "scene.toml");
+  };
+  const auto lost = [](const std::vector<PhotonWay>& ways) {
+    return std::ranges::count_if(
+        ways, [](const PhotonWay& way) { return way.positions != Vec3(0) && way.flux == Vec3(0); });
+  };
+
+  // In float32 e⁻¹⁵⁰ is 0.
+  const Scene dark = across(300);
+  CHECK(lost(reference::Renderer(dark).tracer().photons(0)->ways()) == 0);
+  const verify::JudgedPhotons absorbed = judge(dark, [&](auto& ways) { CHECK(lost(ways) > 100); });
+  CHECK(absorbed.tally.passes());
+  CHECK(absorbed.tally.displaced < 100);
+
+  // With e⁻²⁵ each photon counts.
+  const verify::JudgedPhotons dimmed = judge(across(50), [&](auto& ways) {
+    CHECK(lost(ways) == 0);
+    std::ranges::find_if(ways, [](const PhotonWay& way) { return way.flux != Vec3(0); })->flux = Vec3(0);
+  });
+  CHECK(dimmed.tally.unexplained == 1);
 }
