@@ -21,7 +21,7 @@ vec3 radiance(Frame frame, Ray camera_ray, uint pixel, uint index, INOUT(uvec4) 
   bool going = true;
   for (; going;) {
     Ray ray = path_ray(frame, path);
-    PROBE_RAY(path.depth == 0u ? RAY_EYE : path.refracted ? RAY_REFRACTED : RAY_REFLECTED, 0u, path.depth);
+    PROBE_RAY(surfaces_behind(path) == 0u ? RAY_EYE : path.refracted ? RAY_REFRACTED : RAY_REFLECTED, 0u, path.depth);
     PROBE(origin, ray.o);
     PROBE(direction, ray.d);
     Hit hit = trace(ray, counts.z);

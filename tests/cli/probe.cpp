@@ -69,6 +69,20 @@ TEST_CASE("probe shows every ray of a pixel by three executors, and no differenc
   expect_agreement("scenes/whitted.toml", 2);
 }
 
+TEST_CASE("a ray straight through a pane or an interface is a refracted ray in every executor") {
+  for (const char* scene : {"scenes/path/panes.toml", "scenes/path/haze.toml"}) {
+    CAPTURE(scene);
+    const Probed probed = probe({scene, "40,30", "-s", "96x72", "--spp", "1"});
+    CAPTURE(probed.json.dump());
+    CHECK(probed.json.at("first_difference").is_null());
+    const Json& rays = probed.json.at("rays");
+    REQUIRE(rays.size() >= 3);
+    CHECK(rays[1].at("ray") == "eye");
+    CHECK(rays[2].at("ray") == "refracted");
+    CHECK(rays[2].at("parent") == 0);
+  }
+}
+
 TEST_CASE("probe shows every ray and no difference in every kind of scene" * doctest::test_suite("long")) {
   for (const char* scene :
        {"scenes/cornell.toml", "scenes/inside_glass.toml", "scenes/meshes.toml", "scenes/textures.toml",
