@@ -181,7 +181,12 @@ Formula::Formula(FormulaText text, std::vector<FormulaParameter> parameters, std
       throw InputError(in_text(error, judged));
     }
   }
-  if (faults.empty()) return;
+  if (faults.empty()) {
+    if (!judged.uncalled_other) return;
+    const Token& name = judged.tokens[*judged.uncalled_other];
+    uncalled_other_ = located(text_, name.line, name.column, "").position;
+    return;
+  }
   std::vector<Diagnostic> diagnostics;
   for (const Fault& fault : std::span(faults).first(std::min(faults.size(), gpu::most_messages)))
     diagnostics.push_back(located(text_, fault.line, fault.column, fault.message));

@@ -8,6 +8,7 @@
 #include <array>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,8 @@ class Formula {
   // True if the text defines the optional second function (other_entry_of): a surface's gradient, a camera's
   // origin.
   bool has_other() const;
+  // The position of that function's name, if the text never calls the function.
+  const std::optional<SourcePosition>& uncalled_other() const { return uncalled_other_; }
   // The number of instructions if each call is replaced by the called function: a measure of the work of a
   // kernel's compiler.
   double instructions() const;
@@ -98,6 +101,7 @@ class Formula {
   std::vector<FormulaParameter> parameters_;
   std::string title_;
   FormulaKind kind_;
+  std::optional<SourcePosition> uncalled_other_;
   std::shared_ptr<const Compiled> compiled_;
   mutable std::once_flag straightened_;
   mutable expression::StraightLine straight_line_;

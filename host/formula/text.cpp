@@ -76,6 +76,7 @@ class Judge {
   void find_unset();
   void add_unset(size_t behind, size_t type, size_t name, bool is_parameter);
   bool defines(const Entry& entry) const;
+  std::optional<size_t> uncalled(std::string_view function) const;
 
   Text& t_;
   FormulaKind kind_;
@@ -302,8 +303,22 @@ bool Judge::defines(const Entry& entry) const {
   });
 }
 
+// The token of the function's name where the text defines it; none if the text also calls it.
+std::optional<size_t> Judge::uncalled(std::string_view function) const {
+  std::optional<size_t> definition;
+  for (size_t i = 0; i < t_.tokens.size(); ++i) {
+    if (!is(i, function) || !is(i + 1, "(")) continue;
+    const auto declared = std::ranges::find(functions_, i - 1, &Function::type);
+    if (declared == functions_.end()) return std::nullopt;
+    if (declared->defined) definition = i;
+  }
+  return definition;
+}
+
 void Judge::judge_entries() {
-  t_.has_other = kind_ != FormulaKind::color && defines(other_entry_of(kind_));
+  const Entry other = other_entry_of(kind_);
+  t_.has_other = kind_ != FormulaKind::color && defines(other);
+  if (t_.has_other) t_.uncalled_other = uncalled(other.name);
   if (const Entry entry = entry_of(kind_); !defines(entry))
     faults_.push_back(
         {1, 1,

@@ -2,6 +2,7 @@
 // nesting. Private to this layer.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,8 +18,9 @@ inline constexpr std::string_view user_prefix = "user_";
 
 struct Text {
   std::vector<Token> tokens;
-  std::vector<bool> is_name;  // for each token: whether it is a user-defined name
-  bool has_other = false;     // whether the text defines other_entry_of() its kind
+  std::vector<bool> is_name;               // for each token: whether it is a user-defined name
+  bool has_other = false;                  // whether the text defines other_entry_of() its kind
+  std::optional<size_t> uncalled_other{};  // the token of that function's name, if the text never calls it
 
   // A variable without an initial value: one that is declared without it, or an `out` parameter.
   struct Unset {

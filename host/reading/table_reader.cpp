@@ -214,6 +214,10 @@ void TableReader::warning(std::string_view key, std::string message) {
   table_->log.warning(position(key), std::move(message));
 }
 
+void TableReader::warning(const SourcePosition& position, std::string message) {
+  table_->log.warning(position, std::move(message));
+}
+
 void TableReader::error(const InputError& faults) {
   for (const Diagnostic& fault : faults.diagnostics()) table_->error(fault.position, fault.message);
 }

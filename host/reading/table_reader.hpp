@@ -56,6 +56,8 @@ class TableReader {
   void error(std::string_view key, std::string message, std::initializer_list<size_t> element = {});
   // Adds a warning at the key's value, or at the table if the key is absent.
   void warning(std::string_view key, std::string message);
+  // Adds a warning about a formula of the table, at its position.
+  void warning(const SourcePosition& position, std::string message);
   // Adds the faults within the text of a formula.
   void error(const InputError& faults);
   // True if the key's value, written or default, is valid. False after an error in the value, or if there is

@@ -261,6 +261,10 @@ std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
     return nullptr;
   }
   if (out_of_range(table, transform * cube::placed(min, max))) return nullptr;
+  if (lipschitz == 0 && formula->uncalled_other())
+    table.warning(
+        *formula->uncalled_other(),
+        "`gradient` has no effect without `lipschitz`: the normals are the exact derivatives of `f`");
   return make_implicit({formula, {min, max}, lipschitz, declared}, table.boolean("open"), transform);
 }
 
