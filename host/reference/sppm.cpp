@@ -127,8 +127,8 @@ PhotonWay PathSample::photon(const PhotonSources& sources, std::vector<Photon>& 
         throughput_ *= std::abs(glm::dot(next->d, n) / glm::dot(next->d, bent) * glm::dot(at.d, bent) /
                                 glm::dot(at.d, n));
       // No camera path comes from a direction that is on different sides of normal_side and of the geometric
-      // normal.
-      if (next && glm::dot(next->d, n) * glm::dot(next->d, at.surface.normal_side) < 0) throughput_ = Vec3(0);
+      // normal: there the photon ends.
+      if (next && glm::dot(next->d, n) * glm::dot(next->d, at.surface.normal_side) < 0) break;
     } else {
       rays_.decided(Event::hit, 0);
       break;

@@ -15,15 +15,18 @@ SHADER_BEGIN
 
 #if HAS_PHOTONS
 // A bent normal changes how much light a surface takes from one direction and sends in another. Paths and photons see this from
-// opposite ends (Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, 5.3). No path comes from where the triangle is
-// seen from its other side.
+// opposite ends (Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, 5.3).
 float bent_both_ways(Interaction at, vec3 d) {
   float in_bent = abs(dot3(at.d, at.seen.normal));
   float out_bent = abs(dot3(d, at.seen.normal));
   float in_true = abs(dot3(at.d, at.seen.normal_geometric));
   float out_true = abs(dot3(d, at.seen.normal_geometric));
-  if (HAS_SMOOTH == 1 && dot3(d, at.seen.normal_geometric) * dot3(d, side_normal(at.seen)) < 0.0f) return 0.0f;
   return (out_true / maximum(out_bent, 1.0e-6f)) * (in_bent / maximum(in_true, 1.0e-6f));
+}
+
+// True if camera paths may come from direction d. From where a smooth triangle shows its other side, none does.
+bool sees_camera_paths(Interaction at, vec3 d) {
+  return HAS_SMOOTH == 0 || dot3(d, at.seen.normal_geometric) * dot3(d, side_normal(at.seen)) >= 0.0f;
 }
 
 // Flux is radiance times area times solid angle. So in a medium flux is index² times the value that radiance / index² gives.
@@ -89,7 +92,7 @@ PhotonResult photon_way(Frame frame, uint index, uint number) {
       PROBE(event, EVENT_WAY | (way & EVENT_VALUE));
       path = all.next;
       path.throughput = path.throughput * bent_both_ways(at, path.d);
-      going = all.count > 0u && path.depth <= frame.max_depth;
+      going = all.count > 0u && path.depth <= frame.max_depth && sees_camera_paths(at, path.d);
     }
   }
   result.flags = result.flags | loops_cut_off(LOOP_PROBE);

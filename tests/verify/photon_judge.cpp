@@ -11,6 +11,7 @@
 #include "host/executors/executors.hpp"
 #include "host/loader/scene_file.hpp"
 #include "host/reference/photon_map.hpp"
+#include "tests/support/meshes.hpp"
 //
 #include "tests/support/doctest.hpp"
 
@@ -35,6 +36,12 @@ verify::JudgedPhotons judge(const Scene& scene, const std::function<void(std::ve
     return ways;
   };
   return verify::judge_photons(scene, changed, reference::Renderer(scene));
+}
+
+// The number of photons that are stored without flux.
+int64_t lost(const std::vector<PhotonWay>& ways) {
+  return std::ranges::count_if(
+      ways, [](const PhotonWay& way) { return way.positions != Vec3(0) && way.flux == Vec3(0); });
 }
 
 const Scene& box() {
@@ -143,11 +150,6 @@ material = "white"
                                            distance, 2 * distance),
                                "scene.toml");
   };
-  const auto lost = [](const std::vector<PhotonWay>& ways) {
-    return std::ranges::count_if(
-        ways, [](const PhotonWay& way) { return way.positions != Vec3(0) && way.flux == Vec3(0); });
-  };
-
   // In float32 e⁻¹⁵⁰ is 0.
   const Scene dark = across(300);
   CHECK(lost(reference::Renderer(dark).tracer().photons(0)->ways()) == 0);
@@ -161,4 +163,17 @@ material = "white"
     std::ranges::find_if(ways, [](const PhotonWay& way) { return way.flux != Vec3(0); })->flux = Vec3(0);
   });
   CHECK(dimmed.tally.unexplained == 1);
+}
+
+TEST_CASE("a photon ends where a smooth triangle scatters it behind the triangle's own plane") {
+  Scene scene = test::empty_scene();
+  scene.render.integrator = IntegratorType::sppm;
+  scene.render.photons = 16384;
+  scene.render.photon_radius = 0.1;
+  const int white = test::add(scene, materials::make_phong({.diffuse = test::gray(0.8)}));
+  test::add_instance(scene, test::add(scene, test::globe(5, 3)), white);
+  test::add(scene, shapes::make_box({-2, -1.5, -2}, {2, -1, 2}), white);
+  test::add_sun(scene, glm::normalize(Vec3(1, 1, 0)), Vec3(1));
+  CHECK(lost(reference::Renderer(scene).tracer().photons(0)->ways()) == 0);
+  CHECK(judge(scene, [](auto& ways) { CHECK(lost(ways) == 0); }).tally.passes());
 }
