@@ -32,8 +32,8 @@ function(eyeray_verify name label)
   set_tests_properties(${name} PROPERTIES LABELS "${label}" TIMEOUT 3600)
 endfunction()
 
-# eyeray_mode(NAME SCENES OPTION …): of the list of that name every sixth scene, another sixth in each mode; the others each night.
-set(mode_share 6)
+# eyeray_mode(NAME SCENES OPTION …): of the list of that name every twelfth scene, other ones in each mode; the rest each night.
+set(mode_share 12)
 set(mode_first 0)
 function(eyeray_mode name scenes)
   set(some "")
