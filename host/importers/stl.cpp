@@ -47,7 +47,8 @@ uint32_t little_endian(std::string_view bytes, size_t at, size_t size) {
 Vec3 point_at(std::string_view bytes, size_t at) {
   Vec3 point;
   for (int i = 0; i < 3; ++i)
-    point[i] = double{std::bit_cast<float>(little_endian(bytes, at + 4 * static_cast<size_t>(i), 4))};
+    point[i] =
+        static_cast<double>(std::bit_cast<float>(little_endian(bytes, at + 4 * static_cast<size_t>(i), 4)));
   return point;
 }
 
