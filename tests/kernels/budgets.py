@@ -23,7 +23,8 @@ def measured(eyeray):
     for scene in SCENES:
         command = [eyeray, "kernels", f"scenes/{scene}.toml", "--family", "navi21", "--json"]
         answer = json.loads(subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout)
-        driver = answer["driver_version"].replace(" ", "-")
+        # Without the distribution's own suffix, as in "Mesa 25.0.7-2+deb13u1".
+        driver = answer["driver_version"].split("-")[0].replace(" ", "-")
         for kernel in answer["kernels"]:
             statistics = kernel["programs"][0]["statistics"]
             rows[driver, scene, kernel["name"]] = [statistics[figure] for figure in FIGURES]
