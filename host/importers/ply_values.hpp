@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
-#include <cstdlib>
 #include <cstring>
 
 #include "host/importers/malformed.hpp"
 #include "host/importers/ply_header.hpp"
+#include "host/importers/text_number.hpp"
 
 namespace eyeray::engine::importers {
 
@@ -18,21 +17,7 @@ class AsciiValues {
   AsciiValues(std::string_view bytes, size_t begin, const std::string& file)
       : bytes_(bytes), at_(begin), file_(file) {}
 
-  double next(PlyType) {
-    const auto space = [](char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; };
-    while (at_ < bytes_.size() && space(bytes_[at_])) ++at_;
-    if (at_ == bytes_.size()) fail("the file ends too early");
-    if (bytes_[at_] == '+') ++at_;
-    double value = 0;
-    const auto [end, error] = std::from_chars(bytes_.data() + at_, bytes_.data() + bytes_.size(), value);
-    const auto after = static_cast<size_t>(end - bytes_.data());
-    if (error == std::errc::invalid_argument || (after < bytes_.size() && !space(bytes_[after])))
-      fail("this is not a number");
-    if (error == std::errc::result_out_of_range)
-      value = std::strtod(bytes_.data() + at_, nullptr);  // 0 or ±inf
-    at_ = after;
-    return value;
-  }
+  double next(PlyType) { return take_number(bytes_, at_, file_); }
 
   void skip(PlyType type, uint64_t count) {
     for (uint64_t i = 0; i < count; ++i) next(type);

@@ -1,16 +1,17 @@
 // Reads STL, text and binary: triangles that share no corners, and the colours that two programs' files have.
 // Sources: 3D Systems, StereoLithography Interface Specification (1989); for colours, the header's "COLOR="
 // of Materialise Magics, and VisCAM's attributes.
+#include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
-#include <cstdlib>
-#include <cstring>
+#include <span>
 
 #include "host/core/free_memory.hpp"
 #include "host/importers/formats.hpp"
 #include "host/importers/malformed.hpp"
 #include "host/importers/mesh_builder.hpp"
+#include "host/importers/ply_values.hpp"
+#include "host/importers/text_number.hpp"
 
 namespace eyeray::engine::importers {
 
@@ -38,21 +39,7 @@ struct Facets {
   }
 };
 
-uint32_t little_endian(std::string_view bytes, size_t at, size_t size) {
-  uint32_t value = 0;
-  for (size_t i = 0; i < size; ++i) value |= uint32_t{static_cast<unsigned char>(bytes[at + i])} << 8 * i;
-  return value;
-}
-
-Vec3 point_at(std::string_view bytes, size_t at) {
-  Vec3 point;
-  for (int i = 0; i < 3; ++i)
-    point[i] =
-        static_cast<double>(std::bit_cast<float>(little_endian(bytes, at + 4 * static_cast<size_t>(i), 4)));
-  return point;
-}
-
-// A colour of five bits a channel; `first`: the bit where red begins, with blue 10 bits from it.
+// A colour of five bits a channel. `red_is_low`: its lowest bits are red, else blue.
 Vec3 color_of_attribute(uint32_t attribute, bool red_is_low) {
   Vec3 rgb;
   for (int i = 0; i < 3; ++i) rgb[red_is_low ? i : 2 - i] = double(attribute >> 5 * i & 31) / 31;
@@ -60,45 +47,47 @@ Vec3 color_of_attribute(uint32_t attribute, bool red_is_low) {
 }
 
 // Gives the facets the colours of their attributes, if the file has any.
-void add_colors(std::string_view bytes, size_t count, Facets& facets, std::vector<std::string>& warnings) {
-  const std::string_view header = bytes.substr(0, header_bytes);
+void add_colors(std::string_view header, std::span<const uint32_t> attributes, Facets& facets,
+                std::vector<std::string>& warnings) {
   const size_t of_all = header.find("COLOR=");
-  const bool by_magics = of_all != std::string_view::npos && of_all + 10 <= header_bytes;
-  const auto attribute = [&](size_t i) {
-    return little_endian(bytes, start_of_facets + i * facet_bytes + facet_bytes - 2, 2);
-  };
+  const bool by_magics = of_all != std::string_view::npos && of_all + 10 <= header.size();
   Vec3 others(plain_gray);
-  bool any = by_magics;
   if (by_magics) {
-    Vec3 rgb;
-    for (int i = 0; i < 3; ++i)
-      rgb[i] = little_endian(header, of_all + 6 + static_cast<size_t>(i), 1) / 255.0;
-    others = color_from_display(rgb);
-    if (little_endian(header, of_all + 9, 1) < 255)
+    const auto byte = [&](size_t i) { return static_cast<unsigned char>(header[of_all + 6 + i]); };
+    others = color_from_display(Vec3(byte(0), byte(1), byte(2)) / 255.0);
+    if (byte(3) < 255)
       warnings.emplace_back(
           "the transparency of its colours was left out: give the mesh a `material` with `alpha`");
     if (header.find("MATERIAL=") != std::string_view::npos)
       warnings.emplace_back("its material (MATERIAL=) was left out: give the mesh a `material`");
   }
   // With the bit set, a facet has the colour of all in Magics' files, and its own in VisCAM's.
-  const auto has_own = [&](uint32_t value) { return (value >> 15 == 0) == by_magics; };
-  for (size_t i = 0; i < count && !any; ++i) any = has_own(attribute(i));
-  for (size_t i = 0; i < count && any; ++i)
-    facets.color(has_own(attribute(i)) ? color_of_attribute(attribute(i), by_magics) : others);
+  const auto has_own = [&](uint32_t attribute) { return (attribute >> 15 == 0) == by_magics; };
+  if (!by_magics && std::ranges::none_of(attributes, has_own)) return;
+  for (const uint32_t attribute : attributes)
+    facets.color(has_own(attribute) ? color_of_attribute(attribute, by_magics) : others);
 }
 
+using StlValues = BinaryValues<std::endian::little>;
+
 Facets read_binary(const MeshFile& file, size_t count, std::vector<std::string>& warnings) {
-  const std::string_view bytes = file.bytes;
+  StlValues values(file.bytes, start_of_facets, file.name);
+  const auto point = [&] {
+    Vec3 read;
+    for (int i = 0; i < 3; ++i) read[i] = values.next(PlyType::float32);
+    return read;
+  };
   Facets facets;
   facets.vertices.positions.reserve(3 * count);
   facets.triangles.positions.reserve(count);
-  for (size_t i = 0; i < count; ++i) {
-    const size_t at = start_of_facets + i * facet_bytes;
-    facets.add(point_at(bytes, at),
-               {point_at(bytes, at + 12), point_at(bytes, at + 24), point_at(bytes, at + 36)});
+  std::vector<uint32_t> attributes(count);
+  for (uint32_t& attribute : attributes) {
+    const Vec3 normal = point(), a = point(), b = point();
+    facets.add(normal, {a, b, point()});
+    attribute = static_cast<uint32_t>(values.next(PlyType::uint16));
   }
-  add_colors(bytes, count, facets, warnings);
-  const size_t rest = bytes.size() - start_of_facets - count * facet_bytes;
+  add_colors(std::string_view(file.bytes).substr(0, header_bytes), attributes, facets, warnings);
+  const uint64_t rest = values.room(PlyType::uint8);
   if (rest > 0) warnings.push_back(fmt::format("{} bytes after its last triangle were left out", rest));
   return facets;
 }
@@ -109,7 +98,7 @@ class StlText {
   StlText(std::string_view text, const std::string& file) : text_(text), file_(file) {}
 
   bool at_end() {
-    while (at_ < text_.size() && is_space(text_[at_])) ++at_;
+    at_ = skip_spaces(text_, at_);
     return at_ == text_.size();
   }
   // Takes the next word if it is this one.
@@ -117,7 +106,7 @@ class StlText {
     if (at_end() || text_.size() - at_ < word.size()) return false;
     for (size_t i = 0; i < word.size(); ++i)
       if ((text_[at_ + i] | 0x20) != word[i]) return false;
-    if (at_ + word.size() < text_.size() && !is_space(text_[at_ + word.size()])) return false;
+    if (at_ + word.size() < text_.size() && !is_text_space(text_[at_ + word.size()])) return false;
     at_ += word.size();
     return true;
   }
@@ -125,19 +114,7 @@ class StlText {
     if (!take(word)) fail(fmt::format("`{}` is missing here", word));
   }
   void skip_line() { at_ = std::min(text_.find_first_of("\r\n", at_), text_.size()); }
-  double number() {
-    if (at_end()) fail("the file ends too early");
-    const size_t begin = at_ + (text_[at_] == '+');
-    double value = 0;
-    const auto [end, error] = std::from_chars(text_.data() + begin, text_.data() + text_.size(), value);
-    const auto after = static_cast<size_t>(end - text_.data());
-    if (error == std::errc::invalid_argument || (after < text_.size() && !is_space(text_[after])))
-      fail("this is not a number");
-    if (error == std::errc::result_out_of_range)
-      value = std::strtod(text_.data() + begin, nullptr);  // 0 or ±inf
-    at_ = after;
-    return value;
-  }
+  double number() { return take_number(text_, at_, file_); }
   Vec3 point() {
     const double x = number(), y = number();
     return {x, y, number()};
@@ -145,8 +122,6 @@ class StlText {
   [[noreturn]] void fail(const std::string& message) const { throw malformed_at(file_, text_, at_, message); }
 
  private:
-  static bool is_space(char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; }
-
   std::string_view text_;
   const std::string& file_;
   size_t at_ = 0;
@@ -184,7 +159,8 @@ Facets read_text(const MeshFile& file) {
 ImportedScene import_stl(MeshFile& file) {
   const std::string_view bytes = file.bytes;
   const bool has_count = bytes.size() >= start_of_facets;
-  const size_t count = has_count ? little_endian(bytes, header_bytes, 4) : 0;
+  const size_t count =
+      has_count ? static_cast<size_t>(StlValues(bytes, header_bytes, file.name).next(PlyType::uint32)) : 0;
   const size_t room = has_count ? bytes.size() - start_of_facets : 0;
   // Headers of binary files may begin with "solid", too: there the size decides.
   const bool is_exact = has_count && room == count * facet_bytes;
