@@ -30,11 +30,11 @@ vec4 revolution_level(Primitive s, vec3 gradient, float value, float y, float bo
 }
 
 // From a point of the side to the inside of its rims, up or down the side. `gradient`: (outward, −slope); `square`: of y² in the square of the side's
-// radius. Where the side narrows to a tip, that is as far away as the side opposite.
+// radius. Near a tip that leads down to where the side is so wide that a tangent 8 offsets long ends less than one above it.
 vec3 inward_of_side(Primitive s, vec3 p, vec3 gradient, float radius, float square, float bottom, float top, float room) {
   float slope = -gradient.y;
   float rise = inside_ends(p.y, bottom, top, room * coordinate_steepness(s).y) - p.y;
-  float least = 0.5f * room * steepness(s, vec3(-gradient.x, gradient.y, -gradient.z));
+  float least = 4.0f * room * steepness(s, vec3(-gradient.x, gradient.y, -gradient.z));
   float narrow = radius + slope * rise - least;
   if (slope < 0.0f && narrow < 0.0f) rise = maximum(rise - narrow / slope, bottom - p.y);
   float wider = sqrt(maximum((radius + 2.0f * slope * rise) * radius + square * rise * rise, 0.0f)) - radius;

@@ -274,6 +274,30 @@ bool bounds_csg(Primitive s, uint own, uint within) {
   return holds.x != holds.y;
 }
 
+#define CLEARING_STEPS 8u
+
+// w: the distance that is missing to be `room` on the inner side of a level. xyz: its gradient along a surface of unit normal n.
+vec4 missing_part(vec4 level, vec3 n, float room) {
+  float steep = sqrt(dot3(vec3(level), vec3(level)));
+  vec3 gradient = steep > 0.0f ? vec3(level) / steep : vec3(0.0f, 0.0f, 0.0f);
+  return vec4(gradient - n * dot3(gradient, n), steep > 0.0f ? level.w / steep + room : 0.0f);
+}
+
+// The shortest step along the surface after which neither is missing, or a part of it that is `longest`.
+vec3 step_inside(vec4 first, vec4 second, float longest) {
+  vec3 a = vec3(first);
+  vec3 b = vec3(second);
+  float aa = maximum(dot3(a, a), 0.015625f);
+  float bb = maximum(dot3(b, b), 0.015625f);
+  float ab = dot3(a, b);
+  vec3 step = a * (-first.w / aa);
+  if (second.w + dot3(b, step) > 0.0f) {
+    float determinant = maximum(aa * bb - ab * ab, 0.015625f * aa * bb);
+    step = a * ((second.w * ab - first.w * bb) / determinant) + b * ((first.w * ab - second.w * aa) / determinant);
+  }
+  return step * minimum(1.0f, longest / sqrt(maximum(dot3(step, step), 1.0e-30f)));
+}
+
 // `surface` of the leaf `own`, as a bit, with the parts that surfaces of other leaves add to `inward`, where they cut it.
 Surface clear_of_leaves(Primitive s, Surface surface, Ray ray, uint own) {
   uvec4 head = load_outline(s.extra);
@@ -301,21 +325,42 @@ Surface clear_of_leaves(Primitive s, Surface surface, Ray ray, uint own) {
     within = bounds_csg(s, own, within ^ one) ? within ^ one : within;
   }
 
-  // Twice, for leaves that have edges themselves, and for several that cut each other. Each time back onto the leaf's own surface, which bends.
+  // Each step leads to the inside of the surface for which most is missing, and keeps inside of the one before. It ends on the leaf's own
+  // surface, which bends.
   Surface clear = surface;
+  vec3 n = surface.normal_geometric;
   Primitive leaf = load_leaf(leaves + LEAF_WORDS * lowest_bit(own));
-  for (uint i = 0u; near != 0u && i < 2u; i++) {
+  vec3 inward = surface.inward;
+  vec4 before = vec4(0.0f, 0.0f, 0.0f, -T_MISS);
+  float least = T_MISS;
+  for (uint i = 0u; near != 0u && i < CLEARING_STEPS; i++) {
+    // Some way in, the leaf's level is that of the face beyond a near edge. It is extended from there to the surface.
+    vec4 edge = leaf_level(leaf, p + inward - n * (4.0f * room));
+    vec4 worst = missing_part(edge + vec4(0.0f, 0.0f, 0.0f, dot3(vec3(edge), n) * 4.0f * room), n, room);
+    worst.w = dot3(vec3(worst), vec3(worst)) > 0.015625f ? worst.w : 0.0f;
     for (uint rest = near; rest != 0u; rest = rest & (rest - 1u)) {
-      vec4 level = leaf_level(load_leaf(leaves + LEAF_WORDS * lowest_bit(rest)), p + clear.inward);
-      vec3 gradient = (within & rest & (~rest + 1u)) != 0u ? vec3(level) : -vec3(level);
-      float value = ((within & rest & (~rest + 1u)) != 0u ? level.w : -level.w) - dot3(gradient, clear.inward);
-      clear.inward = inward_of_face(clear.inward, surface.normal_geometric, value, gradient, room);
+      vec4 level = leaf_level(load_leaf(leaves + LEAF_WORDS * lowest_bit(rest)), p + inward);
+      vec4 missing = missing_part((within & rest & (~rest + 1u)) != 0u ? level : -level, n, room);
+      worst = missing.w > worst.w ? missing : worst;
     }
-    vec4 level = leaf_level(leaf, p + clear.inward);
-    float squared = dot3(vec3(level), vec3(level));
-    if (level.w * level.w < room * room * squared) clear.inward = clear.inward - vec3(level) * (level.w / squared);
+    if (worst.w < least) clear.inward = inward;
+    least = minimum(worst.w, least);
+    vec3 step = worst.w > 0.0f ? step_inside(worst, before, 4.0f * room) : vec3(0.0f, 0.0f, 0.0f);
+    before = vec4(vec3(worst), worst.w + dot3(vec3(worst), step));
+    inward = inward + step;
+    vec4 level = leaf_level(leaf, p + inward);
+    float steep = dot3(vec3(level), n);
+    if (steep * steep > 0.75f * dot3(vec3(level), vec3(level))) inward = inward - n * (level.w / steep);
   }
   return clear;
+}
+
+// A leaf's normal n, turned a little where the ray grazes the leaf and rounding let n be on the other side of d than the crossing was.
+vec3 crossed_normal(vec3 n, vec3 d, uint side) {
+  float across = dot3(n, d);
+  float least = (side == SIDE_OUTSIDE ? -1.0e-6f : 1.0e-6f) * sqrt(dot3(d, d));
+  bool wrong = side == SIDE_OUTSIDE ? across > least : across < least;
+  return wrong ? normalize3(n - d * ((across - least) / dot3(d, d))) : n;
 }
 
 Surface csg_surface(Primitive s, Ray ray, Hit hit) {
@@ -332,6 +377,8 @@ Surface csg_surface(Primitive s, Ray ray, Hit hit) {
     surface = name##_surface(primitive, ray, own);                           \
   }
   CLOSED_SHAPES(LEAF_SURFACE)
+  surface.normal_geometric = crossed_normal(surface.normal_geometric, ray.d, r.side);
+  surface.normal = crossed_normal(surface.normal, ray.d, r.side);
   surface = clear_of_leaves(s, surface, ray, 1u << (leaf >> 2u));
 
   // A subtracted leaf is seen from within.

@@ -1,0 +1,88 @@
+// Pictures from within closed rooms, under a bright sky: all white surfaces stay black, since no path gets
+// out. docs/experiments/rooms.md has the figures; EYERAY_FULL_TESTS=1 makes them, and takes half an hour.
+#include <fmt/format.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "host/executors/executor.hpp"
+#include "tests/support/amount.hpp"
+#include "tests/support/rooms.hpp"
+
+#include "tests/support/doctest.hpp"
+
+using namespace eyeray::engine;
+using namespace eyeray::engine::executors;
+
+namespace {
+
+// Rooms that lose rays, of sheets whose edges are not each other's or with edges that point into the room,
+// and how many of 10⁸ may.
+const std::map<std::string, double> leaking = {{"mesh with an edge into the room", 10},
+                                               {"bilinear", 10},
+                                               {"open cylinder and disks", 10},
+                                               {"polygons with holes", 300},
+                                               {"torus less a ball", 10},
+                                               {"quadric cut to a ball", 10},
+                                               {"ellipsoid less a ball", 40}};
+
+// A camera that looks from `position`, far from the eye, in all directions: coordinates are relative to the
+// eye.
+std::string bright(const Vec3& position) {
+  return fmt::format(R"(
+[image]
+width = 96
+height = 96
+[camera]
+type = "formula"
+eye = [0, 0, 0]
+target = [0, 0, -1]
+code = """
+vec3 origin(vec2 place, vec2 lens) {{ return vec3({:.1f}, {:.1f}, {:.1f}); }}
+vec3 direction(vec2 place, vec2 lens) {{
+  float z = fract(0.5 + 0.5 * place.x) * 2.0 - 1.0;
+  float turn = 3.1415927 * place.y;
+  return vec3(sqrt(max(0.0, 1.0 - z * z)) * vec2(cos(turn), sin(turn)), z);
+}}
+"""
+[render]
+integrator = "path"
+max_depth = 8
+background = 1
+[[material]]
+name = 'm'
+type = 'diffuse'
+color = 1
+)",
+                     position.x, position.y, -position.z);
+}
+
+}  // namespace
+
+// --subcase=NAME makes only the pictures of one room.
+TEST_CASE("no light of the sky enters a closed room" * doctest::test_suite("long")) {
+  const int samples = test::amount(4, 100, 1100);
+  for (const auto& [name, text] : test::rooms_with_cuts()) {
+    SUBCASE(name.c_str()) {
+      for (const Vec3& position : test::room_positions) {
+        const Scene scene = test::scene_of_room(bright(position), text, position);
+        const auto executor = make_executor(Backend::gpu, scene, {});
+        const Rect picture{0, 0, scene.image.width, scene.image.height};
+        std::vector<PixelSample> pixels(size_t(picture.pixels()));
+        int64_t rays = 0, leaks = 0;
+        for (int i = 0; i < samples; ++i) {
+          REQUIRE(executor->sample(picture, uint32_t(i), pixels));
+          for (const PixelSample& pixel : pixels) {
+            rays += pixel.rays;
+            leaks += pixel.color != Vec3(0.0);
+          }
+        }
+        MESSAGE(fmt::format("{}, {:.0f} away: {} rays, {} leak", name, glm::length(position), rays, leaks));
+        const auto allowed = leaking.find(name);
+        CHECK(double(leaks) <= (allowed == leaking.end() ? 0 : 2 + allowed->second * 1e-8 * double(rays)));
+        CHECK(rays > int64_t(samples) * picture.pixels() * 9);
+      }
+    }
+  }
+}
