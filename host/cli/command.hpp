@@ -78,8 +78,8 @@ class SceneOptions {
   std::string file_;
   std::vector<std::string> defines_;
   loader::Trust trust_;
-  std::string size_;
-  std::array<std::string, 6> values_;  // the values of the options in options.cpp's table, --spp first
+  std::string look_, size_;
+  std::array<std::string, 8> values_;  // the values of the options in options.cpp's table, --spp first
 };
 
 // The allowed values of an option that overrides a choice in the scene (--integrator, --triangle); empty for

@@ -1,6 +1,7 @@
 // Options that several commands share. An option becomes an override of the scene; the loader checks its
 // value.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -34,6 +35,8 @@ struct ValueOption {
 constexpr std::array value_options = {
     ValueOption{"--spp", "N", "image", "samples", "Samples a pixel"},
     ValueOption{"--exposure", "STOPS", "image", "exposure", "Exposure of a .png"},
+    ValueOption{"--tone", "CURVE", "image", "tone", "Tone curve of a .png"},
+    ValueOption{"--white-balance", "KELVIN", "image", "white_balance", "Light that a .png shows as white"},
     ValueOption{"--integrator", "NAME", "render", "integrator", "Integrator (docs/scene-reference.md)"},
     ValueOption{"--max-depth", "N", "render", "max_depth",
                 "Maximum number of successive reflections and refractions"},
@@ -137,6 +140,9 @@ void SceneOptions::add_to(CLI::App& command) {
                 "camera).")
       ->group(group);
   add("-s,--size", size_, "WxH", "Picture size in pixels, such as 640x480.");
+  add("--look", look_, "NAME",
+      fmt::format("How a mesh alone is shown (docs/mesh-files.md): {}.",
+                  fmt::join(loader::look_names, ", ")));
   static_assert(std::tuple_size_v<decltype(values_)> == value_options.size());
   for (size_t i = 0; i < value_options.size(); ++i) {
     const ValueOption& each = value_options[i];
@@ -151,6 +157,7 @@ std::string SceneOptions::as_written() const {
     if (!value.empty()) text += fmt::format(" {} {}", name, shell_word(value));
   };
   add("-s", size_);
+  add("--look", look_);
   for (size_t i = 0; i < value_options.size(); ++i) add(value_options[i].name, values_[i]);
   return text;
 }
@@ -158,6 +165,7 @@ std::string SceneOptions::as_written() const {
 Scene SceneOptions::load() const {
   std::vector<loader::Override> overrides;
   for (const std::string& define : defines_) overrides.push_back({define});
+  if (!look_.empty()) overrides.push_back({"look=" + look_, "--look " + look_});
   if (!size_.empty()) {
     const auto [width, height] = parse_size(size_);
     overrides.push_back({fmt::format("image.width={}", width), "-s " + size_});

@@ -1,7 +1,9 @@
+#include <cmath>
 #include <limits>
 
 #include "host/lights/make.hpp"
 #include "host/lights/registry.hpp"
+#include "host/lights/strength.hpp"
 #include "host/lights/versine.hpp"
 #include "host/records/packer.hpp"
 
@@ -36,6 +38,11 @@ constexpr Key keys[] = {
      .fallback = "0",
      .min = 0,
      .max = 90},
+    {.name = "lux",
+     .type = KeyType::number,
+     .doc = "Illuminance of a surface that faces the light, in lux: the sun at noon has 100 000.",
+     .min = 0,
+     .optional = true},
 };
 
 class Directional final : public Light {
@@ -63,9 +70,9 @@ std::unique_ptr<Light> parse(TableReader& table) {
   const Vec3 direction = table.vec3("direction");
   const double length = glm::length(direction);
   if (table.valid("direction") && !(length > 1e-15)) table.error("direction", "`direction` has no length");
+  const Vec3 intensity = read_intensity(table, 1 / M_PI, {{"lux", 1}});
   if (table.failed()) return nullptr;
-  return make_light(
-      DirectionalLight{-direction / length, table.color("intensity"), glm::radians(table.number("angle"))});
+  return make_light(DirectionalLight{-direction / length, intensity, glm::radians(table.number("angle"))});
 }
 
 }  // namespace

@@ -1,5 +1,8 @@
+#include <cmath>
+
 #include "host/lights/make.hpp"
 #include "host/lights/registry.hpp"
+#include "host/lights/strength.hpp"
 #include "host/records/packer.hpp"
 
 namespace eyeray::engine::lights {
@@ -29,6 +32,16 @@ constexpr Key keys[] = {
             "distance 1. `\"none\"`: the light is the same at every distance.",
      .fallback = "\"inverse_square\"",
      .choices = falloffs},
+    {.name = "candela",
+     .type = KeyType::number,
+     .doc = "Luminous intensity, in candela.",
+     .min = 0,
+     .optional = true},
+    {.name = "lumens",
+     .type = KeyType::number,
+     .doc = "Luminous flux in all directions, in lumens: a bulb of 60 W has 800.",
+     .min = 0,
+     .optional = true},
 };
 
 class Point final : public Light {
@@ -58,7 +71,8 @@ class Point final : public Light {
 };
 
 std::unique_ptr<Light> parse(TableReader& table) {
-  const PointLight values{table.vec3("position"), table.color("intensity"),
+  const PointLight values{table.vec3("position"),
+                          read_intensity(table, 1 / M_PI, {{"candela", 1}, {"lumens", 4 * M_PI}}),
                           static_cast<Falloff>(table.choice("falloff"))};
   if (table.failed()) return nullptr;
   return make_light(values);

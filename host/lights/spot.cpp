@@ -3,6 +3,7 @@
 
 #include "host/lights/make.hpp"
 #include "host/lights/registry.hpp"
+#include "host/lights/strength.hpp"
 #include "host/lights/versine.hpp"
 #include "host/records/packer.hpp"
 
@@ -48,6 +49,16 @@ constexpr Key keys[] = {
      .min = 0,
      .max = 90,
      .above_min = true},
+    {.name = "candela",
+     .type = KeyType::number,
+     .doc = "Luminous intensity along the axis, in candela.",
+     .min = 0,
+     .optional = true},
+    {.name = "lumens",
+     .type = KeyType::number,
+     .doc = "Luminous flux of the whole cone, in lumens.",
+     .min = 0,
+     .optional = true},
 };
 
 class Spot final : public Light {
@@ -89,8 +100,12 @@ std::unique_ptr<Light> parse(TableReader& table) {
         fmt::format("`outer_angle` must exceed `inner_angle` by at least 0.001; they are {:g} and {:g}",
                     outer, inner));
   if (table.failed()) return nullptr;
-  return make_light(SpotLight{table.vec3("position"), direction / length, table.color("intensity"),
-                              glm::radians(inner), glm::radians(outer)});
+  const double lit = std::cos(glm::radians(inner)), dark = std::cos(glm::radians(outer));
+  const double lumens = 2 * M_PI * ((1 - lit) + (lit - dark) / 3);  // s² has the mean 1/3 between the two
+  const Vec3 intensity = read_intensity(table, 1 / M_PI, {{"candela", 1}, {"lumens", lumens}});
+  if (table.failed()) return nullptr;
+  return make_light(SpotLight{table.vec3("position"), direction / length, intensity, glm::radians(inner),
+                              glm::radians(outer)});
 }
 
 }  // namespace

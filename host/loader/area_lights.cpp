@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "host/lights/registry.hpp"
+#include "host/lights/strength.hpp"
 #include "host/reading/table.hpp"
 
 namespace eyeray::engine::loader {
@@ -26,6 +28,16 @@ constexpr Key own_keys[] = {
      .doc = "Emit light only on the side that the normal points to, or on both.",
      .fallback = "\"front\"",
      .choices = emission_sides},
+    {.name = "nits",
+     .type = KeyType::number,
+     .doc = "Luminance, in candela per square metre: a screen has 300.",
+     .min = 0,
+     .optional = true},
+    {.name = "lumens",
+     .type = KeyType::number,
+     .doc = "Luminous flux of the whole light, in lumens: a bulb of 60 W has 800.",
+     .min = 0,
+     .optional = true},
     {.name = "transform",
      .type = KeyType::transform,
      .doc = "Steps that move the light, applied in the order written.",
@@ -40,6 +52,29 @@ std::span<const Key> keys_of_every_area_light() {
     return all;
   }();
   return keys;
+}
+
+// The area of a plane outline.
+double polygon_area(const std::vector<Vec3>& outline) {
+  Vec3 sum(0.0);
+  for (size_t i = 1; i + 1 < outline.size(); ++i)
+    sum += glm::cross(outline[i] - outline[0], outline[i + 1] - outline[0]);
+  return glm::length(sum) / 2;
+}
+
+// 0 for an ellipsoid.
+double area_of(const Shape& shape) {
+  const ShapeForm form = shape.form();
+  if (const auto* sphere = std::get_if<SphereForm>(&form)) return 4 * M_PI * sphere->radius * sphere->radius;
+  const auto across = [](const Mat4& map, int a, int b) {
+    return glm::length(glm::cross(Vec3(map[a]), Vec3(map[b])));
+  };
+  if (const auto* disk = std::get_if<DiskForm>(&form))
+    return M_PI * across(disk->to_world, 0, 2) * (1 - disk->inner * disk->inner);
+  if (const auto* triangle = std::get_if<TriangleForm>(&form))
+    return polygon_area({triangle->vertices.begin(), triangle->vertices.end()});
+  if (const auto* polygon = std::get_if<PolygonForm>(&form)) return polygon_area(polygon->outlines.front());
+  return 0;
 }
 
 }  // namespace
@@ -80,6 +115,12 @@ intensity = 8
 
 A shape or mesh whose [[[material]]](#material) has `emission` is an area light as well; it may also reflect light, and its radiance may be a texture.
 )";
+}
+
+Vec3 radiance_of(const Shape& shape, reading::TableReader& light) {
+  const bool one_side = light.choice("emission_side") == 1 || shape.is_closed();
+  const double lumens = M_PI * area_of(shape) * (one_side ? 1 : 2);
+  return lights::read_intensity(light, 1, {{"nits", 1}, {"lumens", lumens}});
 }
 
 bool is_area_light(const toml::table& light) {

@@ -7,6 +7,8 @@
 
 #include "host/core/diagnostic_log.hpp"
 #include "host/loader/sections.hpp"
+#include "host/reading/table_reader.hpp"
+#include "host/scene/shape.hpp"
 
 namespace eyeray::engine::loader {
 
@@ -26,6 +28,9 @@ std::span<const reading::Key> area_keys();
 std::string_view area_manual();
 
 bool is_area_light(const toml::table& light);
+
+// The radiance that an area light's table states. `shape`: made of the same table.
+Vec3 radiance_of(const Shape& shape, reading::TableReader& light);
 
 // The shape that an area light's table names. Null after an error, which is in the log.
 const AreaShape* area_shape(const toml::table& light, DiagnosticLog& log);

@@ -43,11 +43,19 @@ void each_point(const importers::ImportedScene& import, const Visit& visit) {
   }
 }
 
-// A camera that shows all of the file, and little else, in pictures of any aspect ratio.
-importers::ImportedCamera framing(const importers::ImportedScene& import) {
+Bounds bounds_of(const importers::ImportedScene& import) {
   Bounds box;
   each_point(import, [&](const Vec3& p) { box.include(p); });
-  const Vec3 centre = box.min + (box.max - box.min) / 2.0;
+  return box;
+}
+
+Vec3 middle_of(const Bounds& box) {
+  return box.min + (box.max - box.min) / 2.0;
+}
+
+// A camera that shows all of the file, and little else, in pictures of any aspect ratio.
+importers::ImportedCamera framing(const importers::ImportedScene& import) {
+  const Vec3 centre = middle_of(bounds_of(import));
 
   // Four planes through the eye bound the view. Push each plane towards the points until it touches one. Two
   // opposite planes then intersect at the nearest possible eye for their axis. The farther of the two axes'
@@ -124,21 +132,109 @@ decltype(importers::ImportedScene::lights) studio_lights(const importers::Import
   return {light(0.75, -0.6, 0.8, 0.8), light(0.7, 1.0, 0.25, 0.28)};
 }
 
+// A floor, area lights and a sky around a model, in the directions of its camera. Lengths are in units of
+// `radius`.
+class Studio {
+ public:
+  Studio(const Bounds& model, const importers::ImportedCamera& camera)
+      : model_(model), middle_(middle_of(model)), radius_(std::max(glm::length(model.max - middle_), 1e-9)) {
+    const Vec3 back = camera.eye - camera.target;
+    const Vec3 level(back.x, 0, back.z);
+    back_ = unit(glm::length(level) > 0.01 * glm::length(back) ? level : Vec3(0, 0, 1));
+    right_ = glm::cross(Vec3(0, 1, 0), back_);
+  }
+
+  // A soft key light over the viewer's left shoulder, a wide weak one from the right, and one from behind
+  // that draws the outline.
+  toml::array area_lights() const {
+    return toml::array{area_light({-1.0, 1.1, 0.8}, 3.5, {2.6, 2.6}, {4.4, 4.25, 4.0}),
+                       area_light({1.3, 0.4, 0.7}, 4, {3, 2.2}, {0.6, 0.64, 0.7}),
+                       area_light({0.7, 1.6, -1.1}, 4, {2.4, 1.4}, {6, 6, 6.2})};
+  }
+
+  // A disk below the model that fades into the background.
+  toml::table floor() const {
+    return toml::table{{"center", list({middle_.x, model_.min.y, middle_.z})},
+                       {"normal", list({0, 1, 0})},
+                       {"radius", 9 * radius_},
+                       {"material", "studio floor"}};
+  }
+  static toml::table floor_material(bool fades) {
+    constexpr const char* fade =
+        "vec3 color(vec2 uv) { return vec3(1.0 - smoothstep(0.17, 1.0, 2.0 * length(uv - vec2(0.5)))); }";
+    toml::table material{{"name", "studio floor"}, {"type", "diffuse"}, {"color", 0.5}};
+    if (fades) {
+      material.insert("alpha", toml::table{{"formula", toml::table{{"code", fade}}}});
+      material.insert("alpha_mode", "blend");
+    }
+    return material;
+  }
+
+  // The sun over the viewer's left shoulder.
+  toml::table sky() const { return toml::table{{"type", "sky"}, {"sun", list(world({-0.8, 0.9, 0.5}))}}; }
+
+ private:
+  // Directions to the right, up, and towards the viewer.
+  Vec3 world(const Vec3& d) const { return d.x * right_ + Vec3(0, d.y, 0) + d.z * back_; }
+
+  // A rectangle that faces the model.
+  toml::table area_light(const Vec3& direction, double distance, const Vec2& size,
+                         const Vec3& radiance) const {
+    const Vec3 out = unit(world(direction));
+    const Vec3 across = radius_ * size.x * unit(glm::cross(Vec3(0, 1, 0), out));
+    const Vec3 upward = radius_ * size.y * unit(glm::cross(out, across));
+    return toml::table{{"type", "area"},
+                       {"shape", "rectangle"},
+                       {"origin", list(middle_ + radius_ * distance * out - (across + upward) / 2.0)},
+                       {"edge_u", list(upward)},
+                       {"edge_v", list(across)},
+                       {"intensity", list(radiance)}};
+  }
+
+  Bounds model_;
+  Vec3 middle_;
+  double radius_;
+  Vec3 back_, right_;
+};
+
 }  // namespace
 
 toml::table mesh_scene(const std::filesystem::path& file, const importers::ImportedScene& import,
-                       const importers::ImportedScene& framed, bool around) {
+                       const importers::ImportedScene& framed, const MeshView& view) {
+  const auto [around, look, formulas] = view;
   const importers::ImportedCamera camera = import.camera ? *import.camera : framing(framed);
+  const bool own_lights = import.lights.empty() && !around;
   toml::array lights;
-  for (const auto& light : import.lights.empty() && !around ? studio_lights(camera) : import.lights)
+  const bool in_two_lights = own_lights && look == MeshLook::plain;
+  for (const auto& light : in_two_lights ? studio_lights(camera) : import.lights)
     lights.push_back(std::visit([](const auto& form) { return table(form); }, light));
 
   toml::table root;
   root.insert("camera", table(camera));
-  if (!around)
-    root.insert("render", toml::table{{"background", toml::array{0.34, 0.41, 0.5}}, {"ambient", 0.14}});
+  toml::table mesh{{"file", file.filename().string()}};
+  if (look == MeshLook::plain) {
+    if (!around)
+      root.insert("render", toml::table{{"background", toml::array{0.34, 0.41, 0.5}}, {"ambient", 0.14}});
+  } else {
+    const Studio studio(bounds_of(framed), camera);
+    root.insert("image", toml::table{{"samples", 64}, {"tone", "neutral"}});
+    const bool under_sky = own_lights && look == MeshLook::sky;
+    toml::table render{{"integrator", "path"}};
+    if (!around && !under_sky) render.insert("background", toml::array{0.30, 0.31, 0.33});
+    root.insert("render", std::move(render));
+    if (under_sky) root.insert("environment", studio.sky());
+    if (own_lights && !under_sky) lights = studio.area_lights();
+    toml::array materials{Studio::floor_material(formulas)};
+    if (look == MeshLook::clay) {
+      materials.push_back(
+          toml::table{{"name", "clay"}, {"type", "diffuse"}, {"color", list({0.62, 0.52, 0.44})}});
+      mesh.insert("material", "clay");
+    }
+    root.insert("material", std::move(materials));
+    root.insert("disk", toml::array{studio.floor()});
+  }
   root.insert("light", std::move(lights));
-  root.insert("mesh", toml::array{toml::table{{"file", file.filename().string()}}});
+  root.insert("mesh", toml::array{std::move(mesh)});
   return root;
 }
 

@@ -6,15 +6,21 @@
 #include <filesystem>
 
 #include "host/importers/import.hpp"
+#include "host/loader/scene_file.hpp"
 
 namespace eyeray::engine::loader {
+
+struct MeshView {
+  bool around;  // there will be an [environment], which replaces background, ambient light and own lights
+  MeshLook look;
+  bool formulas;  // the scene may have formulas, as a floor needs to fade
+};
 
 // The tables that a person would write to view the file: [[mesh]], some ambient light, and the file's camera
 // and lights. A missing camera is replaced by one that frames `framed`, three quarters from the front with y
 // up. Missing lights are replaced by one over the camera's left shoulder and a weak one from its right.
-// `around`: there will be an [environment], which takes the place of the background, the ambient light and
-// those lights.
+// Looks other than plain have lights, a floor and settings of their own.
 toml::table mesh_scene(const std::filesystem::path& file, const importers::ImportedScene& import,
-                       const importers::ImportedScene& framed, bool around);
+                       const importers::ImportedScene& framed, const MeshView& view);
 
 }  // namespace eyeray::engine::loader

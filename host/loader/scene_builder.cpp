@@ -203,9 +203,10 @@ void Builder::add_area_lights(std::string_view shape) {
     const Section& light = named->section;
     if (light.shape->name != shape) continue;
     for_each_placed(light, *table, Placing{}, [&](reading::TableReader& reader, const Placing& placed) {
-      const bool in_front = reader.choice("emission_side") == 1;
-      const int material = materials_.emitter(reader.color("intensity"), in_front);
-      if (auto made = parse_shape(light, reader, placed, material)) scene_.shapes.push_back(std::move(made));
+      if (auto made = parse_shape(light, reader, placed, -1)) {  // no material yet
+        made->material = materials_.emitter(radiance_of(*made, reader), reader.choice("emission_side") == 1);
+        scene_.shapes.push_back(std::move(made));
+      }
     });
   }
 }
@@ -331,7 +332,8 @@ std::unique_ptr<Shape> Builder::parse_shape(const Section& section, reading::Tab
                                             const Placing& placing, int material) {
   std::unique_ptr<Shape> shape = section.shape->parse(reader, placing.to_world);
   if (!shape) return nullptr;
-  if (!section.shape->flat && !scene_.materials.empty() && scene_.materials[size_t(material)]->mask)
+  if (!section.shape->flat && material >= 0 && !scene_.materials.empty() &&
+      scene_.materials[size_t(material)]->mask)
     reader.error(
         "material",
         fmt::format("a material with `alpha` has cutouts, and a ray may hit the {} again behind one; only "

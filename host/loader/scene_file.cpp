@@ -1,12 +1,14 @@
 #include "host/loader/scene_file.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iterator>
 #include <optional>
 #include <vector>
 
+#include "host/core/error.hpp"
 #include "host/loader/animation.hpp"
 #include "host/loader/document.hpp"
 #include "host/loader/formula_files.hpp"
@@ -59,9 +61,28 @@ double requested_seconds(std::span<const Override> overrides) {
   return seconds(apply_animation(root, unheard));
 }
 
+constexpr std::string_view look_key = "look=";
+
+// Takes the look out of the overrides.
+MeshLook take_look(std::vector<Override>& overrides) {
+  MeshLook look = MeshLook::plain;
+  std::erase_if(overrides, [&](const Override& each) {
+    if (!each.text.starts_with(look_key)) return false;
+    std::string_view name = std::string_view(each.text).substr(look_key.size());
+    if (name.size() > 1 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
+    const auto found = std::ranges::find(look_names, name);
+    if (found == std::end(look_names))
+      throw Error(ExitCode::bad_input, "{}: a look is {}",
+                  each.written.empty() ? "-D " + each.text : each.written, fmt::join(look_names, ", "));
+    look = MeshLook(found - std::begin(look_names));
+    return true;
+  });
+  return look;
+}
+
 // The document of a scene that shows the mesh file.
-Document read_mesh(const fs::path& file, std::span<const Override> overrides, MeshImports& meshes,
-                   DiagnosticLog& log) {
+Document read_mesh(const fs::path& file, std::span<const Override> overrides, MeshLook look, bool formulas,
+                   MeshImports& meshes, DiagnosticLog& log) {
   log.add_source(file.string(), "");
   meshes.show(requested_seconds(overrides));
   const MeshImports::Loaded loaded = meshes.load_alone(file);
@@ -78,7 +99,7 @@ Document read_mesh(const fs::path& file, std::span<const Override> overrides, Me
   for (const std::string& warning : loaded.scene->warnings) log.warning({}, warning);
   const bool around = std::ranges::any_of(
       overrides, [](const Override& each) { return each.text.starts_with("environment"); });
-  return {mesh_scene(file, *loaded.scene, rest ? *rest : *loaded.scene, around), {}};
+  return {mesh_scene(file, *loaded.scene, rest ? *rest : *loaded.scene, {around, look, formulas}), {}};
 }
 
 // If the scene moves while its shutter is open, sets the function that makes the scene at another moment. It
@@ -102,12 +123,19 @@ Scene load_moment(const fs::path& file, std::span<const Override> overrides, con
   trees.push_back(file.parent_path());
   if (importers::is_mesh_file(file)) {
     MeshImports meshes(folders, std::move(trees), {file}, pixels);
-    Document document = read_mesh(file, overrides, meshes, log);
+    std::vector<Override> others(overrides.begin(), overrides.end());
+    const MeshLook look = take_look(others);
+    Document document = read_mesh(file, others, look, trust.formulas, meshes, log);
     ImageFiles images(folders, document.files, pixels, log);
-    Scene scene =
-        finish(std::move(document), file, overrides, &images, &meshes, nullptr, trust.formulas, log);
+    Scene scene = finish(std::move(document), file, others, &images, &meshes, nullptr, trust.formulas, log);
     scene.is_mesh_alone = true;
     return scene;
+  }
+  for (const Override& each : overrides) {
+    if (each.text.starts_with(look_key))
+      throw Error(ExitCode::bad_input,
+                  "{}: {} is a scene, which has a look of its own; a look is for a mesh alone",
+                  each.written.empty() ? "-D " + each.text : each.written, file.string());
   }
   Document document = read_document(file, folders, log);
   ImageFiles images(folders, document.files, pixels, log);

@@ -20,6 +20,15 @@ struct Override {
   std::string written = {};  // the option as the user wrote it, "-s 640x480"; empty: "-D TEXT"
 };
 
+// The look of a mesh file alone. An override chooses it: "look=studio".
+enum class MeshLook {
+  plain,   // by whitted, in two lights
+  studio,  // by path, in three area lights, on a floor that fades into the background
+  clay,    // the same, all of clay
+  sky      // by path, under a clear sky, on such a floor
+};
+inline constexpr std::string_view look_names[] = {"plain", "studio", "clay", "sky"};
+
 // The permissions of a scene file.
 struct Trust {
   std::vector<std::filesystem::path> folders =
@@ -29,7 +38,7 @@ struct Trust {
 
 // Reads a scene with its included files, applies the overrides, and checks it. A mesh file (.obj, .ply,
 // .stl, .gltf, .glb) becomes a scene that shows it. Throws InputError with all errors at once, or Error
-// (file_io) if the file itself cannot be read.
+// (file_io) if the file itself cannot be read, or (bad_input) for an unknown `look`.
 Scene load_scene(const std::filesystem::path& file, std::span<const Override> overrides = {},
                  const Trust& trust = {});
 // The mesh files of a scene in memory: the bytes of each file, by its name in the scene.

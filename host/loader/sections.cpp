@@ -6,6 +6,7 @@
 #include "host/cameras/registry.hpp"
 #include "host/core/diagnostic.hpp"
 #include "host/lights/registry.hpp"
+#include "host/lights/strength.hpp"
 #include "host/loader/animation.hpp"
 #include "host/loader/environments.hpp"
 #include "host/loader/medium.hpp"
@@ -54,18 +55,16 @@ std::span<const Key> light_keys() {
     all.push_back(lights::area_type);
     return all;
   }();
-  static const Key keys[] = {
-      {.name = "type", .type = KeyType::choice, .doc = "Kind; see below.", .choices = names},
-      {.name = "name",
-       .type = KeyType::string,
-       .doc = "Name for `-D` and [[track]]; several lights may share it.",
-       .optional = true},
-      {.name = "intensity",
-       .type = KeyType::color,
-       .doc = "Light that arrives at a surface; for a point light, at distance 1; for an area light, its "
-              "radiance.",
-       .fallback = "1"},
-  };
+  static const std::vector<Key> keys = [] {
+    std::vector<Key> all{
+        {.name = "type", .type = KeyType::choice, .doc = "Kind; see below.", .choices = names},
+        {.name = "name",
+         .type = KeyType::string,
+         .doc = "Name for `-D` and [[track]]; several lights may share it.",
+         .optional = true}};
+    all.insert(all.end(), lights::strength_keys().begin(), lights::strength_keys().end());
+    return all;
+  }();
   return keys;
 }
 

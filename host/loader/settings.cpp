@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "host/optics/temperature.hpp"
 #include "host/scene/integrator.hpp"
 #include "host/scene/sampler.hpp"
 
@@ -70,9 +71,18 @@ constexpr Key image_table[] = {
     {.name = "tone",
      .type = KeyType::choice,
      .doc = "Tone mapping of a .png file, for light beyond 1. `\"none\"` cuts it off. `\"neutral\"` "
-            "compresses it towards white (Khronos PBR Neutral).",
+            "compresses it towards white, and keeps the colours of materials (Khronos PBR Neutral). "
+            "`\"filmic\"` (Hable), `\"aces\"` (Hill's fit) and `\"agx\"` (Sobotka) look like film: they "
+            "change all colours, and `agx` lets bright ones fade most.",
      .fallback = "\"none\"",
      .choices = image::tone_curves},
+    {.name = "white_balance",
+     .type = KeyType::number,
+     .doc = "Colour temperature in kelvin of the light that a .png file shows as white: 2700 for bulbs, 5500 "
+            "for the sun, 6500 for daylight. When absent, [1, 1, 1] is white.",
+     .min = optics::coldest,
+     .max = optics::hottest,
+     .optional = true},
 };
 
 constexpr Key render_table[] = {
@@ -200,6 +210,7 @@ ImageSettings read_image(reading::TableReader& table, IntegratorType integrator)
     table.error("filter_width", "`filter_width` is for filter = \"gaussian\" or \"blackman-harris\" only");
   }
   image.tone = {table.number("exposure"), static_cast<image::ToneCurve>(table.choice("tone"))};
+  if (table.has("white_balance")) image.tone.white_balance = table.number("white_balance");
   if (sample_count_of(image.pattern) == SampleCount::square) check_samples(table, image.samples);
   const int64_t pixels = int64_t{image.width} * image.height;
   if (pixels > most_pixels) {

@@ -102,7 +102,7 @@ double Writer::number(const Key& key) {
   if (coin(wildness_.share)) return extreme(key);
   const bool share = key.type == KeyType::color || key.type == KeyType::texture;
   const double low = share ? 0 : std::max(key.min, -3.0);
-  const double high = share ? 1 : key.max <= 1000 ? key.max : 3;
+  const double high = share ? 1 : key.max <= 1000 || key.min >= 3 ? key.max : 3;
   // Avoids both ends, which may be excluded or extreme, and the parts of wide ranges that would show little.
   if (key.name == "fov") return random_.uniform(20, 110);
   if (key.name == "turbulence") return random_.uniform(0, 2);
@@ -254,16 +254,19 @@ std::string Writer::write() {
   table("[render]", {loader::find_section("render")->keys}, {}, "");
 
   for (int i = random_.below(4); i > 0; --i) {
+    // A light states its strength in one unit.
+    std::set<std::string_view> left_out = {"type", "shape", "normals", "transform"};
+    left_out.insert(coin(0.5) ? "lumens" : "candela");
+    if (left_out.contains("candela")) left_out.insert("nits");
     if (coin(0.25)) {
       const std::span<const loader::AreaShape> forms = loader::area_shapes();
       const loader::AreaShape& form = forms[size_t(random_.below(int(forms.size())))];
-      table("[[light]]", {form.section.keys, form.section.shape->keys},
-            {"type", "shape", "normals", "transform"},
+      table("[[light]]", {form.section.keys, form.section.shape->keys}, left_out,
             fmt::format("type = \"area\"\nshape = \"{}\"\n", form.name));
       continue;
     }
     const lights::LightType& type = one_of(lights::types());
-    table("[[light]]", {loader::find_section("light")->keys, type.keys}, {"type"},
+    table("[[light]]", {loader::find_section("light")->keys, type.keys}, left_out,
           fmt::format("type = \"{}\"\n", type.name));
   }
   for (int i = 0; i < materials; ++i) {
