@@ -275,6 +275,7 @@ bool bounds_csg(Primitive s, uint own, uint within) {
 }
 
 #define CLEARING_STEPS 8u
+#define MOST_TURNED 0.00390625f  // the squared sine of 3.6°
 
 // w: the distance that is missing to be `room` on the inner side of a level. xyz: its gradient along a surface of unit normal n.
 vec4 missing_part(vec4 level, vec3 n, float room) {
@@ -326,7 +327,7 @@ Surface clear_of_leaves(Primitive s, Surface surface, Ray ray, uint own) {
   }
 
   // Each step leads to the inside of the surface for which most is missing, and keeps inside of the one before. It ends on the leaf's own
-  // surface, which bends.
+  // surface.
   Surface clear = surface;
   vec3 n = surface.normal_geometric;
   Primitive leaf = load_leaf(leaves + LEAF_WORDS * lowest_bit(own));
@@ -348,9 +349,14 @@ Surface clear_of_leaves(Primitive s, Surface surface, Ray ray, uint own) {
     vec3 step = worst.w > 0.0f ? step_inside(worst, before, 4.0f * room) : vec3(0.0f, 0.0f, 0.0f);
     before = vec4(vec3(worst), worst.w + dot3(vec3(worst), step));
     inward = inward + step;
+    // Where the surface bends so much that it turns away from rays that start there, less of the way.
     vec4 level = leaf_level(leaf, p + inward);
     float steep = dot3(vec3(level), n);
-    if (steep * steep > 0.75f * dot3(vec3(level), vec3(level))) inward = inward - n * (level.w / steep);
+    float turned = 1.0f - steep * steep / dot3(vec3(level), vec3(level));
+    if (turned < 0.25f) {
+      float part = sqrt(MOST_TURNED / maximum(turned, MOST_TURNED));
+      inward = inward * part - n * (level.w * part * part / steep);
+    }
   }
   return clear;
 }

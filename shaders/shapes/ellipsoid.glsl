@@ -20,7 +20,7 @@ float ellipsoid_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   float s1 = q / a;
   float low = r.t + (s0 < s1 ? s0 : s1);
   float high = r.t + (s0 < s1 ? s1 : s0);
-  return discriminant >= 0.0f ? (ENTERS(ray, low) ? low : high) : T_NONE;
+  return discriminant > 0.0f ? (ENTERS(ray, low) ? low : high) : T_NONE;
 }
 
 bool ellipsoid_reject(Primitive s, Ray ray) { return false; }

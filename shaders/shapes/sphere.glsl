@@ -38,7 +38,7 @@ float sphere_intersect(Primitive s, Ray ray, OUT(vec2) uv) {
   float low = t0 < t1 ? t0 : t1;
   float high = t0 < t1 ? t1 : t0;
   float t = ENTERS(ray, low) ? low : high;
-  return discriminant >= 0.0f ? t : T_NONE;
+  return discriminant > 0.0f ? t : T_NONE;
 }
 
 // Longitude and latitude of the unit normal n.
