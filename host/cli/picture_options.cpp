@@ -8,6 +8,17 @@
 namespace fs = std::filesystem;
 
 namespace eyeray::engine::cli {
+namespace {
+
+// All channels of samples, or all of first hits.
+film::Channels channels_of(bool samples) {
+  film::Channels channels;
+  for (const film::ChannelType& type : film::channel_types())
+    if ((type.of_samples() != nullptr) == samples) channels.push_back(&type);
+  return channels;
+}
+
+}  // namespace
 
 void PictureOptions::add_to(CLI::App& command) {
   scene.add_to(command);
@@ -22,9 +33,12 @@ void PictureOptions::add_to(CLI::App& command) {
   command
       .add_option_function<std::string>(
           "--aov", parse,
-          fmt::format("Also write {}, or all of them. Each is written as data (FILE.NAME.pfm) and in false "
-                      "colour (FILE.NAME.png), or as a layer of FILE.exr. Ids get a legend (FILE.NAME.json).",
-                      film::channel_names()))
+          fmt::format("Also write AOVs, by name, or all. Samples have {}. First hits have {}. Each is "
+                      "written as data "
+                      "(FILE.NAME.pfm) and in false colour (FILE.NAME.png), or as a layer of FILE.exr. Ids "
+                      "get a legend "
+                      "(FILE.NAME.json).",
+                      film::channel_names(channels_of(true)), film::channel_names(channels_of(false))))
       ->option_text("LIST");
   command.add_flag("--half", half, "Write the colours of an .exr in 16 bits a channel, not 32.");
   add_crop_option(command, request.crop);

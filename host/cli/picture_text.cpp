@@ -27,8 +27,11 @@ std::string size_of(const Result& picture) {
 std::string samples_of(const Result& picture) {
   if (picture.shard && picture.pixels == 0) return "nothing to do";
   const int least = picture.totals.samples_done, most = picture.totals.most_samples;
-  if (least == most) return fmt::format("{} sample{} a pixel", least, least == 1 ? "" : "s");
-  return fmt::format("{} to {} samples a pixel (mean {:.0f})", least, most, picture.mean_samples());
+  std::string text = least == most ? fmt::format("{} sample{} a pixel", least, least == 1 ? "" : "s")
+                                   : fmt::format("{} to {} samples a pixel (mean {:.0f})", least, most,
+                                                 picture.mean_samples());
+  if (picture.noise_left) text += fmt::format(", denoised with a mean error of {:.2g} %", 100 * *picture.noise_left);
+  return text;
 }
 
 Json counts_of(const RayCounts& kinds) {
@@ -92,6 +95,7 @@ Json json_of(const Result& picture, size_t parts) {
                      {"mean_samples", picture.mean_samples()}};
   if (quality.fireflies > 0) json["fireflies"] = quality.fireflies;
   if (quality.clamp > 0) json["clamp"] = {{"at", quality.clamp}, {"samples", quality.clamped}};
+  if (picture.noise_left) json["noise_left"] = *picture.noise_left;
   if (picture.ray_kinds) json["ray_kinds"] = counts_of(*picture.ray_kinds);
   if (totals.samples_resumed > 0)
     json["resumed"] = {{"samples", totals.samples_resumed}, {"rays", totals.rays_resumed}};

@@ -261,6 +261,9 @@ void add_render(CLI::App& app, Run& run) {
                    "picture is biased: darker than the truth.")
       ->option_text("X")
       ->check(within(1e-6, 1e15));
+  command->add_flag(
+      "--denoise", request.denoise,
+      "Remove the noise of random paths from the finished picture. An .exr keeps the noisy one too.");
   command
       ->add_option_function<std::string>(
           "--shard",

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "host/core/diagnostic.hpp"
@@ -28,6 +29,27 @@ float mean_of(double sum, const PixelTotals& totals) {
 void add_reflected_and_refracted(const PixelSample& sample, const AuxiliarySample&, double* sums) {
   sums[0] += sample.reflected;
   sums[1] += sample.refracted;
+}
+
+// Adds to the sums of a mean over every other sample, from the first on. After its three sums comes the
+// number of all samples.
+void add_to_half(const Vec3& value, double* sums) {
+  const auto count = uint64_t(sums[3]++);
+  if (count % 2 == 0)
+    for (int i = 0; i < 3; ++i) sums[i] += value[i];
+}
+
+void means_of_half(const PixelTotals&, const double* sums, float* values) {
+  const double samples = std::max(1.0, std::ceil(sums[3] / 2));
+  for (int i = 0; i < 3; ++i) values[i] = float(sums[i] / samples);
+}
+
+// The variance of the mean: s²/n.
+void variances_of_means(const PixelTotals& totals, const double* sums, float* values) {
+  const double n = totals.samples;
+  for (int i = 0; i < 3; ++i)
+    values[i] =
+        n < 2 ? 0.0f : float(std::max(0.0, sums[i] - totals.color[i] * totals.color[i] / n) / (n * (n - 1)));
 }
 
 void means_of_three(const PixelTotals& totals, const double* sums, float* values) {
@@ -136,6 +158,32 @@ constexpr ChannelType types[] = {
          .add = [](const PixelSample& sample, const AuxiliarySample&,
                    double* sums) { *sums = std::max(*sums, double(float(luminance(sample.color)))); },
          .mean = [](const PixelTotals&, const double* sums, float* values) { *values = float(*sums); }}},
+    {.name = "noisy",
+     .components = 3,
+     .component_names = {"R", "G", "B"},
+     .shown_as = image::FalseColor::color,
+     .values = OfSamples{.mean =
+                             [](const PixelTotals& totals, const double*, float* values) {
+                               for (int i = 0; i < 3; ++i) values[i] = mean_of(totals.color[i], totals);
+                             }}},
+    {.name = "variance",
+     .components = 3,
+     .component_names = {"R", "G", "B"},
+     .shown_as = image::FalseColor::color,
+     .values = OfSamples{.sums = 3,
+                         .add =
+                             [](const PixelSample& sample, const AuxiliarySample&, double* sums) {
+                               for (int i = 0; i < 3; ++i) sums[i] += sample.color[i] * sample.color[i];
+                             },
+                         .mean = variances_of_means}},
+    {.name = "half",
+     .components = 3,
+     .component_names = {"R", "G", "B"},
+     .shown_as = image::FalseColor::color,
+     .values = OfSamples{.sums = 4,
+                         .add = [](const PixelSample& sample, const AuxiliarySample&,
+                                   double* sums) { add_to_half(sample.color, sums); },
+                         .mean = means_of_half}},
     {.name = "albedo",
      .components = 3,
      .component_names = {"R", "G", "B"},
@@ -156,6 +204,23 @@ constexpr ChannelType types[] = {
                                for (int i = 0; i < 3; ++i) sums[i] += auxiliary.normal[i];
                              },
                          .mean = means_of_three},
+     .needs = Needs::auxiliary},
+    {.name = "half_albedo",
+     .components = 3,
+     .component_names = {"R", "G", "B"},
+     .shown_as = image::FalseColor::color,
+     .values = OfSamples{.sums = 4,
+                         .add = [](const PixelSample&, const AuxiliarySample& auxiliary,
+                                   double* sums) { add_to_half(auxiliary.albedo, sums); },
+                         .mean = means_of_half},
+     .needs = Needs::auxiliary},
+    {.name = "half_normal",
+     .components = 3,
+     .shown_as = image::FalseColor::direction,
+     .values = OfSamples{.sums = 4,
+                         .add = [](const PixelSample&, const AuxiliarySample& auxiliary,
+                                   double* sums) { add_to_half(auxiliary.normal, sums); },
+                         .mean = means_of_half},
      .needs = Needs::auxiliary},
     {.name = "nodes",
      .components = 1,

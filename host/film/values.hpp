@@ -24,8 +24,8 @@ class ChannelValues {
   // Passes the values of each channel of first hits to `sink`, in rows of `width` pixels, and counts the hits
   // in the channels' legends.
   void give(std::span<const FirstHit> hits, int width, const Sink& sink);
-  // The legend of the channel with that index; null if its values are not ids.
-  const Legend* legend(size_t channel) const { return legends_[channel] ? &*legends_[channel] : nullptr; }
+  // The legend of one of channels(); null if its values are not ids.
+  const Legend* legend(Channel channel) const;
 
  private:
   Channels channels_;

@@ -55,6 +55,7 @@ session::Request request_of(const v0::RenderOptions& options) {
     request.channels = film::parse_channels(fmt::format("{}", fmt::join(options.aovs, ",")));
   request.noise = options.noise;
   request.clamp = options.clamp;
+  request.denoise = options.denoise;
   request.next_is_alike = true;
   request.progress = progress_of(options.progress, options.cancellation);
   return request;

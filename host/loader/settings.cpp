@@ -118,6 +118,11 @@ constexpr Key render_table[] = {
             "direction. `\"automatic\"`: `bvh` from 64 lights on, else `power`.",
      .fallback = "\"automatic\"",
      .choices = light_samplers},
+    {.name = "denoise",
+     .type = KeyType::boolean,
+     .doc = "Whether to remove the noise of random paths from the finished picture. Only for `path` and "
+            "`sppm`. `eyeray verify` compares noisy pictures.",
+     .fallback = "false"},
     {.name = "photons",
      .type = KeyType::integer,
      .doc = "Number of photons that `sppm` emits for each sample.",
@@ -238,6 +243,7 @@ RenderSettings read_render(reading::TableReader& table) {
     table.error("light_sampler", "`sppm` chooses lights by power, as its photons do, not by a BVH");
   render.photons = static_cast<int>(table.integer("photons"));
   if (table.has("photon_radius")) render.photon_radius = table.number("photon_radius");
+  render.denoise = table.boolean("denoise");
   render.triangle_method = static_cast<TriangleMethod>(table.choice("triangle"));
   render.groups = static_cast<GroupStorage>(table.choice("groups"));
   render.background = table.color("background");

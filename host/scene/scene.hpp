@@ -60,6 +60,7 @@ struct RenderSettings {
   LightSampler light_sampler = LightSampler::automatic;
   GroupStorage groups = GroupStorage::automatic;  // which groups are instanced
   int photons = 1 << 17;                          // photons of `sppm`, emitted for each sample
+  bool denoise = false;      // remove noise from the finished picture; `verify` never does
   double photon_radius = 0;  // within which the first sample gathers photons; 0: see scene/photons.hpp
   Vec3 background{0.0};      // the light of a ray that hits nothing
   Vec3 ambient{0.0};         // light that reaches every point from everywhere

@@ -30,6 +30,9 @@ class Output {
 
   // The files that the output will write. None may be a file that the scene reads.
   virtual std::vector<std::filesystem::path> files() const { return {}; }
+  // Returns true if channels cost no files of their own. Then the channels that only denoising needs are
+  // kept.
+  virtual bool layered() const { return false; }
   // Called before the first sample.
   virtual void begin(const Plan& plan) = 0;
   // The next rows, from the top down, of the colour (plane 0) or of a channel (1 + its index). For a share,

@@ -34,8 +34,10 @@ shards::PartTotals totals_of(const Result& result, const film::ChannelValues& va
   totals.ray_kinds = result.ray_kinds;
   totals.seconds = result.totals.seconds;
   totals.processor_seconds = result.totals.processor_seconds;
-  for (size_t i = 0; i < values.channels().size(); ++i)
-    totals.legends.push_back(values.legend(i) ? values.legend(i)->tally() : film::LegendTally());
+  for (const film::Channel each : values.channels()) {
+    const film::Legend* const legend = values.legend(each);
+    totals.legends.push_back(legend ? legend->tally() : film::LegendTally());
+  }
   return totals;
 }
 

@@ -69,6 +69,10 @@ std::vector<fs::path> PictureFiles::files() const {
   return files_written(outputs_, aovs_);
 }
 
+bool PictureFiles::layered() const {
+  return is_exr(outputs_[0]);
+}
+
 void PictureFiles::begin(const Plan& plan) {
   aovs_ = plan.channels;
   begin(plan.crop.width, plan.crop.height, plan.scene.image.tone);
@@ -116,7 +120,7 @@ void PictureFiles::finish_color() {
 
 void PictureFiles::finish(const film::ChannelValues& values, Result& result) {
   if (!result.interrupted())
-    finish_aovs([&](size_t aov, const fs::path& file) { return values.legend(aov)->write(file); });
+    finish_aovs([&](size_t aov, const fs::path& file) { return values.legend(aovs_[aov])->write(file); });
   else if (layered_ && result.totals.samples_done > 0)
     layered_->finish(written_, false);
   result.files = written_;

@@ -53,6 +53,7 @@ class PictureFiles final : public Output {
   PictureFiles(std::vector<std::string> outputs, const film::Channels& aovs, bool half);
 
   std::vector<std::filesystem::path> files() const override;
+  bool layered() const override;
   void begin(const Plan& plan) override;
   // Begins a picture that is not rendered now. `tone`: the tone curve of each .png.
   void begin(int width, int height, const image::Tone& tone);

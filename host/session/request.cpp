@@ -6,6 +6,7 @@
 #include "host/core/error.hpp"
 #include "host/executors/formula_check.hpp"
 #include "host/render/corners.hpp"
+#include "host/scene/integrator.hpp"
 #include "host/scene/sampler.hpp"
 
 namespace eyeray::engine::session {
@@ -24,6 +25,23 @@ void check_noise(const Request& request, const Scene& scene) {
                 "noise stops after any number of samples, but the pattern '{}' needs all of them: set "
                 "image.pattern to \"sobol\" or \"random\"",
                 sample_patterns[uint32_t(scene.image.pattern)]);
+}
+
+void check_denoise(const Request& request, const Scene& scene) {
+  if (!denoises(request, scene)) return;
+  if (!walks_at_random(scene.render.integrator))
+    throw Error(
+        ExitCode::bad_input,
+        "only pictures by random paths are denoised: set integrator = \"path\" in [render], or leave out "
+        "denoise");
+  if (scene.image.samples < 2)
+    throw Error(
+        ExitCode::bad_input,
+        "denoising compares the samples of a pixel, and this picture has one: set at least 2, such as "
+        "--spp 16");
+  if (request.shard)
+    throw Error(ExitCode::bad_input,
+                "a pixel is denoised from its neighbours, which are in other shards: leave out denoise");
 }
 
 void check_classic(const Request& request) {
@@ -73,6 +91,7 @@ void make_classic(Scene& scene, Request& request) {
 film::Channels check(const Request& request, const Scene& scene) {
   if (request.classic) check_classic(request);
   check_noise(request, scene);
+  check_denoise(request, scene);
   crop_within(request.crop, scene.image);
   return film::channels_of(scene, request.channels);
 }

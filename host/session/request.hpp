@@ -26,6 +26,7 @@ struct Request {
   film::Channels channels;             // beside the colour
   double noise = 0;                    // RenderOptions::noise
   double clamp = 0;                    // RenderOptions::clamp
+  bool denoise = false;                // remove noise from the finished picture, as RenderSettings::denoise
   bool ray_kinds = false;              // count rays by kind
   bool classic = false;                // only by make_classic
   bool next_is_alike = false;          // whether kernels should serve the next scene too
@@ -56,5 +57,10 @@ void make_classic(Scene& scene, Request& request);
 // Throws Error (bad_input) if `scene` cannot be rendered as `request` wants. Returns the request's channels;
 // if all channels were requested, those that the scene does not have are left out.
 film::Channels check(const Request& request, const Scene& scene);
+
+// Returns true if the picture's noise is to be removed at the end.
+inline bool denoises(const Request& request, const Scene& scene) {
+  return request.denoise || scene.render.denoise;
+}
 
 }  // namespace eyeray::engine::session

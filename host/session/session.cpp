@@ -8,6 +8,7 @@
 #include "host/render/corners.hpp"
 #include "host/render/legibility.hpp"
 #include "host/render/shutter.hpp"
+#include "host/session/denoised_output.hpp"
 #include "host/session/identity.hpp"
 
 namespace fs = std::filesystem;
@@ -184,8 +185,10 @@ std::unique_ptr<executors::Executor> Session::executor_for(const Scene& scene, c
 
 Result Session::render(const Scene& scene, const Request& request, Output& output) {
   const Stopwatch watch;
-  const film::Channels channels = check(request, scene);
+  film::Channels channels = check(request, scene);
   spare_sources(output.files(), scene);
+  std::optional<DenoisedOutput> denoised;
+  if (denoises(request, scene)) channels = denoised.emplace(output, channels).channels();
   std::optional<render::ShardTiles> tiles;
   const Rect crop = crop_within(request.crop, scene.image);
   if (request.shard) tiles.emplace(crop, *request.shard);
@@ -193,7 +196,8 @@ Result Session::render(const Scene& scene, const Request& request, Output& outpu
   const auto executor = executor_for(scene, request, channels);
   const Plan plan{
       request, scene, *executor, crop, channels, options_.gpu.fast_math, tiles ? &*tiles : nullptr};
-  Result result = Rendering(plan, *executor, output).run();
+  Result result = Rendering(plan, *executor, denoised ? *denoised : output).run();
+  if (denoised) denoised->describe(result);
   result.seconds = watch.seconds();
   return result;
 }

@@ -294,6 +294,9 @@ struct RenderOptions {
   double noise = 0;
   // Above 0: samples are cut to this value, which removes bright dots and makes the picture darker.
   double clamp = 0;
+  // Removes the noise of random paths from the finished picture. `denoise` in the scene's [render] does the
+  // same.
+  bool denoise = false;
   // The thread that called render() calls this a few times a second. The function returns false to
   // cancel. Its exceptions reach the caller of render().
   std::function<bool(const Progress&)> progress = {};

@@ -14,7 +14,7 @@ __version__: str
 
 def render(scene: Scene | str | PathLike[str] | dict[str, Any], *, size: tuple[int, int] | None = ...,
            spp: int | None = ..., backend: Backend = ..., aovs: Sequence[str] = ...,
-           crop: tuple[int, int, int, int] | None = ..., noise: float = ..., clamp: float = ...,
+           crop: tuple[int, int, int, int] | None = ..., noise: float = ..., clamp: float = ..., denoise: bool = ...,
            progress: Callable[[float], bool | None] | None = ...,
            cancellation: Cancellation | None = ...) -> Picture: ...
 def verify(scene: Scene | str | PathLike[str] | dict[str, Any], *, size: tuple[int, int] | None = ...,

@@ -349,7 +349,7 @@ Surface clear_of_leaves(Primitive s, Surface surface, Ray ray, uint own) {
     vec3 step = worst.w > 0.0f ? step_inside(worst, before, 4.0f * room) : vec3(0.0f, 0.0f, 0.0f);
     before = vec4(vec3(worst), worst.w + dot3(vec3(worst), step));
     inward = inward + step;
-    // Where the surface bends so much that it turns away from rays that start there, less of the way.
+    // A surface that bends much turns away from the rays that start there: then the step is shorter.
     vec4 level = leaf_level(leaf, p + inward);
     float steep = dot3(vec3(level), n);
     float turned = 1.0f - steep * steep / dot3(vec3(level), vec3(level));

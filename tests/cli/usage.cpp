@@ -86,8 +86,8 @@ TEST_CASE("a wrong command line gives one line with a suggestion, and code 2") {
        "--timeout must be a number from 0.001 to 1000000, not 'nan' (see eyeray render --help)"},
       {{"render", scene, "--aov", "dept"},
        "no AOV 'dept'; did you mean 'depth'? There are depth, position, normal, normal_geometric, front, "
-       "uv, shape, primitive, material, hits, bounces, rays, ray_kinds, samples, noise, brightest, albedo, "
-       "shading_normal, nodes, tests, flags "
+       "uv, shape, primitive, material, hits, bounces, rays, ray_kinds, samples, noise, brightest, noisy, "
+       "variance, half, albedo, shading_normal, half_albedo, half_normal, nodes, tests, flags "
        "and all"},
       {{"render", scene, "-o", folder / "x.gif"},
        folder / "x.gif" + ": a picture's name must end in .png, .pfm, .hdr or .exr"},

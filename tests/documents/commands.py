@@ -127,6 +127,8 @@ def made_small(words):
     """The command with small sizes, and no pixel of a probe outside them."""
     words = list(words)
     for option, value in SMALL.items():
+        if option == "--spp" and "--denoise" in words:
+            value = "2"
         if option in words:
             words[words.index(option) + 1] = value
         elif words[0] in SIZED and option in {"-s", "--spp"}.difference(*(UNSIZED.get(word, ()) for word in words)):

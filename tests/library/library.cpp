@@ -5,6 +5,7 @@
 #include <eyeray/eyeray.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -115,6 +116,24 @@ TEST_CASE("a picture has the warnings that the command line prints") {
   const Scene lit = Scene::read("scenes/meshes/knot.ply",
                                 {.defines = {"image.width=32", "image.height=24", "image.exposure=9"}});
   CHECK(only_warning(lit, {}).find("exposure") != std::string::npos);
+}
+
+TEST_CASE("a denoised picture has less noise, and the AOVs that were requested") {
+  const auto render = [&](const std::string& samples, bool denoise) {
+    const Scene box =
+        Scene::read("scenes/path/cornell_box.toml",
+                    {.defines = {"image.width=48", "image.height=48", "image.samples=" + samples}});
+    return renderer().render(box, {.aovs = {"depth"}, .denoise = denoise});
+  };
+  const Picture truth = render("256", false), noisy = render("8", false), denoised = render("8", true);
+  CHECK(denoised.aovs() == std::vector<std::string>{"depth"});
+  const auto error = [&](const Picture& picture) {
+    double sum = 0;
+    for (size_t i = 0; i < truth.color().values.size(); ++i)
+      sum += std::pow(double(picture.color().values[i]) - double(truth.color().values[i]), 2);
+    return sum;
+  };
+  CHECK(error(denoised) < error(noisy) / 2);
 }
 
 TEST_CASE("a picture's planes have the shapes that the header documents") {

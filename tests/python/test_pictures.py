@@ -112,6 +112,18 @@ def test_numpy_converts_a_picture_to_its_colours():
 TABLES = {"camera": {"eye": [0, 1, 4], "target": [0, 1, 0]}, "render": {"background": np.array([0.25, 0.5, 0.75])}}
 
 
+def test_denoised_pictures_equal_those_of_the_program(tmp_path):
+    box = "scenes/path/cornell_box.toml"
+    picture = eyeray.render(box, size=(48, 32), spp=4, denoise=True)
+    picture.write(tmp_path / "ours.pfm")
+    subprocess.run([os.environ["EYERAY_BINARY"], "render", box, "-s", "48x32", "--spp", "4", "--denoise", "-q",
+                    "-o", tmp_path / "theirs.pfm"], check=True)
+    assert (tmp_path / "ours.pfm").read_bytes() == (tmp_path / "theirs.pfm").read_bytes()
+    assert picture.aovs == ()
+    with pytest.raises(eyeray.InputError, match="^only pictures by random paths are denoised: "):
+        eyeray.render(SMALL, denoise=True)
+
+
 def test_files_and_dicts_are_rendered_directly(tmp_path):
     for scene in (SMALL, pathlib.Path(SMALL), TABLES):
         picture = eyeray.render(scene, size=(32, np.int64(16)), spp=4, backend="twin")

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 
 #include "host/scene/luminance.hpp"
@@ -91,6 +92,23 @@ TEST_CASE("channels are the means of a pixel's samples") {
     CHECK(value("samples", i) == taken);
     for (int c = 0; c < 3; ++c) {
       CHECK(rows.color.samples()[3 * i + size_t(c)] == mean_of([&](S s, A) { return s.color[c]; }));
+      CHECK(value("noisy", i, size_t(c)) == rows.color.samples()[3 * i + size_t(c)]);
+      double half = 0, half_albedo = 0, half_normal = 0, squares = 0, sum = 0;
+      for (size_t s = 0; s < all.size(); ++s) {
+        const double color = all[s].samples[i].color[c];
+        sum += color;
+        squares += color * color;
+        if (s % 2 == 1) continue;
+        half += color;
+        half_albedo += all[s].auxiliaries[i].albedo[c];
+        half_normal += all[s].auxiliaries[i].normal[c];
+      }
+      const double n = double(all.size()), in_half = std::ceil(n / 2);
+      CHECK(value("half", i, size_t(c)) == float(half / in_half));
+      CHECK(value("half_albedo", i, size_t(c)) == float(half_albedo / in_half));
+      CHECK(value("half_normal", i, size_t(c)) == float(half_normal / in_half));
+      CHECK(double(value("variance", i, size_t(c))) ==
+            doctest::Approx((squares - sum * sum / n) / (n * (n - 1))).epsilon(1e-5));
       CHECK(value("albedo", i, size_t(c)) == mean_of([&](S, A a) { return a.albedo[c]; }));
       CHECK(value("shading_normal", i, size_t(c)) == mean_of([&](S, A a) { return a.normal[c]; }));
     }

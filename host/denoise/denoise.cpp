@@ -1,0 +1,325 @@
+#include "host/denoise/denoise.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "host/core/error.hpp"
+#include "host/core/parallel_for.hpp"
+#include "host/denoise/block_means.hpp"
+#include "host/denoise/distances.hpp"
+#include "host/denoise/regression.hpp"
+#include "host/scene/luminance.hpp"
+
+namespace eyeray::engine::denoise {
+namespace {
+
+using image::Image;
+
+// The weight of differences in two fits: one keeps details, and one averages more.
+constexpr float careful_strictness = 2.5f, bold_strictness = 0.4f;
+constexpr int feature_radius = 5;          // radius of the window in which features lose their noise
+constexpr float feature_variance = 1e-4f;  // added to the variance of features, which are from −1 to 1
+constexpr float least_albedo = 0.02f;      // the least that colours are divided by
+constexpr float dot_brightness = 16;       // the least brightness of a dot, relative to its surroundings
+constexpr float dot_doubt = 0.2f;          // the least standard error of a dot, relative to its brightness
+constexpr int scaling_radius = 5;  // radius of the windows in which variances are compared with the halves
+constexpr int error_radius = 2;    // radius of the windows in which errors are estimated
+
+// The means of the first and of the second half of the samples, or their variances.
+struct Halves {
+  Halves(int width, int height, int count) : first(width, height, count), second(width, height, count) {}
+  void extend() {
+    first.extend();
+    second.extend();
+  }
+  Planes first, second;
+};
+
+// Calls body(x, y) for each pixel.
+template <typename Body>
+void for_each_pixel(const Planes& planes, const Body& body) {
+  parallel_for(0, planes.height(), [&](int y) {
+    for (int x = 0; x < planes.width(); ++x) body(x, y);
+  });
+}
+
+// Calls body(x, y) for the first pixel of each tile.
+template <typename Body>
+void for_each_tile(const Planes& planes, const Body& body) {
+  const int across = (planes.width() + tile_width - 1) / tile_width;
+  const int down = (planes.height() + tile_height - 1) / tile_height;
+  parallel_for(0, across * down, [&](int i) { body(i % across * tile_width, i / across * tile_height); });
+}
+
+// One picture while its noise is removed.
+class Denoising {
+ public:
+  explicit Denoising(const NoisyPicture& picture)
+      : picture_(picture),
+        width_(picture.color.width()),
+        height_(picture.color.height()),
+        valid_(width_, height_, 1) {
+    CHECK(picture.samples.width() == width_ && picture.samples.height() == height_);
+    for_each_pixel(valid_, [&](int x, int y) { *valid_.at(0, x, y) = usable(x, y) ? 1.0f : 0.0f; });
+    leave_out_dots();
+  }
+
+  DenoisedPicture run() {
+    const Planes features = features_without_noise();
+    Halves colors(width_, height_, 3);
+    split(picture_.color, picture_.half_color, 0, colors);
+    Halves variances = variances_of(colors);
+    colors.extend();
+    Halves lights = colors, light_variances = variances;
+    divide_by_albedo(features, lights, light_variances);
+    lights.extend();
+    light_variances.extend();
+    const float least = least_variance(lights.first);
+
+    Halves careful(width_, height_, 3), bold(width_, height_, 3);
+    for_each_tile(valid_, [&](int x, int y) {
+      Distances distances(window_radius);
+      const auto fit = [&](const Planes& half, Planes& one, Planes& other) {
+        fit_tile(half, features, distances, careful_strictness, x, y, one);
+        fit_tile(half, features, distances, bold_strictness, x, y, other);
+      };
+      distances.compute(lights.second, light_variances.second, least, valid_, x, y);
+      fit(colors.first, careful.first, bold.first);
+      distances.compute(lights.first, light_variances.first, least, valid_, x, y);
+      fit(colors.second, careful.second, bold.second);
+    });
+    return result_of(best_of(colors, variances, std::move(careful), bold));
+  }
+
+ private:
+  bool usable(int x, int y) const {
+    bool usable = *picture_.samples.pixel(x, y) >= 2;
+    for (const Image* each : {&picture_.color, &picture_.half_color, &picture_.variance, &picture_.albedo,
+                              &picture_.half_albedo, &picture_.normal, &picture_.half_normal})
+      for (int c = 0; c < 3; ++c) usable = usable && std::isfinite(each->pixel(x, y)[c]);
+    return usable;
+  }
+  bool valid(int x, int y) const { return *valid_.at(0, x, y) != 0; }
+
+  static float light(const Image& image, int x, int y) {
+    const float* const color = image.pixel(x, y);
+    return float(luminance(Vec3(color[0], color[1], color[2])));
+  }
+
+  // Dots that would still be seen if they were spread over a window stay, and do not count. They are much
+  // brighter than their surroundings, and uncertain.
+  void leave_out_dots() {
+    const auto brightness = [&](int x, int y) { return valid(x, y) ? light(picture_.color, x, y) : 0.0f; };
+    const float floor =
+        0.01f * float(parallel_sum(0, width_ * height_,
+                                   [&](int i) { return double(brightness(i % width_, i / width_)); }) /
+                      (double(width_) * height_));
+    Planes dots(width_, height_, 1);
+    for_each_pixel(valid_, [&](int x, int y) {
+      const float here = brightness(x, y);
+      std::array<float, 25> around;
+      int count = 0;
+      for (int j = std::max(0, y - 2); j <= std::min(height_ - 1, y + 2); ++j)
+        for (int i = std::max(0, x - 2); i <= std::min(width_ - 1, x + 2); ++i)
+          around[size_t(count++)] = brightness(i, j);
+      std::nth_element(around.begin(), around.begin() + count / 2, around.begin() + count);
+      const bool bright = here > dot_brightness * (around[size_t(count / 2)] + floor);
+      if (bright && std::sqrt(light(picture_.variance, x, y)) > dot_doubt * here) *dots.at(0, x, y) = 1;
+    });
+    for_each_pixel(valid_, [&](int x, int y) {
+      if (*dots.at(0, x, y) != 0) *valid_.at(0, x, y) = 0;
+    });
+  }
+
+  // The share of the samples that are in the first half.
+  float first_share(int x, int y) const {
+    const auto samples = int64_t(*picture_.samples.pixel(x, y));
+    return float((samples + 1) / 2) / float(samples);
+  }
+
+  // Writes the two halves of a mean to the planes from `plane` on.
+  void split(const Image& mean, const Image& half, int plane, Halves& halves) const {
+    for_each_pixel(valid_, [&](int x, int y) {
+      if (!valid(x, y)) return;
+      const float share = first_share(x, y);
+      for (int c = 0; c < 3; ++c) {
+        const float first = half.pixel(x, y)[c];
+        *halves.first.at(plane + c, x, y) = first;
+        *halves.second.at(plane + c, x, y) = (mean.pixel(x, y)[c] - share * first) / (1 - share);
+      }
+    });
+  }
+
+  // The variance of a pixel's few samples is uncertain. It is at least the mean of those around, without the
+  // two greatest. Only that mean is scaled.
+  static float likely_variance(const Planes& variances, int plane, int x, int y, float scale) {
+    std::array<float, 9> around;
+    size_t count = 0;
+    for (int j = -1; j <= 1; ++j)
+      for (int i = -1; i <= 1; ++i) around[count++] = *variances.at(plane, x + i, y + j);
+    std::ranges::sort(around);
+    float usual = 0;
+    for (size_t i = 0; i < 7; ++i) usual += around[i] / 7;
+    const float own = *variances.at(plane, x, y);
+    return own > 4 * usual ? own : scale * std::max(usual, own);
+  }
+
+  // The stated variance is that of independent samples. Samples that are spread evenly have less. So it is
+  // scaled to how much the halves differ in a larger window.
+  Halves variances_of(const Halves& colors) const {
+    Halves stated(width_, height_, 3);
+    Planes sums(width_, height_, 2);  // the halves' stated variances, and their squared differences
+    for_each_pixel(valid_, [&](int x, int y) {
+      if (!valid(x, y)) return;
+      const float share = first_share(x, y);
+      for (int c = 0; c < 3; ++c) {
+        const float variance = picture_.variance.pixel(x, y)[c];
+        const float apart = *colors.first.at(c, x, y) - *colors.second.at(c, x, y);
+        *stated.first.at(c, x, y) = variance / share;
+        *stated.second.at(c, x, y) = variance / (1 - share);
+        *sums.at(0, x, y) += variance / share + variance / (1 - share);
+        *sums.at(1, x, y) += apart * apart;
+      }
+    });
+    stated.extend();
+    sums.extend();
+    const Planes ratio = blurred(sums, scaling_radius);
+    Halves result(width_, height_, 3);
+    for_each_pixel(valid_, [&](int x, int y) {
+      const float all = *ratio.at(0, x, y);
+      const float scale = all > 0 ? std::min(1.0f, *ratio.at(1, x, y) / all) : 0.0f;
+      for (int c = 0; c < 3; ++c) {
+        *result.first.at(c, x, y) = likely_variance(stated.first, c, x, y, scale);
+        *result.second.at(c, x, y) = likely_variance(stated.second, c, x, y, scale);
+      }
+    });
+    return result;
+  }
+
+  // Arriving light is smoother than a texture that it falls on.
+  void divide_by_albedo(const Planes& features, Halves& colors, Halves& variances) const {
+    for_each_pixel(valid_, [&](int x, int y) {
+      for (int c = 0; c < 3; ++c) {
+        const float factor = 1 / std::max(*features.at(c, x, y), least_albedo);
+        for (Planes* each : {&colors.first, &colors.second}) *each->at(c, x, y) *= factor;
+        for (Planes* each : {&variances.first, &variances.second}) *each->at(c, x, y) *= factor * factor;
+      }
+    });
+  }
+
+  // Albedo and normal, each half averaged with weights from the other one.
+  Planes features_without_noise() const {
+    Halves halves(width_, height_, feature_count);
+    split(picture_.albedo, picture_.half_albedo, 0, halves);
+    split(picture_.normal, picture_.half_normal, 3, halves);
+    halves.extend();
+    Planes squares(width_, height_, feature_count);
+    for_each_pixel(valid_, [&](int x, int y) {
+      for (int f = 0; f < feature_count; ++f) {
+        const float apart = *halves.first.at(f, x, y) - *halves.second.at(f, x, y);
+        *squares.at(f, x, y) = 0.5f * apart * apart;
+      }
+    });
+    squares.extend();
+    const Planes variances = blurred(squares, 2);
+
+    Planes features(width_, height_, feature_count);
+    for_each_tile(valid_, [&](int x, int y) {
+      Distances distances(feature_radius);
+      distances.compute(halves.second, variances, feature_variance, valid_, x, y);
+      average_tile(halves.first, distances, x, y, features);
+      distances.compute(halves.first, variances, feature_variance, valid_, x, y);
+      average_tile(halves.second, distances, x, y, features);
+    });
+    features.extend();
+    return features;
+  }
+
+  // Far below any noise that is seen.
+  float least_variance(const Planes& colors) const {
+    double sum = 0;
+    for (int y = 0; y < height_; ++y)
+      for (int x = 0; x < width_; ++x) sum += double(*colors.at(1, x, y));
+    const double mean = sum / (double(width_) * height_);
+    return float(std::max(1e-8 * mean * mean, 1e-30));
+  }
+
+  // The squared error of each fit in a small window, in plane 0: that from the other half, less that half's
+  // variance, which is in plane 1.
+  Planes errors_of(const Halves& colors, const Halves& variances, const Halves& fitted) const {
+    Planes sums(width_, height_, 2);
+    for_each_pixel(valid_, [&](int x, int y) {
+      if (!valid(x, y)) return;
+      for (int c = 0; c < 3; ++c) {
+        const float first = *fitted.first.at(c, x, y) - *colors.second.at(c, x, y);
+        const float second = *fitted.second.at(c, x, y) - *colors.first.at(c, x, y);
+        const float noise = *variances.first.at(c, x, y) + *variances.second.at(c, x, y);
+        *sums.at(0, x, y) += 0.5f * (first * first + second * second - noise);
+        *sums.at(1, x, y) += 0.5f * noise;
+      }
+    });
+    sums.extend();
+    return blurred(sums, error_radius);
+  }
+
+  // At each pixel the fit whose error is less. It is mixed with the noisy halves so that the error is least:
+  // for an error e² and the variance v of both halves' mean, by e²/(e² + v). The estimate of e² is uncertain
+  // by about v, which does not count.
+  Halves best_of(const Halves& colors, const Halves& variances, Halves one, const Halves& other) const {
+    const Planes errors = errors_of(colors, variances, one), others = errors_of(colors, variances, other);
+    for_each_pixel(valid_, [&](int x, int y) {
+      const bool better = *others.at(0, x, y) < *errors.at(0, x, y);
+      const float noise = 0.5f * *errors.at(1, x, y);
+      const float error = std::max(0.0f, std::min(*errors.at(0, x, y), *others.at(0, x, y)) - noise);
+      const float share = error > 0 ? error / (error + noise) : 0.0f;
+      for (int c = 0; c < 3; ++c) {
+        const auto mix = [&](Planes& mixed, const Planes& second, const Planes& noisy) {
+          float& value = *mixed.at(c, x, y);
+          if (better) value = *second.at(c, x, y);
+          value += share * (*noisy.at(c, x, y) - value);
+        };
+        mix(one.first, other.first, colors.first);
+        mix(one.second, other.second, colors.second);
+      }
+    });
+    return one;
+  }
+
+  DenoisedPicture result_of(const Halves& fitted) const {
+    DenoisedPicture result{picture_.color};
+    double errors = 0, sum = 0;
+    for (int y = 0; y < height_; ++y) {
+      for (int x = 0; x < width_; ++x) {
+        if (!valid(x, y)) continue;
+        const float share = first_share(x, y);
+        Vec3 mean(0.0), error(0.0);
+        for (int c = 0; c < 3; ++c) {
+          const float first = *fitted.first.at(c, x, y), second = *fitted.second.at(c, x, y);
+          result.color.pixel(x, y)[c] = share * first + (1 - share) * second;
+          mean[c] = double(result.color.pixel(x, y)[c]);
+          error[c] = double(first - second) / 2;
+        }
+        errors += std::abs(luminance(error));
+        sum += luminance(mean);
+      }
+    }
+    keep_block_means(picture_.color, valid_, result.color);
+    result.error = sum > 0 ? errors / sum : 0;
+    return result;
+  }
+
+  const NoisyPicture& picture_;
+  const int width_, height_;
+  Planes valid_;  // 1 for pixels that take part
+};
+
+}  // namespace
+
+DenoisedPicture denoise(const NoisyPicture& picture) {
+  return Denoising(picture).run();
+}
+
+}  // namespace eyeray::engine::denoise

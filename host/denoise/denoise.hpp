@@ -1,0 +1,43 @@
+// Removes the noise of a picture by paths.
+#pragma once
+
+#include "host/image/image.hpp"
+
+namespace eyeray::engine::denoise {
+
+// The inputs of denoising: images of the same size. All but `samples` and `variance` are means over a pixel's
+// samples, or over every other one, from the first on (`half_…`). Albedo and normal belong to the first
+// surface that scatters light.
+struct NoisyPicture {
+  image::Image color;        // linear RGB
+  image::Image half_color;   // linear RGB
+  image::Image variance;     // the variance of `color`, that is of the mean, in 3 channels
+  image::Image albedo;       // 3 channels, 0 to 1
+  image::Image half_albedo;  // 3 channels
+  image::Image normal;       // 3 channels
+  image::Image half_normal;  // 3 channels
+  image::Image samples;      // the number of the pixel's samples, in 1 channel
+};
+
+struct DenoisedPicture {
+  image::Image color;  // linear RGB
+  // An estimate of the remaining noise: the mean of the pixels' errors of luminance, relative to the mean
+  // luminance. Blurred details do not count.
+  double error = 0;
+};
+
+// In a window around each pixel, the colour is a linear function of albedo and normal, found by weighted
+// least squares. A neighbour has more weight, the less the two differ beyond their noise. Each half of the
+// samples is fitted with weights from the other half, so that noise does not choose its own weights. The mean
+// of the two is the result. Stricter and looser weights compete at each pixel: the fit counts that is nearer
+// to the other half.
+//
+// Every block of 64 × 64 pixels keeps its mean brightness. Some pixels stay as they are: those that are not
+// finite, have less than two samples, or are dots far brighter than their surroundings. The result does not
+// depend on the number of threads.
+//
+// After Bitterli, Rousselle, Moon, Iglesias-Guitián, Adler, Mitchell, Jarosz and Novák, "Nonlinearly Weighted
+// First-order Regression for Denoising Monte Carlo Renderings" (EGSR 2016).
+DenoisedPicture denoise(const NoisyPicture& picture);
+
+}  // namespace eyeray::engine::denoise

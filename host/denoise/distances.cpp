@@ -1,0 +1,62 @@
+#include "host/denoise/distances.hpp"
+
+namespace eyeray::engine::denoise {
+namespace {
+
+constexpr int patch = 2 * patch_radius + 1;
+constexpr int high = tile_height + 2 * patch_radius;
+constexpr int wide = tile_width + 8;  // a whole number of vectors; the last two columns are not used
+constexpr float own_part = 0.25f;
+constexpr float far_away = 1e30f;
+
+}  // namespace
+
+void Distances::compute(const Planes& values, const Planes& variances, float least, const Planes& valid,
+                        int x, int y) {
+  const int planes = values.count();
+  const float mean = 1.0f / float(planes * patch * patch);
+  const float own_mean = own_part / float(planes);
+  const int rows = std::min(tile_height, values.height() - y);
+  const int left = x - patch_radius, top = y - patch_radius;
+  float differences[high][wide];
+  float sums[high][tile_width];
+  for (int dy = -radius_; dy <= radius_; ++dy) {
+    for (int dx = -radius_; dx <= radius_; ++dx) {
+      for (int j = 0; j < rows + 2 * patch_radius; ++j) {
+        float* const row = differences[j];
+        std::fill_n(row, wide, 0.0f);
+        for (int plane = 0; plane < planes; ++plane) {
+          const float* const a = values.at(plane, left, top + j);
+          const float* const b = values.at(plane, left + dx, top + j + dy);
+          const float* const va = variances.at(plane, left, top + j);
+          const float* const vb = variances.at(plane, left + dx, top + j + dy);
+          for (int i = 0; i < wide; ++i) {
+            const float apart = a[i] - b[i];
+            const float noise = va[i] + std::min(va[i], vb[i]);
+            row[i] += (apart * apart - noise) / (least + noise);
+          }
+        }
+        const float* const here = valid.at(0, left, top + j);
+        const float* const there = valid.at(0, left + dx, top + j + dy);
+        for (int i = 0; i < wide; ++i) row[i] *= here[i] * there[i];
+        std::fill_n(sums[j], tile_width, 0.0f);
+        for (int k = 0; k < patch; ++k)
+          for (int i = 0; i < tile_width; ++i) sums[j][i] += row[i + k];
+      }
+      for (int j = 0; j < rows; ++j) {
+        float* const out = &values_[index(dx, dy, j)];
+        std::fill_n(out, tile_width, 0.0f);
+        for (int k = 0; k < patch; ++k)
+          for (int i = 0; i < tile_width; ++i) out[i] += sums[j + k][i];
+        const float* const own = &differences[j + patch_radius][patch_radius];
+        const float* const counts = valid.at(0, x + dx, y + j + dy);
+        for (int i = 0; i < tile_width; ++i) {
+          const float distance = std::max(0.0f, std::max(out[i] * mean, own[i] * own_mean));
+          out[i] = distance + (1 - counts[i]) * far_away;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace eyeray::engine::denoise
