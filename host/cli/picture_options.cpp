@@ -34,10 +34,8 @@ void PictureOptions::add_to(CLI::App& command) {
       .add_option_function<std::string>(
           "--aov", parse,
           fmt::format("Also write AOVs, by name, or all. Samples have {}. First hits have {}. Each is "
-                      "written as data "
-                      "(FILE.NAME.pfm) and in false colour (FILE.NAME.png), or as a layer of FILE.exr. Ids "
-                      "get a legend "
-                      "(FILE.NAME.json).",
+                      "written as data (FILE.NAME.pfm) and in false colour (FILE.NAME.png), or as a layer of "
+                      "FILE.exr. Ids get a legend (FILE.NAME.json).",
                       film::channel_names(channels_of(true)), film::channel_names(channels_of(false))))
       ->option_text("LIST");
   command.add_flag("--half", half, "Write the colours of an .exr in 16 bits a channel, not 32.");

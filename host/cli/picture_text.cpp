@@ -30,7 +30,8 @@ std::string samples_of(const Result& picture) {
   std::string text = least == most ? fmt::format("{} sample{} a pixel", least, least == 1 ? "" : "s")
                                    : fmt::format("{} to {} samples a pixel (mean {:.0f})", least, most,
                                                  picture.mean_samples());
-  if (picture.noise_left) text += fmt::format(", denoised with a mean error of {:.2g} %", 100 * *picture.noise_left);
+  if (picture.noise_left)
+    text += fmt::format(", denoised with a mean error of {:.2g} %", 100 * *picture.noise_left);
   return text;
 }
 

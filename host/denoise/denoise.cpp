@@ -120,7 +120,7 @@ class Denoising {
     Planes dots(width_, height_, 1);
     for_each_pixel(valid_, [&](int x, int y) {
       const float here = brightness(x, y);
-      std::array<float, 25> around;
+      std::array<float, 25> around{};
       int count = 0;
       for (int j = std::max(0, y - 2); j <= std::min(height_ - 1, y + 2); ++j)
         for (int i = std::max(0, x - 2); i <= std::min(width_ - 1, x + 2); ++i)
@@ -156,7 +156,7 @@ class Denoising {
   // The variance of a pixel's few samples is uncertain. It is at least the mean of those around, without the
   // two greatest. Only that mean is scaled.
   static float likely_variance(const Planes& variances, int plane, int x, int y, float scale) {
-    std::array<float, 9> around;
+    std::array<float, 9> around{};
     size_t count = 0;
     for (int j = -1; j <= 1; ++j)
       for (int i = -1; i <= 1; ++i) around[count++] = *variances.at(plane, x + i, y + j);

@@ -12,6 +12,8 @@
 namespace eyeray::engine::session {
 namespace {
 
+constexpr int64_t most_denoised = int64_t{1} << 24;  // pixels, at 300 bytes each
+
 void check_noise(const Request& request, const Scene& scene) {
   if (!(request.noise >= 0 && request.noise <= 1) || !(request.clamp >= 0 && request.clamp <= 1e15))
     throw Error(ExitCode::bad_input, "noise must be from 0 to 1, and clamp from 0 to 1e15");
@@ -39,6 +41,11 @@ void check_denoise(const Request& request, const Scene& scene) {
         ExitCode::bad_input,
         "denoising compares the samples of a pixel, and this picture has one: set at least 2, such as "
         "--spp 16");
+  if (const int64_t pixels = crop_within(request.crop, scene.image).pixels(); pixels > most_denoised)
+    throw Error(
+        ExitCode::bad_input,
+        "denoising has room for {} pixels, and this picture has {}: render crops of it, or leave out denoise",
+        most_denoised, pixels);
   if (request.shard)
     throw Error(ExitCode::bad_input,
                 "a pixel is denoised from its neighbours, which are in other shards: leave out denoise");

@@ -87,6 +87,11 @@ TEST_CASE("--denoise needs random paths, two samples and the whole picture") {
   CHECK(refused(box("1", {"--denoise", "-o", folder / "no.png"})) ==
         "eyeray: error: denoising compares the samples of a pixel, and this picture has one: set at least 2, "
         "such as --spp 16\n");
+  CHECK(refused({"render", "scenes/path/cornell_box.toml", "-s", "10000x10000", "--denoise", "-o",
+                 folder / "no.png"}) ==
+        "eyeray: error: denoising has room for 16777216 pixels, and this picture has 100000000: render crops "
+        "of "
+        "it, or leave out denoise\n");
   CHECK(refused(box("4", {"--denoise", "--shard", "1/2", "-o", folder / "no.eyeray"})) ==
         "eyeray: error: a pixel is denoised from its neighbours, which are in other shards: leave out "
         "denoise\n");

@@ -17,7 +17,7 @@ class Shaders : public SceneFolder {
  public:
   std::string sphere() const { return *this / "shaders/shapes/sphere.glsl"; }
   void insert(const std::string& statements) {
-    const std::string before = "  return discriminant >= 0.0f ? t : T_NONE;\n";
+    const std::string before = "  return discriminant > 0.0f ? t : T_NONE;\n";
     lay_changed_shader(*this / "shaders", "shapes/sphere.glsl", before, statements + before);
     const std::string text = read_text(sphere());
     line_ = 1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(text.find(statements + before)), '\n');

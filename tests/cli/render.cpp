@@ -97,8 +97,10 @@ TEST_CASE("AOVs hold the hits of the camera rays") {
   REQUIRE(result.code == 0);
   std::set<std::string> expected{"scene.toml", "a.png"};
   for (const std::string name :
-       {"depth", "position", "normal", "normal_geometric", "front", "uv", "shape", "primitive", "material",
-        "hits", "bounces", "rays", "ray_kinds", "samples", "noise", "brightest", "nodes", "tests", "flags"})
+       {"depth",     "position",  "normal", "normal_geometric", "front", "uv",        "shape",
+        "primitive", "material",  "hits",   "bounces",          "rays",  "ray_kinds", "samples",
+        "noise",     "brightest", "noisy",  "variance",         "half",  "nodes",     "tests",
+        "flags"})
     expected.insert({"a." + name + ".pfm", "a." + name + ".png"});
   expected.insert({"a.shape.json", "a.primitive.json", "a.material.json"});
   CHECK(folder.names() == expected);

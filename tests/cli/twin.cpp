@@ -33,7 +33,7 @@ struct Users : SceneFolder {
   }
   // Puts `code` where a sphere's hit is returned; returns the number of its first line.
   int change_sphere(const std::string& code) const {
-    const std::string before = "  return discriminant >= 0.0f ? t : T_NONE;\n";
+    const std::string before = "  return discriminant > 0.0f ? t : T_NONE;\n";
     replace_in_file(sphere, before, code + before);
     const std::string text = read_text(sphere);
     return 1 + int(std::count(text.begin(), text.begin() + std::ptrdiff_t(text.find(code)), '\n'));

@@ -249,7 +249,7 @@ TEST_CASE("a loop of a renderer's shaders that does not end is an error that nam
       std::filesystem::temp_directory_path() / ("eyeray-endless-" + std::to_string(getpid()));
   std::filesystem::create_directories(folder / "shapes");
   std::string text = bytes_of("shaders/shapes/sphere.glsl");
-  const std::string end = "  return discriminant >= 0.0f ? t : T_NONE;\n";
+  const std::string end = "  return discriminant > 0.0f ? t : T_NONE;\n";
   REQUIRE(text.find(end) != std::string::npos);
   text.insert(text.find(end), "  while (true) {}\n");
   std::ofstream(folder / "shapes/sphere.glsl") << text;
