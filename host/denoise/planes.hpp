@@ -17,11 +17,11 @@ class Planes {
  public:
   Planes() = default;
   Planes(int width, int height, int count)
-      : width_(width), height_(height), values_(size_t(count) * plane_size()) {}
+      : width_(width), height_(height), count_(count), values_(size_t(count) * plane_size() + beyond) {}
 
   int width() const { return width_; }
   int height() const { return height_; }
-  int count() const { return int(values_.size() / plane_size()); }
+  int count() const { return count_; }
   // The value at (x, y); x and y may lie up to `margin` outside of the picture. Those after it are to its
   // right, and then in the next row.
   float* at(int plane, int x, int y) { return &values_[index(plane, x, y)]; }
@@ -42,8 +42,11 @@ class Planes {
     return size_t(plane) * plane_size() + size_t(y + margin) * stride() + size_t(x + margin);
   }
 
+  static constexpr size_t beyond = 64;  // values after the last row, for the tiles that reach over it
+
   int width_ = 0;
   int height_ = 0;
+  int count_ = 0;
   std::vector<float> values_;
 };
 
