@@ -24,24 +24,20 @@ const std::map<std::string, double> leaking = {{"mesh with an edge into the room
                                                {"open cylinder and disks", 10},
                                                {"polygons with holes", 300}};
 
-// A camera that looks from `position`, far from the eye, in all directions: coordinates are relative to the
-// eye.
-std::string bright(const Vec3& position) {
+// A camera whose rays start at `origin`, and a white material. `direction`: the statements of a function in
+// GLSL.
+std::string camera_from(int size, const Vec3& origin, const std::string& direction) {
   return fmt::format(R"(
 [image]
-width = 96
-height = 96
+width = {0}
+height = {0}
 [camera]
 type = "formula"
 eye = [0, 0, 0]
 target = [0, 0, -1]
 code = """
-vec3 origin(vec2 place, vec2 lens) {{ return vec3({:.1f}, {:.1f}, {:.1f}); }}
-vec3 direction(vec2 place, vec2 lens) {{
-  float z = fract(0.5 + 0.5 * place.x) * 2.0 - 1.0;
-  float turn = 3.1415927 * place.y;
-  return vec3(sqrt(max(0.0, 1.0 - z * z)) * vec2(cos(turn), sin(turn)), z);
-}}
+vec3 origin(vec2 place, vec2 lens) {{ return vec3({1:.9f}, {2:.9f}, {3:.9f}); }}
+vec3 direction(vec2 place, vec2 lens) {{ {4} }}
 """
 [render]
 integrator = "path"
@@ -52,7 +48,16 @@ name = 'm'
 type = 'diffuse'
 color = 1
 )",
-                     position.x, position.y, -position.z);
+                     size, origin.x, origin.y, -origin.z, direction);
+}
+
+// A camera that looks from `position` in all directions.
+std::string bright(const Vec3& position) {
+  return camera_from(96, position, R"(
+  float z = fract(0.5 + 0.5 * place.x) * 2.0 - 1.0;
+  float turn = 3.1415927 * place.y;
+  return vec3(sqrt(max(0.0, 1.0 - z * z)) * vec2(cos(turn), sin(turn)), z);
+)");
 }
 
 }  // namespace
@@ -86,25 +91,8 @@ TEST_CASE("no light of the sky enters a closed room" * doctest::test_suite("long
 
 // The ball was left but never entered: its roots were 0/0 and −10⁻⁷/0 where the discriminant was 0.
 TEST_CASE("a ray exactly tangent to a ball passes it") {
-  const std::string head = R"(
-[image]
-width = 2
-height = 2
-[camera]
-type = "formula"
-eye = [0, 0, 0]
-target = [0, 0, -1]
-code = """
-vec3 origin(vec2 place, vec2 lens) { return vec3(-0.921128511, -0.269476622, 1.82404709); }
-vec3 direction(vec2 place, vec2 lens) { return vec3(0.170930102, 0.721277475, -0.671223998); }
-"""
-[render]
-background = 1
-[[material]]
-name = 'm'
-type = 'diffuse'
-color = 1
-)";
+  const std::string head = camera_from(2, {-0.921128511, -0.269476622, -1.82404709},
+                                       "return vec3(0.170930102, 0.721277475, -0.671223998);");
   const Scene scene = test::scene_of_room(head, test::rooms_with_cuts().at("torus less a ball"), {0, 0, 0});
   for (const Backend backend : {Backend::gpu, Backend::twin, Backend::reference}) {
     const auto executor = make_executor(backend, scene, {});
