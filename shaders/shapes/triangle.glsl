@@ -39,6 +39,27 @@ bool triangle_inside(TriangleEdges edges) {
   return minimum(edges.u, minimum(edges.v, edges.w)) >= 0.0f || maximum(edges.u, maximum(edges.v, edges.w)) <= 0.0f;
 }
 
+// The delay of a ray at a triangle near an edge, relative to t. If both neighbours of an edge are on the same side of it, as the ray sees
+// them, it must hit the nearer one: the other one may lead out of a room. Rounding would decide that close to the edge. So t is up to 24
+// roundings more or less there, as the triangle leads away from the ray's start beside the edge, or towards it. `facing`: n · d.
+float edge_delay(TriangleEdges edges, vec3 n, float facing) {
+  vec3 f = abs3(vec3(edges.u, edges.v, edges.w));
+  float nearest = minimum(f.x, minimum(f.y, f.z));
+  float size = maximum(max_component(abs3(edges.x)), max_component(abs3(edges.y)));
+  float delay = 0.0f;
+  if (nearest <= 64.0f * EPSILON * size * max_component(abs3(edges.z))) {
+    bool at_u = f.x == nearest;
+    bool at_v = f.y == nearest;
+    float along_x = at_u ? edges.x.z - edges.x.y : at_v ? edges.x.x - edges.x.z : edges.x.y - edges.x.x;
+    float along_y = at_u ? edges.y.z - edges.y.y : at_v ? edges.y.x - edges.y.z : edges.y.y - edges.y.x;
+    float leads = n.y * along_x - n.x * along_y;
+    leads = ((edges.u + edges.v) + edges.w < 0.0f) == (facing < 0.0f) ? leads : -leads;
+    float whole = abs(leads) + (abs(along_x) + abs(along_y)) * abs(facing);
+    delay = whole > 0.0f ? 24.0f * EPSILON * leads / whole : 0.0f;
+  }
+  return delay;
+}
+
 // The t of the hit, if the edge functions are all "inside".
 // There, the triangle is its plane. Near the plane, and for slivers, this is far more exact than the weighted mean of the vertices'
 // distances. A ray that starts off the plane on the far side has t ≤ 0 for certain. But along a ray that grazes the plane, t may
@@ -50,8 +71,11 @@ bool triangle_inside(TriangleEdges edges) {
 // functions would be sums of terms of one sign, a different one each.
 float triangle_t(Primitive s, Ray ray, TriangleEdges edges) {
   vec3 n = corner_normal(s);
-  float t = dot3(n, corner_a(s) - ray.o) / dot3(n, ray.d);
-  vec3 steep = permute(abs3(n), ray.major);
+  float facing = dot3(n, ray.d);
+  float t = dot3(n, corner_a(s) - ray.o) / facing;
+  vec3 across = permute(n, ray.major);
+  float delay = edge_delay(edges, across, facing);
+  vec3 steep = abs3(across);
   vec3 side = steep.x < steep.y ? edges.x : edges.y;
 
   // One vertex is alone on its side. Vertices that lie in the plane count to the side that has no others.
@@ -69,7 +93,9 @@ float triangle_t(Primitive s, Ray ray, TriangleEdges edges) {
   float inverse = permute(ray.inverse, ray.major).z;
   float along_p = (alone.y + (p.y - alone.y) * (alone.x / (alone.x - p.x))) * inverse;
   float along_q = (alone.y + (q.y - alone.y) * (alone.x / (alone.x - q.x))) * inverse;
-  return passes && t > 0.0f ? minimum(maximum(t, minimum(along_p, along_q)), maximum(along_p, along_q)) : -1.0f;
+  t = passes && t > 0.0f ? minimum(maximum(t, minimum(along_p, along_q)), maximum(along_p, along_q)) : -1.0f;
+
+  return t + t * delay;
 }
 
 float triangle_intersect_woop(Primitive s, Ray ray, OUT(vec2) uv) {

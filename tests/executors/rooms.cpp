@@ -19,10 +19,8 @@ namespace {
 
 // Rooms that lose rays, of sheets whose edges are not each other's or with edges that point into the room,
 // and how many of 10⁸ may.
-const std::map<std::string, double> leaking = {{"mesh with an edge into the room", 10},
-                                               {"bilinear", 10},
-                                               {"open cylinder and disks", 10},
-                                               {"polygons with holes", 300}};
+const std::map<std::string, double> leaking = {
+    {"bilinear", 10}, {"open cylinder and disks", 10}, {"polygons with holes", 300}};
 
 // A camera whose rays start at `origin`, and a white material. `direction`: the statements of a function in
 // GLSL.

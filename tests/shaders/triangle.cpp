@@ -190,6 +190,47 @@ TEST_CASE("a ray along an edge of a sliver hits the sliver, or nothing, by both 
   }
 }
 
+TEST_CASE("of two triangles behind each other, a ray at their edge hits the nearer one") {
+  for (const double away : {0.0, 1000.0}) {
+    std::atomic<int> rays = 0, wrong = 0;
+    parallel_for(0, chunks, [&](int chunk) {
+      Random random{uint64_t(chunk) + 177};
+      for (int i = 0; i < 2'000'000 / chunks; ++i) {
+        const Vec3 centre = away * random.direction();
+        const auto point = [&](double reach) { return glm::vec3(centre + random.point(reach)); };
+        const glm::vec3 p = point(1), q = point(1), c[2] = {point(1), point(1)}, o = point(3);
+        const Vec3 target = glm::mix(Vec3(p), Vec3(q), random.uniform());
+        const shader::Ray ray = shader::make_ray(o, glm::vec3(glm::normalize(target - Vec3(o))));
+
+        // The plane of ray and edge has both triangles on one side. A ray beside it shows which is nearer.
+        const Vec3 side = glm::normalize(glm::cross(Vec3(p) - Vec3(o), Vec3(q) - Vec3(o)));
+        const double sides[2] = {glm::dot(side, Vec3(c[0]) - Vec3(o)), glm::dot(side, Vec3(c[1]) - Vec3(o))};
+        if (sides[0] * sides[1] < 0 || std::min(std::abs(sides[0]), std::abs(sides[1])) < 0.05) continue;
+        const Vec3 beside = Vec3(ray.d) + side * std::copysign(1e-3, sides[0]);
+        double lean[2];
+        float t[2];
+        for (int k = 0; k < 2; ++k) {
+          const Vec3 n = glm::cross(Vec3(q) - Vec3(p), Vec3(c[k]) - Vec3(p));
+          const auto along = [&](const Vec3& d) { return glm::dot(Vec3(p) - Vec3(o), n) / glm::dot(d, n); };
+          const double slope = (along(beside) - along(Vec3(ray.d))) * 1e3;
+          lean[k] = slope / (1 + std::abs(slope));
+          shader::vec2 uv{};
+          const auto triangle = k == 0 ? make_triangle(p, q, c[k]) : make_triangle(c[k], q, p);
+          t[k] = shader::triangle_intersect_woop(triangle, ray, uv);
+        }
+        if (std::abs(lean[0] - lean[1]) < 0.75) continue;
+        const int near = lean[0] < lean[1] ? 0 : 1;
+        if (!(t[1 - near] > 0)) continue;
+        ++rays;
+        wrong += !(t[near] > 0 && t[near] < t[1 - near]);
+      }
+    });
+    MESSAGE(fmt::format("{} away: {} of {} rays hit the farther one", away, wrong.load(), rays.load()));
+    CHECK(rays > 200'000);
+    CHECK(wrong < 300);  // 100 000 if rounding alone decides
+  }
+}
+
 TEST_CASE("2 million rays leave a triangle, size 1e-4 to 1e4: none hits it again") {
   for (const Intersect intersect :
        {&shader::triangle_intersect_woop, &shader::triangle_intersect_moller_trumbore}) {
