@@ -52,8 +52,10 @@ TracePlan plan_tracing(const Profile& profile, const ProfileOptions& requested, 
   TracePlan plan;
   plan.coherent = packets ? Rays::packets : Rays::lanes;
   plan.incoherent = incoherent_rays(profile, scene, packets, subgroup_size);
-  const bool pays = image.all_samples() >= least_samples_in_wavefront &&
-                    scene.primitives.size() <= most_in_wavefront && subgroup_size <= most_lanes_in_wavefront;
+  // Random paths diverge after the camera ray: packets save less there than the wavefront's queues cost.
+  const bool pays =
+      image.all_samples() >= least_samples_in_wavefront && scene.primitives.size() <= most_in_wavefront &&
+      subgroup_size <= most_lanes_in_wavefront && !walks_at_random(IntegratorType(scene.frame.integrator));
   // A path that passes straight through a pane keeps its depth, which no kernel of a bounce handles. Paths
   // that gather photons mostly end at once.
   plan.wavefront = packets && (wants_packets || pays) && !scene.panes &&

@@ -65,4 +65,14 @@ TEST_CASE("packets trace big pictures if vectors are narrow, or on request") {
   CHECK_FALSE(wavefront({}, 16));
   CHECK(wavefront(rays("packets"), 16));
   CHECK_FALSE(wavefront(rays("lanes"), 8));
+
+  // Random paths go alone, in wide vectors however big the scene is.
+  for (const int count : {2000, 17'000}) {
+    records::PackedScene paths = spheres(count);
+    paths.frame.integrator = uint32_t(IntegratorType::path);
+    CHECK_FALSE(plan_tracing(choose_profile({}, cpu), {}, picture(2048, 2048), paths, 8).wavefront);
+    CHECK(plan_tracing(choose_profile(rays("packets"), cpu), rays("packets"), picture(2048, 2048), paths, 8)
+              .wavefront);
+    CHECK(wants_wide_vectors({}, picture(2048, 2048), paths));
+  }
 }
