@@ -1,5 +1,7 @@
 #include "host/denoise/distances.hpp"
 
+#include "host/denoise/wide_vectors.hpp"
+
 namespace eyeray::engine::denoise {
 namespace {
 
@@ -11,8 +13,8 @@ constexpr float far_away = 1e30f;
 
 }  // namespace
 
-void Distances::compute(const Planes& values, const Planes& variances, float least, const Planes& valid,
-                        int x, int y) {
+IN_WIDE_VECTORS void Distances::compute(const Planes& values, const Planes& variances, float least,
+                                        const Planes& valid, int x, int y) {
   const int planes = values.count();
   const float mean = 1.0f / float(planes * patch * patch);
   const float own_mean = own_part / float(planes);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "host/denoise/wide_vectors.hpp"
+
 namespace eyeray::engine::denoise {
 namespace {
 
@@ -23,8 +25,9 @@ struct Equations {
   float sides[unknowns * colors_count][lanes]{};
 };
 
-Equations equations_of(const Planes& colors, const Planes& features, const Distances& distances,
-                       float strictness, int left, int x, int y, int row) {
+IN_WIDE_VECTORS Equations equations_of(const Planes& colors, const Planes& features,
+                                       const Distances& distances, float strictness, int left, int x, int y,
+                                       int row) {
   Equations all;
   const int radius = distances.radius();
   float terms[unknowns][lanes], weighted[unknowns][lanes];
@@ -110,7 +113,8 @@ void fit_tile(const Planes& colors, const Planes& features, const Distances& dis
   }
 }
 
-void average_tile(const Planes& values, const Distances& distances, int x, int y, Planes& means) {
+IN_WIDE_VECTORS void average_tile(const Planes& values, const Distances& distances, int x, int y,
+                                  Planes& means) {
   const int rows = std::min(tile_height, values.height() - y);
   const int columns = std::min(tile_width, values.width() - x);
   const int radius = distances.radius();
