@@ -32,6 +32,7 @@ std::string samples_of(const Result& picture) {
                                                  picture.mean_samples());
   if (picture.noise_left)
     text += fmt::format(", denoised with a mean error of {:.2g} %", 100 * *picture.noise_left);
+  if (picture.metered) text += fmt::format(", exposure {:.2f}", *picture.metered);
   return text;
 }
 
@@ -96,6 +97,7 @@ Json json_of(const Result& picture, size_t parts) {
                      {"mean_samples", picture.mean_samples()}};
   if (quality.fireflies > 0) json["fireflies"] = quality.fireflies;
   if (quality.clamp > 0) json["clamp"] = {{"at", quality.clamp}, {"samples", quality.clamped}};
+  if (picture.metered) json["exposure"] = *picture.metered;
   if (picture.noise_left) json["noise_left"] = *picture.noise_left;
   if (picture.ray_kinds) json["ray_kinds"] = counts_of(*picture.ray_kinds);
   if (totals.samples_resumed > 0)

@@ -55,7 +55,7 @@ std::optional<Painted> paint_samples(const View& view, const Scene& scene, execu
   session::PictureQuality& quality = painted.quality;
   render::Brightness brightness;
   double luminances = 0;
-  std::optional<render::Legibility> legibility = render::legibility_of(scene);
+  std::optional<render::Legibility> legibility = render::legibility_of(scene, scene.image.tone.exposure);
   film::Film film;
   film.reset(image.width, image.height, view.film_channels());
   std::vector<PixelSample> samples;

@@ -22,7 +22,7 @@ class Planes final : public session::Output {
 
   void begin(const session::Plan& plan) override {
     crop_ = plan.crop;
-    picture_.tone = plan.scene.image.tone;
+    picture_.tone = plan.tone;
     for (const film::Channel each : plan.channels) picture_.aovs.emplace_back(each, image::Image());
     rows_.resize(1 + plan.channels.size());
   }

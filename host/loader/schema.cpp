@@ -102,6 +102,7 @@ Json value_schema(const Key& key) {
     case KeyType::integer:
       return number_schema(key, "integer");
     case KeyType::number:
+      if (!key.word.empty()) return either(number_schema(key, "number"), {{"const", key.word}});
       return number_schema(key, "number");
     case KeyType::string:
       return {{"type", "string"}};

@@ -63,11 +63,13 @@ constexpr Key image_table[] = {
      .optional = true},
     {.name = "exposure",
      .type = KeyType::number,
-     .doc = "Exposure of a .png file, in stops: light is multiplied by 2^exposure. Other formats store the "
+     .doc = "Exposure of a .png file, in stops: light is multiplied by 2^exposure. `\"auto\"` measures the "
+            "picture first, and makes its light 0.36 in the geometric mean, or less. Other formats store the "
             "light unchanged.",
      .fallback = "0",
      .min = -32,
-     .max = 32},
+     .max = 32,
+     .word = "auto"},
     {.name = "tone",
      .type = KeyType::choice,
      .doc = "Tone mapping of a .png file, for light beyond 1. `\"none\"` cuts it off. `\"neutral\"` "
@@ -214,7 +216,9 @@ ImageSettings read_image(reading::TableReader& table, IntegratorType integrator)
   } else if (table.has("filter_width")) {
     table.error("filter_width", "`filter_width` is for filter = \"gaussian\" or \"blackman-harris\" only");
   }
-  image.tone = {table.number("exposure"), static_cast<image::ToneCurve>(table.choice("tone"))};
+  image.meters = table.is_word("exposure");
+  image.tone.exposure = image.meters ? 0 : table.number("exposure");
+  image.tone.curve = static_cast<image::ToneCurve>(table.choice("tone"));
   if (table.has("white_balance")) image.tone.white_balance = table.number("white_balance");
   if (sample_count_of(image.pattern) == SampleCount::square) check_samples(table, image.samples);
   const int64_t pixels = int64_t{image.width} * image.height;

@@ -73,7 +73,7 @@ std::string describe(const Key& declared) {
     case KeyType::integer:
       return "an integer" + describe_range(key);
     case KeyType::number:
-      return "a number" + describe_range(key);
+      return "a number" + describe_range(key) + (key.word.empty() ? "" : fmt::format(" or \"{}\"", key.word));
     case KeyType::string:
       return "a string";
     case KeyType::choice:

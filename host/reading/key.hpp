@@ -50,6 +50,7 @@ struct Key {
   std::span<const std::string_view> choices = {};
   bool optional = false;       // may be absent though it has no default: check has()
   bool below_max = false;      // the maximum itself is out of range
+  std::string_view word = {};  // a string that the key of a number takes too, such as "auto"
   std::string_view hint = {};  // ends the error for a value that is no choice, and similar to none
 };
 

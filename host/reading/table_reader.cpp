@@ -140,6 +140,9 @@ int64_t TableReader::integer(std::string_view key) const {
 double TableReader::number(std::string_view key) const {
   return table_->get<double>(key);
 }
+bool TableReader::is_word(std::string_view key) const {
+  return std::holds_alternative<std::string>(table_->row(key).value);
+}
 std::string TableReader::string(std::string_view key) const {
   return table_->get<std::string>(key);
 }

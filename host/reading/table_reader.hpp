@@ -32,6 +32,7 @@ class TableReader {
   bool boolean(std::string_view key) const;
   int64_t integer(std::string_view key) const;
   double number(std::string_view key) const;
+  bool is_word(std::string_view key) const;  // true if a number's key has its word instead, Key::word
   std::string string(std::string_view key) const;
   int choice(std::string_view key) const;  // index in Key::choices
   std::array<int, 2> choice2(std::string_view key) const;

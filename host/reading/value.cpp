@@ -271,6 +271,7 @@ Value Reader::value(const toml::node& node) {
     case KeyType::integer:
       return integer(node);
     case KeyType::number:
+      if (!key_.word.empty() && node.value<std::string_view>() == key_.word) return std::string(key_.word);
       return number(node);
     case KeyType::string:
       if (!node.is_string()) mismatch(node);

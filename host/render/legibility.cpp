@@ -50,9 +50,9 @@ std::string Legibility::warning() const {
                      exposure_ - double(stops), stops <= most_stops_of_tone ? ", or --tone neutral" : "");
 }
 
-std::optional<Legibility> legibility_of(const Scene& scene) {
+std::optional<Legibility> legibility_of(const Scene& scene, double exposure) {
   if (!scene.is_mesh_alone || scene.environment) return std::nullopt;
-  return Legibility(scene.render.background, scene.image.tone.exposure);
+  return Legibility(scene.render.background, exposure);
 }
 
 }  // namespace eyeray::engine::render

@@ -33,8 +33,8 @@ class Legibility {
   std::array<int64_t, 64> bright_{};
 };
 
-// The check for a scene that is a model alone, in eyeray's own light; empty for other scenes, or with an
-// environment.
-std::optional<Legibility> legibility_of(const Scene& scene);
+// The check for a scene that is a model alone, in eyeray's own light, shown at that exposure; empty for other
+// scenes, or with an environment.
+std::optional<Legibility> legibility_of(const Scene& scene, double exposure);
 
 }  // namespace eyeray::engine::render

@@ -61,7 +61,7 @@ class Driver {
         samples_(scene.image.samples),
         channels_(channels_of(options)),
         has_auxiliaries_(film::any_needs(channels_, film::Needs::auxiliary)),
-        shown_as_one_(std::exp2(-scene.image.tone.exposure)),
+        shown_as_one_(std::exp2(-options.exposure.value_or(scene.image.tone.exposure))),
         least_samples_(samples_),
         at_a_time_(crop_.width) {
     CHECK(pixels_ > 0 && !(tiles_ && options.noise > 0));

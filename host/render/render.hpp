@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "host/core/ray_counts.hpp"
 #include "host/executors/executor.hpp"
@@ -40,6 +41,7 @@ struct RenderOptions {
   // If above 0, pixels whose noise (Film::noise) is at most this take no more samples (render/adaptive.hpp),
   // and a pixel takes at most scene.image.samples.
   double noise = 0;
+  std::optional<double> exposure = {};  // exposure of the shown picture, in stops; absent: the scene's
   // If above 0, samples are clamped to at most this in every channel, which makes means too dark.
   double clamp = 0;
   // Called with sample number `index` of the pixels of a tile, once it is taken; the tile is in pixels of the

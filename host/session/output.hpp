@@ -20,6 +20,7 @@ struct Plan {
   const executors::Executor& executor;
   Rect crop;  // the rendered area of the picture
   film::Channels channels;
+  image::Tone tone;                 // tone of each .png: the scene's, with the metered exposure
   bool fast_math;                   // ExecutorOptions::fast_math
   const render::ShardTiles* tiles;  // the tiles of the share; null if the whole crop is rendered
 };

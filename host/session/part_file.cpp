@@ -13,7 +13,7 @@ shards::PartHeader header_of(const Plan& plan, const std::string& scene) {
   header.scene = scene;
   header.area = plan.crop;
   header.samples = plan.scene.image.samples;
-  header.tone = plan.scene.image.tone;
+  header.tone = plan.tone;
   header.clamp = plan.request.clamp;
   header.random_paths = walks_at_random(plan.scene.render.integrator);
   header.device = plan.executor.facts().description;

@@ -75,7 +75,7 @@ bool PictureFiles::layered() const {
 
 void PictureFiles::begin(const Plan& plan) {
   aovs_ = plan.channels;
-  begin(plan.crop.width, plan.crop.height, plan.scene.image.tone);
+  begin(plan.crop.width, plan.crop.height, plan.tone);
 }
 
 void PictureFiles::begin(int width, int height, const image::Tone& tone) {

@@ -28,6 +28,7 @@ struct Result {
   std::vector<Diagnostic> warnings;
   std::vector<std::filesystem::path> files;  // written
   std::filesystem::path checkpoint;          // the file left to resume from; empty: none
+  std::optional<double> metered;             // the exposure in stops, if it was measured
   std::optional<double> noise_left;          // DenoisedPicture::error, if it was denoised
   std::optional<RayCounts> ray_kinds;        // ray kinds of this run, if requested
   StageTimes times;

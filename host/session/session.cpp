@@ -7,6 +7,7 @@
 #include "host/render/checkpoint.hpp"
 #include "host/render/corners.hpp"
 #include "host/render/legibility.hpp"
+#include "host/render/light_meter.hpp"
 #include "host/render/shutter.hpp"
 #include "host/session/denoised_output.hpp"
 #include "host/session/identity.hpp"
@@ -47,7 +48,7 @@ class Rendering {
         executor_(executor),
         output_(output),
         values_(plan.channels, plan.scene),
-        legibility_(render::legibility_of(plan.scene)),
+        legibility_(render::legibility_of(plan.scene, plan.tone.exposure)),
         checkpoint_(checkpoint_of(plan)) {}
 
   Result run() {
@@ -80,6 +81,7 @@ class Rendering {
     options.channels = plan_.channels;
     options.noise = request_.noise;
     options.clamp = request_.clamp;
+    options.exposure = plan_.tone.exposure;
     options.band_bytes = request_.band_bytes;
     options.checkpoint = checkpoint_ ? &*checkpoint_ : nullptr;
     options.progress = [this](const render::Progress& now) { report(now); };
@@ -131,6 +133,7 @@ class Rendering {
     result_.crop = plan_.crop;
     result_.shard = request_.shard;
     result_.samples = plan_.scene.image.samples;
+    if (plan_.scene.image.meters) result_.metered = plan_.tone.exposure;
     result_.device = executor_.facts().description;
     result_.longest_dispatch = executor_.facts().longest_dispatch;
     if (checkpoint_ && result_.interrupted() && checkpoint_->on_disk())
@@ -183,6 +186,11 @@ std::unique_ptr<executors::Executor> Session::executor_for(const Scene& scene, c
   return executor;
 }
 
+double Session::exposure(const Scene& scene, const Request& request) {
+  if (!scene.image.meters) return scene.image.tone.exposure;
+  return render::metered_exposure(scene, *executor_for(scene, request, check(request, scene)));
+}
+
 Result Session::render(const Scene& scene, const Request& request, Output& output) {
   const Stopwatch watch;
   film::Channels channels = check(request, scene);
@@ -194,8 +202,10 @@ Result Session::render(const Scene& scene, const Request& request, Output& outpu
   if (request.shard) tiles.emplace(crop, *request.shard);
   if (request.progress) request.progress({});
   const auto executor = executor_for(scene, request, channels);
+  image::Tone tone = scene.image.tone;
+  tone.exposure = request.exposure ? *request.exposure : render::metered_exposure(scene, *executor);
   const Plan plan{
-      request, scene, *executor, crop, channels, options_.gpu.fast_math, tiles ? &*tiles : nullptr};
+      request, scene, *executor, crop, channels, tone, options_.gpu.fast_math, tiles ? &*tiles : nullptr};
   Result result = Rendering(plan, *executor, denoised ? *denoised : output).run();
   if (denoised) denoised->describe(result);
   result.seconds = watch.seconds();

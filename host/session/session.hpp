@@ -26,6 +26,10 @@ class Session {
   // the errors of make_executor, render_rows, Checkpoint and the output's functions.
   Result render(const Scene& scene, const Request& request, Output& output);
 
+  // The exposure at which the request's picture would be shown, measured if the scene asks for "auto". Throws
+  // as render does.
+  double exposure(const Scene& scene, const Request& request);
+
  private:
   std::unique_ptr<executors::Executor> executor_for(const Scene& scene, const Request& request,
                                                     const film::Channels& channels);
