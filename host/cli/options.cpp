@@ -143,6 +143,7 @@ void SceneOptions::add_to(CLI::App& command) {
   add("--look", look_, "NAME",
       fmt::format("How a mesh alone is shown (docs/mesh-files.md): {}.",
                   fmt::join(loader::look_names, ", ")));
+  add("--camera", camera_, "NAME", "The camera of a glTF file alone, by its name or its number from 0.");
   static_assert(std::tuple_size_v<decltype(values_)> == value_options.size());
   for (size_t i = 0; i < value_options.size(); ++i) {
     const ValueOption& each = value_options[i];
@@ -158,6 +159,7 @@ std::string SceneOptions::as_written() const {
   };
   add("-s", size_);
   add("--look", look_);
+  add("--camera", camera_);
   for (size_t i = 0; i < value_options.size(); ++i) add(value_options[i].name, values_[i]);
   return text;
 }
@@ -166,6 +168,7 @@ Scene SceneOptions::load() const {
   std::vector<loader::Override> overrides;
   for (const std::string& define : defines_) overrides.push_back({define});
   if (!look_.empty()) overrides.push_back({"look=" + look_, "--look " + look_});
+  if (!camera_.empty()) overrides.push_back({"camera=" + camera_, "--camera " + camera_});
   if (!size_.empty()) {
     const auto [width, height] = parse_size(size_);
     overrides.push_back({fmt::format("image.width={}", width), "-s " + size_});

@@ -26,6 +26,7 @@ struct RenderCommand {
   bool quiet = false;
   bool json = false;
   std::string frames;      // FIRST:LAST[:STEP]; empty: only the frame that the scene shows
+  int turntable = 0;       // frames in which a mesh alone turns once; 0: it does not turn
   std::string video;       // video of the frames; empty: none
   bool overwrite = false;  // render frames again whose files exist
 
@@ -94,6 +95,15 @@ void add_frame_options(CLI::App& command, RenderCommand& options) {
                   "names: -o out.%04d.png. Existing files are kept.")
       ->option_text("FIRST:LAST[:STEP]")
       ->group(group)
+      ->excludes("--checkpoint")
+      ->excludes("--resume");
+  command
+      .add_option("--turntable", options.turntable,
+                  "Render a mesh alone in N frames, counted from 0, in which it turns once.")
+      ->option_text("N")
+      ->group(group)
+      ->check(whole_within(2, int(most_frames)))
+      ->excludes("--frames")
       ->excludes("--checkpoint")
       ->excludes("--resume");
   command
@@ -194,6 +204,8 @@ ExitCode RenderCommand::run_frames() {
                 options.scene.file());
 
   session_.options() = executors::for_frames(options.executor, scene.image.all_samples());
+  // Frames that were exposed one by one would flicker.
+  if (scene.image.meters) options.request.exposure = session_.exposure(scene, options.request);
 
   Json report{{"frames", Json::array()}};
   std::vector<std::filesystem::path> pictures;
@@ -229,9 +241,14 @@ ExitCode RenderCommand::run_frames() {
 
 ExitCode RenderCommand::run() {
   session_.options() = options.executor;
+  if (turntable > 0) {
+    options.scene = options.scene.with_defines({fmt::format("turntable={}", turntable)});
+    frames = fmt::format("0:{}", turntable - 1);
+  }
   if (!frames.empty()) return run_frames();
   if (!video.empty() || overwrite)
-    throw Error(ExitCode::bad_input, "--{} needs --frames", video.empty() ? "overwrite" : "video");
+    throw Error(ExitCode::bad_input, "--{} needs --frames or --turntable",
+                video.empty() ? "overwrite" : "video");
   Json report;
   const ExitCode code = run_picture(options, report);
   if (json) print_json(report);

@@ -83,6 +83,7 @@ class GltfReader {
   void check_extensions();
   void read_nodes();
   void read_node(size_t index);
+  void add_camera(const GltfObject& node, const GltfObject& source, const Mat4& world);
   void read_mesh(size_t index, size_t mesh, const Mat4& world);
   int material_of(const GltfMeshes::Part& part);
   Mat4 transform(size_t index);
@@ -241,14 +242,19 @@ void GltfReader::read_node(size_t index) {
   if (!mesh && !camera && !light) return;
   if (mesh && !hidden_[index]) read_mesh(index, *mesh, world);
   if ((camera || light) && is_flat(world)) return;
-  if (camera && scene_.camera) left_out_.add("cameras but the first");
-  if (camera && !scene_.camera)
-    scene_.camera = gltf_camera(document_.element("cameras", *camera), world, breaches_);
+  if (camera) add_camera(node, document_.element("cameras", *camera), world);
   if (light && !hidden_[index]) {
     const auto shown = light->index("light", lights ? lights->size("lights") : 0);
     if (!shown) light->fail("has no light");
     add_gltf_light(lights->element("lights", *shown), world, left_out_, breaches_, scene_);
   }
+}
+
+// Adds the camera of a node, under the node's name, or else its own.
+void GltfReader::add_camera(const GltfObject& node, const GltfObject& source, const Mat4& world) {
+  ImportedCamera camera = gltf_camera(source, world, breaches_);
+  camera.name = node.text("name").empty() ? source.text("name") : node.text("name");
+  scene_.cameras.push_back(std::move(camera));
 }
 
 // The material of a part. That of a part without one exists only in front, as glTF's default material.

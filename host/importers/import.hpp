@@ -47,6 +47,7 @@ struct PlayedAnimation {
 };
 
 struct ImportedCamera {
+  std::string name;  // empty if it has none
   Vec3 eye{0.0};
   Vec3 target{0.0};
   Vec3 up{0, 1, 0};
@@ -58,7 +59,7 @@ struct ImportedScene {
   std::vector<Instance> instances;  // `material` is an index of `materials`, or −1: the file names none
   std::vector<std::unique_ptr<Material>> materials;
   std::vector<std::variant<PointLight, DirectionalLight, SpotLight>> lights;
-  std::optional<ImportedCamera> camera;
+  std::vector<ImportedCamera> cameras;  // in the order of the scene's nodes
   std::vector<std::string> animations;  // names of glTF's animations; "" for one without a name
   std::optional<PlayedAnimation> played;
   std::vector<std::string> warnings;         // among them the features left out, once each, with counts

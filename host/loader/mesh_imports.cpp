@@ -22,10 +22,11 @@ std::string one_sentence(const InputError& error) {
 std::vector<std::string> warnings_of(const importers::ImportedScene& scene, const fs::path& file) {
   std::vector<std::string> all = scene.warnings;
   const size_t lights = scene.lights.size();
-  if (lights > 0 || scene.camera) {
+  const size_t cameras = scene.cameras.size();
+  if (lights > 0 || cameras > 0) {
     all.push_back(
         fmt::format("its {} not used: only those of the scene file count",
-                    lights == 0 ? "camera is" : (scene.camera ? "camera and lights are" : "lights are")));
+                    lights == 0 ? "camera is" : (cameras > 0 ? "camera and lights are" : "lights are")));
   }
   for (std::string& warning : all) warning = fmt::format("{}: {}", file.string(), warning);
   return all;

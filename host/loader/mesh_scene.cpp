@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "host/scene/affine.hpp"
 
@@ -53,8 +54,25 @@ Vec3 middle_of(const Bounds& box) {
   return box.min + (box.max - box.min) / 2.0;
 }
 
-// A camera that shows all of the file, and little else, in pictures of any aspect ratio.
-importers::ImportedCamera framing(const importers::ImportedScene& import) {
+// Calls visit(p) for points that span all that the file passes as it turns about the vertical through
+// `centre`.
+template <typename Visit>
+void each_turned_point(const importers::ImportedScene& import, const Vec3& centre, const Visit& visit) {
+  double radius = 0;
+  each_point(import,
+             [&](const Vec3& p) { radius = std::max(radius, std::hypot(p.x - centre.x, p.z - centre.z)); });
+  const Bounds box = bounds_of(import);
+  constexpr int corners = 64;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = i * 2 * std::numbers::pi / corners;
+    const Vec3 out(radius * std::cos(angle), 0, radius * std::sin(angle));
+    for (const double y : {box.min.y, box.max.y}) visit(Vec3(centre.x, y, centre.z) + out);
+  }
+}
+
+// A camera that shows all of the file, also while it turns if it does, and little else, in pictures of any
+// aspect ratio.
+importers::ImportedCamera framing(const importers::ImportedScene& import, bool turns) {
   const Vec3 centre = middle_of(bounds_of(import));
 
   // Four planes through the eye bound the view. Push each plane towards the points until it touches one. Two
@@ -66,13 +84,17 @@ importers::ImportedCamera framing(const importers::ImportedScene& import) {
   constexpr double lowest = std::numeric_limits<double>::lowest();
   Vec2 most[2] = {Vec2(lowest),
                   Vec2(lowest)};  // along right and up: on the positive side; on the negative side
-  each_point(import, [&](const Vec3& p) {
+  const auto include = [&](const Vec3& p) {
     const Vec3 from_centre = p - centre;
     const double nearer = slope * glm::dot(from_centre, towards_eye);
     const Vec2 lateral(glm::dot(from_centre, right), glm::dot(from_centre, up));
     most[0] = glm::max(most[0], lateral + nearer);
     most[1] = glm::max(most[1], -lateral + nearer);
-  });
+  };
+  if (turns)
+    each_turned_point(import, centre, include);
+  else
+    each_point(import, include);
   const Vec2 middle = (most[0] - most[1]) / 2.0;
   const Vec2 distance = (most[0] + most[1]) / (2 * slope);
 
@@ -152,9 +174,9 @@ class Studio {
                        area_light({0.7, 1.6, -1.1}, 4, {2.4, 1.4}, {6, 6, 6.2})};
   }
 
-  // A disk below the model that fades into the background.
+  // A disk below the model that fades into the background, and does not touch a floor that the model has.
   toml::table floor() const {
-    return toml::table{{"center", list({middle_.x, model_.min.y, middle_.z})},
+    return toml::table{{"center", list({middle_.x, model_.min.y - 1e-4 * radius_, middle_.z})},
                        {"normal", list({0, 1, 0})},
                        {"radius", 9 * radius_},
                        {"material", "studio floor"}};
@@ -201,8 +223,9 @@ class Studio {
 
 toml::table mesh_scene(const std::filesystem::path& file, const importers::ImportedScene& import,
                        const importers::ImportedScene& framed, const MeshView& view) {
-  const auto [around, look, formulas] = view;
-  const importers::ImportedCamera camera = import.camera ? *import.camera : framing(framed);
+  const auto [around, look, formulas, turntable] = view;
+  const importers::ImportedCamera camera =
+      import.cameras.empty() ? framing(framed, turntable > 0) : import.cameras.front();
   const bool own_lights = import.lights.empty() && !around;
   toml::array lights;
   const bool in_two_lights = own_lights && look == MeshLook::plain;
@@ -212,26 +235,40 @@ toml::table mesh_scene(const std::filesystem::path& file, const importers::Impor
   toml::table root;
   root.insert("camera", table(camera));
   toml::table mesh{{"file", file.filename().string()}};
+  if (turntable > 0) {
+    const Vec3 centre = middle_of(bounds_of(framed));
+    mesh.insert("transform",
+                toml::array{toml::table{{"translate", list(-centre)}},
+                            toml::table{{"rotate", toml::table{{"axis", list({0, 1, 0})}, {"degrees", 0}}}},
+                            toml::table{{"translate", list(centre)}}});
+    root.insert("track", toml::array{toml::table{
+                             {"target", "mesh.0.transform.1.rotate.degrees"},
+                             {"keyframes", toml::array{toml::array{0, 0}, toml::array{turntable, 360}}},
+                             {"curve", "linear"}}});
+  }
   if (look == MeshLook::plain) {
     if (!around)
       root.insert("render", toml::table{{"background", toml::array{0.34, 0.41, 0.5}}, {"ambient", 0.14}});
   } else {
     const Studio studio(bounds_of(framed), camera);
-    root.insert("image", toml::table{{"samples", 64}, {"tone", "neutral"}});
+    root.insert("image", toml::table{{"samples", 16}, {"exposure", "auto"}, {"tone", "neutral"}});
     const bool under_sky = own_lights && look == MeshLook::sky;
-    toml::table render{{"integrator", "path"}};
+    toml::table render{{"integrator", "path"}, {"denoise", true}};
     if (!around && !under_sky) render.insert("background", toml::array{0.30, 0.31, 0.33});
     root.insert("render", std::move(render));
     if (under_sky) root.insert("environment", studio.sky());
     if (own_lights && !under_sky) lights = studio.area_lights();
-    toml::array materials{Studio::floor_material(formulas)};
+    toml::array materials;
+    if (import.lights.empty()) {
+      materials.push_back(Studio::floor_material(formulas));
+      root.insert("disk", toml::array{studio.floor()});
+    }
     if (look == MeshLook::clay) {
       materials.push_back(
           toml::table{{"name", "clay"}, {"type", "diffuse"}, {"color", list({0.62, 0.52, 0.44})}});
       mesh.insert("material", "clay");
     }
     root.insert("material", std::move(materials));
-    root.insert("disk", toml::array{studio.floor()});
   }
   root.insert("light", std::move(lights));
   root.insert("mesh", toml::array{std::move(mesh)});

@@ -13,7 +13,8 @@ namespace eyeray::engine::loader {
 struct MeshView {
   bool around;  // there will be an [environment], which replaces background, ambient light and own lights
   MeshLook look;
-  bool formulas;  // the scene may have formulas, as a floor needs to fade
+  bool formulas;      // the scene may have formulas, as a floor needs to fade
+  int turntable = 0;  // the frames in which the model turns once about the vertical; 0: it does not turn
 };
 
 // The tables that a person would write to view the file: [[mesh]], some ambient light, and the file's camera

@@ -4,11 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <charconv>
 #include <iterator>
 #include <optional>
 #include <vector>
 
 #include "host/core/error.hpp"
+#include "host/core/escaped_text.hpp"
 #include "host/loader/animation.hpp"
 #include "host/loader/document.hpp"
 #include "host/loader/formula_files.hpp"
@@ -18,6 +20,7 @@
 #include "host/loader/mesh_scene.hpp"
 #include "host/loader/overrides.hpp"
 #include "host/loader/scene_builder.hpp"
+#include "host/scene/integrator.hpp"
 
 namespace eyeray::engine::loader {
 
@@ -50,45 +53,120 @@ Scene finish(Document document, const fs::path& file, std::span<const Override> 
   return scene;
 }
 
-// The moment in seconds that the overrides set. Faults in the overrides are reported later.
-double requested_seconds(std::span<const Override> overrides) {
+// The values that overrides of keys that begin with `key` set. Faults in the overrides are reported later.
+toml::table overridden(std::span<const Override> overrides, std::string_view key) {
   std::vector<Override> about;
   std::ranges::copy_if(overrides, std::back_inserter(about),
-                       [](const Override& each) { return each.text.starts_with("animation"); });
+                       [&](const Override& each) { return each.text.starts_with(key); });
   toml::table root;
   DiagnosticLog unheard;
   apply_overrides(root, about, unheard);
+  return root;
+}
+
+// The moment in seconds that the overrides set.
+double requested_seconds(std::span<const Override> overrides) {
+  toml::table root = overridden(overrides, "animation");
+  DiagnosticLog unheard;
   return seconds(apply_animation(root, unheard));
 }
 
-constexpr std::string_view look_key = "look=";
-
-// Takes the look out of the overrides.
-MeshLook take_look(std::vector<Override>& overrides) {
-  MeshLook look = MeshLook::plain;
-  std::erase_if(overrides, [&](const Override& each) {
-    if (!each.text.starts_with(look_key)) return false;
-    std::string_view name = std::string_view(each.text).substr(look_key.size());
-    if (name.size() > 1 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
-    const auto found = std::ranges::find(look_names, name);
-    if (found == std::end(look_names))
-      throw Error(ExitCode::bad_input, "{}: a look is {}",
-                  each.written.empty() ? "-D " + each.text : each.written, fmt::join(look_names, ", "));
-    look = MeshLook(found - std::begin(look_names));
-    return true;
-  });
-  return look;
+// The look of a mesh alone unless an override chooses one: `studio`, but `plain`, which is made for them,
+// under integrators without random paths.
+MeshLook usual_look(std::span<const Override> overrides) {
+  const toml::table root = overridden(overrides, "render.integrator");
+  const auto name = root["render"]["integrator"].value<std::string_view>();
+  const auto found = std::ranges::find(integrator_names, name.value_or(""));
+  const bool plain =
+      found != std::end(integrator_names) && !walks_at_random(IntegratorType(found - integrator_names));
+  return plain ? MeshLook::plain : MeshLook::studio;
 }
 
-// The document of a scene that shows the mesh file.
-Document read_mesh(const fs::path& file, std::span<const Override> overrides, MeshLook look, bool formulas,
-                   MeshImports& meshes, DiagnosticLog& log) {
+// The overrides for the view of a mesh alone: their beginnings, and words for them.
+struct ViewKey {
+  std::string_view text, name;
+};
+constexpr ViewKey look_key{"look=", "look"}, camera_key{"camera=", "camera by name"},
+    turntable_key{"turntable=", "turntable"};
+
+std::string as_written(const Override& change) {
+  return change.written.empty() ? "-D " + change.text : change.written;
+}
+
+// Takes the last override with that key out of the list, and all before it. `value`: the value, without
+// quotes.
+std::optional<Override> take(std::vector<Override>& overrides, const ViewKey& key, std::string& value) {
+  std::optional<Override> last;
+  std::erase_if(overrides, [&](const Override& each) {
+    if (!each.text.starts_with(key.text)) return false;
+    last = each;
+    return true;
+  });
+  if (!last) return last;
+  value = last->text.substr(key.text.size());
+  if (value.size() > 1 && value.front() == '"' && value.back() == '"')
+    value = value.substr(1, value.size() - 2);
+  return last;
+}
+
+MeshLook take_look(std::vector<Override>& overrides) {
+  std::string name;
+  const auto change = take(overrides, look_key, name);
+  if (!change) return usual_look(overrides);
+  const auto found = std::ranges::find(look_names, name);
+  if (found == std::end(look_names))
+    throw Error(ExitCode::bad_input, "{}: a look is {}", as_written(*change), fmt::join(look_names, ", "));
+  return MeshLook(found - std::begin(look_names));
+}
+
+// The frames of a full turn of the model; 0: it does not turn.
+int take_turntable(std::vector<Override>& overrides) {
+  std::string frames;
+  const auto change = take(overrides, turntable_key, frames);
+  if (!change) return 0;
+  int count = 0;
+  const auto [end, error] = std::from_chars(frames.data(), frames.data() + frames.size(), count);
+  if (error != std::errc() || end != frames.data() + frames.size() || count < 2 || count > most_frames)
+    throw Error(ExitCode::bad_input, "{}: a turntable has 2 to {} frames", as_written(*change), most_frames);
+  return count;
+}
+
+// Removes all cameras but the one that an override names, or else the first. Several cameras may have one
+// name; then the first with it is meant. A number counts cameras from 0, if none has that name.
+void choose_camera(std::vector<importers::ImportedCamera>& cameras, std::vector<Override>& overrides,
+                   const fs::path& file, DiagnosticLog& log) {
+  std::string wanted;
+  const auto change = take(overrides, camera_key, wanted);
+  std::vector<std::string> names;
+  for (size_t i = 0; i < cameras.size(); ++i)
+    names.push_back(cameras[i].name.empty() ? std::to_string(i)
+                                            : fmt::format("\"{}\"", printable(cameras[i].name)));
+  if (change) {
+    const auto named = std::ranges::find(cameras, wanted, &importers::ImportedCamera::name);
+    size_t index = size_t(named - cameras.begin());
+    if (named == cameras.end()) std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
+    if (wanted.empty() || index >= cameras.size())
+      throw Error(ExitCode::bad_input, "{}: {} has no such camera; it has {}", as_written(*change),
+                  file.string(), names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")));
+    std::swap(cameras[0], cameras[index]);
+  } else if (cameras.size() > 1) {
+    log.warning({}, fmt::format("shows the first of its cameras; --camera NAME shows another: {}",
+                                fmt::join(names, ", ")));
+  }
+  if (cameras.size() > 1) cameras.resize(1);
+}
+
+// The document of a scene that shows the mesh file. Takes the overrides for its view out.
+Document read_mesh(const fs::path& file, std::vector<Override>& overrides, bool formulas, MeshImports& meshes,
+                   DiagnosticLog& log) {
+  const MeshLook look = take_look(overrides);
+  const int turntable = take_turntable(overrides);
   log.add_source(file.string(), "");
   meshes.show(requested_seconds(overrides));
   const MeshImports::Loaded loaded = meshes.load_alone(file);
   // Frame the file at rest, so that the camera does not move during an animation.
   std::optional<importers::ImportedScene> rest;
-  if (loaded.scene->played && !loaded.scene->camera) {
+  if (loaded.scene->played && loaded.scene->cameras.empty()) {
     try {
       rest = meshes.rest(file);
     } catch (const InputError&) {
@@ -97,9 +175,11 @@ Document read_mesh(const fs::path& file, std::span<const Override> overrides, Me
     }
   }
   for (const std::string& warning : loaded.scene->warnings) log.warning({}, warning);
+  choose_camera(loaded.scene->cameras, overrides, file, log);
   const bool around = std::ranges::any_of(
       overrides, [](const Override& each) { return each.text.starts_with("environment"); });
-  return {mesh_scene(file, *loaded.scene, rest ? *rest : *loaded.scene, {around, look, formulas}), {}};
+  return {mesh_scene(file, *loaded.scene, rest ? *rest : *loaded.scene, {around, look, formulas, turntable}),
+          {}};
 }
 
 // If the scene moves while its shutter is open, sets the function that makes the scene at another moment. It
@@ -124,19 +204,17 @@ Scene load_moment(const fs::path& file, std::span<const Override> overrides, con
   if (importers::is_mesh_file(file)) {
     MeshImports meshes(folders, std::move(trees), {file}, pixels);
     std::vector<Override> others(overrides.begin(), overrides.end());
-    const MeshLook look = take_look(others);
-    Document document = read_mesh(file, others, look, trust.formulas, meshes, log);
+    Document document = read_mesh(file, others, trust.formulas, meshes, log);
     ImageFiles images(folders, document.files, pixels, log);
     Scene scene = finish(std::move(document), file, others, &images, &meshes, nullptr, trust.formulas, log);
     scene.is_mesh_alone = true;
     return scene;
   }
-  for (const Override& each : overrides) {
-    if (each.text.starts_with(look_key))
-      throw Error(ExitCode::bad_input,
-                  "{}: {} is a scene, which has a look of its own; a look is for a mesh alone",
-                  each.written.empty() ? "-D " + each.text : each.written, file.string());
-  }
+  for (const Override& each : overrides)
+    for (const ViewKey& key : {look_key, camera_key, turntable_key})
+      if (each.text.starts_with(key.text))
+        throw Error(ExitCode::bad_input, "{}: a {} is for a mesh alone, and {} is a scene", as_written(each),
+                    key.name, file.string());
   Document document = read_document(file, folders, log);
   ImageFiles images(folders, document.files, pixels, log);
   MeshImports meshes(folders, std::move(trees), document.files, pixels);

@@ -20,7 +20,8 @@ struct Override {
   std::string written = {};  // the option as the user wrote it, "-s 640x480"; empty: "-D TEXT"
 };
 
-// The look of a mesh file alone. An override chooses it: "look=studio".
+// The look of a mesh file alone. An override chooses it, "look=plain"; else it is `studio`, or `plain` if the
+// overrides choose an integrator without random paths.
 enum class MeshLook {
   plain,   // by whitted, in two lights
   studio,  // by path, in three area lights, on a floor that fades into the background

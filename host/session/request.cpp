@@ -29,26 +29,22 @@ void check_noise(const Request& request, const Scene& scene) {
                 sample_patterns[uint32_t(scene.image.pattern)]);
 }
 
-void check_denoise(const Request& request, const Scene& scene) {
-  if (!denoises(request, scene)) return;
+// A sentence on why the request's picture cannot be denoised; empty if it can. The crop is within the
+// picture.
+std::string obstacle_to_denoising(const Request& request, const Scene& scene) {
   if (!walks_at_random(scene.render.integrator))
-    throw Error(
-        ExitCode::bad_input,
-        "only pictures by random paths are denoised: set integrator = \"path\" in [render], or leave out "
-        "denoise");
+    return "only pictures by random paths are denoised: set integrator = \"path\" in [render], or leave out "
+           "denoise";
   if (scene.image.samples < 2)
-    throw Error(
-        ExitCode::bad_input,
-        "denoising compares the samples of a pixel, and this picture has one: set at least 2, such as "
-        "--spp 16");
+    return "denoising compares the samples of a pixel, and this picture has one: set at least 2, such as "
+           "--spp 16";
   if (const int64_t pixels = crop_within(request.crop, scene.image).pixels(); pixels > most_denoised)
-    throw Error(
-        ExitCode::bad_input,
+    return fmt::format(
         "denoising has room for {} pixels, and this picture has {}: render crops of it, or leave out denoise",
         most_denoised, pixels);
   if (request.shard)
-    throw Error(ExitCode::bad_input,
-                "a pixel is denoised from its neighbours, which are in other shards: leave out denoise");
+    return "a pixel is denoised from its neighbours, which are in other shards: leave out denoise";
+  return "";
 }
 
 void check_classic(const Request& request) {
@@ -98,9 +94,16 @@ void make_classic(Scene& scene, Request& request) {
 film::Channels check(const Request& request, const Scene& scene) {
   if (request.classic) check_classic(request);
   check_noise(request, scene);
-  check_denoise(request, scene);
   crop_within(request.crop, scene.image);
+  if (denoises(request, scene))
+    if (const std::string obstacle = obstacle_to_denoising(request, scene); !obstacle.empty())
+      throw Error(ExitCode::bad_input, "{}", obstacle);
   return film::channels_of(scene, request.channels);
+}
+
+bool denoises(const Request& request, const Scene& scene) {
+  return request.denoise ||
+         (scene.render.denoise && (!scene.is_mesh_alone || obstacle_to_denoising(request, scene).empty()));
 }
 
 }  // namespace eyeray::engine::session

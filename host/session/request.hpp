@@ -27,6 +27,7 @@ struct Request {
   double noise = 0;                    // RenderOptions::noise
   double clamp = 0;                    // RenderOptions::clamp
   bool denoise = false;                // remove noise from the finished picture, as RenderSettings::denoise
+  std::optional<double> exposure;      // in stops, in place of a measured one
   bool ray_kinds = false;              // count rays by kind
   bool classic = false;                // only by make_classic
   bool next_is_alike = false;          // whether kernels should serve the next scene too
@@ -58,9 +59,8 @@ void make_classic(Scene& scene, Request& request);
 // if all channels were requested, those that the scene does not have are left out.
 film::Channels check(const Request& request, const Scene& scene);
 
-// Returns true if the picture's noise is to be removed at the end.
-inline bool denoises(const Request& request, const Scene& scene) {
-  return request.denoise || scene.render.denoise;
-}
+// Returns true if the picture's noise is to be removed at the end: if the request or the scene asks for it.
+// The scene of a mesh alone, which nobody wrote, asks for it only where it can be done.
+bool denoises(const Request& request, const Scene& scene);
 
 }  // namespace eyeray::engine::session

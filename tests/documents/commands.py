@@ -17,7 +17,7 @@ RUN = {"check", "shaders", "completion", "manual", "new", "generate"}
 SLOW = re.compile(r"terrain|000|--size-factor")
 ALL = "--all" in sys.argv
 ONLY = [each for each in sys.argv[2:] if not each.startswith("--")]
-SMALL = {"-s": "24x18", "--spp": "1", "--triangles": "2000", "--frames": "0:1"}  # replace the values in the document
+SMALL = {"-s": "24x18", "--spp": "1", "--triangles": "2000", "--frames": "0:1", "--turntable": "2"}  # replace the values in the document
 SIZED = {"render", "verify", "probe"}  # commands that get SMALL's size and samples where they name none, …
 UNSIZED = {"--record": {"-s", "--spp"}, "--classic": {"--spp"}}  # … but for those that an option excludes
 # Files that a reader brings, by the document's name for them: copies of our own.

@@ -214,7 +214,7 @@ TEST_CASE("cameras and lights of a file move with their nodes") {
   file.json["nodes"] = {{{"mesh", 0}}, {{"camera", 0}}};
   file.json["scenes"] = {{{"nodes", {0, 1}}}};
   animate(file, {"translation", "", {0, 1}, {0, 0, 0, 0, 0, 8}}, 1);
-  CHECK(at(file, 0.25).camera->eye == Vec3(0, 0, 2));
+  CHECK(at(file, 0.25).cameras.at(0).eye == Vec3(0, 0, 2));
 }
 
 TEST_CASE("an animation is chosen by name or number, or is the first, or none") {

@@ -18,23 +18,25 @@ TEST_CASE("the first camera and all lights are imported") {
   const auto light = [](int index) { return Json{{"KHR_lights_punctual", {{"light", index}}}}; };
   file.json["cameras"] = {
       {{"type", "perspective"}, {"perspective", {{"yfov", std::numbers::pi / 4}, {"znear", 1}}}},
-      {{"type", "orthographic"}, {"orthographic", {{"xmag", 3}, {"ymag", 2}}}}};
+      {{"type", "orthographic"}, {"orthographic", {{"xmag", 3}, {"ymag", 2}}}, {"name", "plan"}}};
   file.json["nodes"] = {{{"mesh", 0}},
-                        {{"camera", 0}, {"translation", {1, 2, 3}}},
+                        {{"camera", 0}, {"name", "front"}, {"translation", {1, 2, 3}}},
                         {{"camera", 1}},
                         {{"extensions", light(0)}, {"translation", {4, 5, 6}}},
                         {{"extensions", light(1)}, {"rotation", {-0.70710678, 0, 0, 0.70710678}}},
                         {{"extensions", light(2)}}};
   file.json.erase("scenes");
   const ImportedScene scene = import_sound(file.gltf(), "a.gltf");
-  REQUIRE(scene.camera);
-  CHECK(scene.camera->eye == Vec3(1, 2, 3));
-  CHECK(glm::normalize(scene.camera->target - scene.camera->eye) == Vec3(0, 0, -1));
-  CHECK(scene.camera->up == Vec3(0, 1, 0));
-  const auto perspective = std::get<PerspectiveCamera>(scene.camera->form);
+  REQUIRE(scene.cameras.size() == 2);
+  const ImportedCamera& camera = scene.cameras[0];
+  CHECK(camera.eye == Vec3(1, 2, 3));
+  CHECK(glm::normalize(camera.target - camera.eye) == Vec3(0, 0, -1));
+  CHECK(camera.up == Vec3(0, 1, 0));
+  CHECK(camera.name == "front");
+  CHECK(scene.cameras[1].name == "plan");
+  const auto perspective = std::get<PerspectiveCamera>(camera.form);
   CHECK(perspective.fov_axis == FovAxis::vertical);
   CHECK(perspective.fov_degrees == doctest::Approx(45));
-  CHECK(warns(scene, "cameras but the first (1)"));
   REQUIRE(scene.lights.size() == 3);
   const auto& point = std::get<PointLight>(scene.lights[0]);
   CHECK(point.position == Vec3(4, 5, 6));
@@ -51,7 +53,7 @@ TEST_CASE("the first camera and all lights are imported") {
   file.json["nodes"][5]["translation"] = {7, 8, 9};
   file.json["nodes"][1].erase("camera");
   const ImportedScene second = import_sound(file.gltf(), "a.gltf");
-  CHECK(std::get<OrthographicCamera>(second.camera->form).size == 3);
+  CHECK(std::get<OrthographicCamera>(second.cameras.at(0).form).size == 3);
   const auto& spot = std::get<SpotLight>(second.lights[2]);
   CHECK(spot.position == Vec3(7, 8, 9));
   CHECK(spot.direction == Vec3(0, 0, -1));

@@ -42,7 +42,7 @@ TEST_CASE(
   const ImportedScene scene = import_sound(file.gltf(), "a.gltf");
   CHECK(scene.instances.size() == 2);
   CHECK(scene.lights.empty());
-  CHECK(scene.camera);
+  CHECK(scene.cameras.size() == 1);
   CHECK(scene.warnings.empty());
   for (const size_t node : {0u, 4u}) file.json["nodes"][node]["extensions"] = hidden;
   CHECK(contains(refusal(file.gltf(), "a.gltf"), "it has no visible triangles"));

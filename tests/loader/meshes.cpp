@@ -151,8 +151,11 @@ TEST_CASE("a mesh file alone is a scene that frames it") {
   const Scene scene = load_scene(obj);
   CHECK(scene.file == obj);
   CHECK(scene.files == std::vector<fs::path>{obj});
-  CHECK(scene.lights.size() == 2);
-  CHECK(scene.render.ambient.x > 0);
+  CHECK(scene.lights.empty());
+  CHECK(scene.shapes.size() == 4);  // a floor and three area lights
+  const std::vector<Override> whitted{{"render.integrator=whitted"}};
+  CHECK(load_scene(obj, whitted).lights.size() == 2);
+  CHECK(load_scene(obj, whitted).render.ambient.x > 0);
 
   // Whatever the picture's shape, every vertex is in the square in its middle, and one is near the square's
   // edge.
@@ -174,8 +177,11 @@ TEST_CASE("a mesh file alone is a scene that frames it") {
 TEST_CASE("overrides apply to mesh files; a file's own camera and lights are used only if it is the scene") {
   const Folder folder;
   const std::string obj = folder.write("a.obj", square);
-  const Override overrides[] = {
-      {"camera.eye=[1, 2, 3]"}, {"mesh.0.smooth=0"}, {"light.0.intensity=2"}, {"render.background=1"}};
+  const Override overrides[] = {{"look=plain"},
+                                {"camera.eye=[1, 2, 3]"},
+                                {"mesh.0.smooth=0"},
+                                {"light.0.intensity=2"},
+                                {"render.background=1"}};
   const Scene scene = load_scene(obj, overrides);
   CHECK(scene.camera.eye == Vec3(1, 2, 3));
   CHECK(scene.meshes[0].normals.empty());
@@ -207,6 +213,49 @@ TEST_CASE("overrides apply to mesh files; a file's own camera and lights are use
   REQUIRE(shown.warnings.size() == 1);
   CHECK(contains(shown.warnings[0].message,
                  "its camera and lights are not used: only those of the scene file count"));
+}
+
+TEST_CASE(
+    "a camera of a glTF file alone is chosen by its name or number; the first is the default, with a "
+    "warning") {
+  const Folder folder;
+  const std::string gltf = folder.write(
+      "a.gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1, 2, 3, 4]}],
+    "extensionsUsed": ["KHR_mesh_quantization"],
+    "nodes": [{"mesh": 0}, {"camera": 0, "translation": [1, 0, 0]}, {"camera": 1, "name": "from above", "translation": [2, 0, 0]},
+              {"camera": 0, "name": "from above", "translation": [3, 0, 0]}, {"camera": 0, "translation": [4, 0, 0]}],
+    "cameras": [{"type": "perspective", "perspective": {"yfov": 0.5, "znear": 1}},
+                {"type": "orthographic", "name": "plan", "orthographic": {"xmag": 1, "ymag": 1, "znear": 0, "zfar": 9}}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5121, "type": "VEC3", "count": 3, "min": [0, 0, 0],
+                   "max": [1, 1, 0]}],
+    "bufferViews": [{"buffer": 0, "byteLength": 12, "byteStride": 4}],
+    "buffers": [{"byteLength": 12, "uri": "data:application/octet-stream;base64,AAAAAAEAAAAAAQAA"}]})");
+  const auto eye = [&](const char* camera) {
+    const Scene scene = load_scene(gltf, std::vector<Override>{{camera}});
+    CHECK(scene.warnings.empty());
+    return scene.camera.eye.x;
+  };
+  const Scene first = load_scene(gltf);
+  CHECK(first.camera.eye.x == 1);
+  REQUIRE(first.warnings.size() == 1);
+  CHECK(contains(
+      first.warnings[0].message,
+      "shows the first of its cameras; --camera NAME shows another: 0, \"from above\", \"from above\", 3"));
+  CHECK(eye("camera=0") == 1);
+  CHECK(eye("camera=from above") == 2);
+  CHECK(eye("camera=\"from above\"") == 2);
+  CHECK(eye("camera=3") == 4);
+  for (const char* wrong : {"camera=plan", "camera=4", "camera=-1", "camera="}) {
+    CAPTURE(wrong);
+    CHECK_THROWS_WITH(load_scene(gltf, std::vector<Override>{{wrong}}),
+                      (std::string("-D ") + wrong + ": " + gltf +
+                       " has no such camera; it has 0, \"from above\", \"from above\", 3")
+                          .c_str());
+  }
+  const std::string obj = folder.write("a.obj", square);
+  CHECK_THROWS_WITH(load_scene(obj, std::vector<Override>{{"camera=0"}}),
+                    ("-D camera=0: " + obj + " has no such camera; it has none").c_str());
 }
 
 TEST_CASE("a mesh file that cannot be read is an error") {

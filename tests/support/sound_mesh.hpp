@@ -68,7 +68,8 @@ inline std::string broken_promise(const importers::ImportedScene& scene) {
     if (point && !(finite(point->position) && finite(point->intensity))) return "point light";
     if (sun && !(finite(sun->to_light) && finite(sun->intensity))) return "directional light";
   }
-  if (scene.camera && (!finite(scene.camera->eye) || !finite(scene.camera->target))) return "camera";
+  for (const auto& camera : scene.cameras)
+    if (!finite(camera.eye) || !finite(camera.target)) return "camera";
   return "";
 }
 
