@@ -51,9 +51,12 @@ bool is_glass(const tinyobj::material_t& source) {
   return refracts(source.illum) && source.ior > 1;
 }
 
-// True if a value of the physically based extension (Pr, Pm, Pc, Ps) is set, which `illum` does not describe.
+// True if a value or map of the physically based extension (Pr, Pm, Pc, Ps) is set, which `illum` does not
+// describe.
 bool is_principled(const tinyobj::material_t& source) {
-  return source.roughness > 0 || source.metallic > 0 || source.clearcoat_thickness > 0 || source.sheen > 0;
+  return source.roughness > 0 || source.metallic > 0 || source.clearcoat_thickness > 0 || source.sheen > 0 ||
+         !source.roughness_texname.empty() || !source.metallic_texname.empty() ||
+         !source.sheen_texname.empty();
 }
 
 constexpr size_t most_statements_named = 16;
@@ -71,7 +74,7 @@ TexturePtr emission(const tinyobj::material_t& source, std::shared_ptr<const Ima
 
 // The pictures of a material.
 struct Maps {
-  std::shared_ptr<const ImageTexture> diffuse, emission;
+  std::shared_ptr<const ImageTexture> diffuse, emission, roughness, metallic, sheen;
 };
 
 std::unique_ptr<Material> convert(const tinyobj::material_t& source, const Maps& maps) {
@@ -83,10 +86,14 @@ std::unique_ptr<Material> convert(const tinyobj::material_t& source, const Maps&
   const TexturePtr emitted = emission(source, maps.emission);
   if (is_principled(source)) {
     const auto constant = [](double value) { return textures::make_constant(Vec3(share(value))); };
+    // A value multiplies its map. A value of 0 beside a map is absent.
+    const auto scaled = [](double value, const std::shared_ptr<const ImageTexture>& map) {
+      return textured(Vec3(map && !(value > 0) ? 1 : share(value)), map);
+    };
     return materials::make_principled({.color = diffuse,
-                                       .metallic = constant(source.metallic),
-                                       .roughness = constant(source.roughness),
-                                       .sheen = constant(source.sheen),
+                                       .metallic = scaled(source.metallic, maps.metallic),
+                                       .roughness = scaled(source.roughness, maps.roughness),
+                                       .sheen = scaled(source.sheen, maps.sheen),
                                        .coat = constant(source.clearcoat_thickness),
                                        .coat_roughness = constant(source.clearcoat_roughness),
                                        .emission = emitted});
@@ -110,6 +117,14 @@ std::optional<AlphaMask> mask(double dissolve, const std::shared_ptr<const Image
   const auto between = [](const auto& texel) { return texel[3] != 0 && texel[3] != 255; };
   return AlphaMask{.alpha = textured(Vec3(counts ? factor : 1), picture),
                    .blends = counts || std::ranges::any_of(picture->texels, between)};
+}
+
+// True if the picture looks like a normal map, most of which points away from the surface: bluish.
+bool has_normals(const ImageTexture& picture) {
+  Vec3 sum(0);
+  for (const auto& texel : picture.texels) sum += Vec3(texel[0], texel[1], texel[2]);
+  const Vec3 apart = glm::abs(sum / double(picture.texels.size()) - Vec3(128, 128, 255));
+  return apart.x < 32 && apart.y < 32 && apart.z < 64;
 }
 
 // The options that position a map on the surface.
@@ -140,16 +155,13 @@ std::vector<std::string> left_out(const tinyobj::material_t& source) {
   add(glass && source.dissolve > 0 && source.dissolve < 1,
       "the transparency (d) of glass: an index (Ni) of 1 makes it count");
   add(glass && !source.diffuse_texname.empty(), "pictures (map_Kd) of glass");
-  add(glass && is_principled(source), "the values Pr, Pm, Pc and Ps of glass");
+  add(glass && is_principled(source), "the values and maps Pr, Pm, Pc and Ps of glass");
   add(glass && !source.alpha_texname.empty(), "maps of transparency (map_d) of glass");
   add(glass && emits, "the emission (Ke) of glass");
-  add(!source.bump_texname.empty(), "bump maps");
   add(!source.displacement_texname.empty(), "displacement maps");
   add(!source.specular_texname.empty() || !source.specular_highlight_texname.empty(),
       "maps of highlights (map_Ks, map_Ns)");
   add(!source.reflection_texname.empty(), "reflection maps (refl)");
-  add(!source.roughness_texname.empty() || !source.metallic_texname.empty() || !source.sheen_texname.empty(),
-      "maps of roughness, metalness and sheen (map_Pr, map_Pm, map_Ps)");
   add(source.anisotropy != 0 || source.anisotropy_rotation != 0, "anisotropy (aniso, anisor)");
   // Many programs repeat the colour's picture as map_Ka.
   add(source.ambient_texname != source.diffuse_texname && !source.ambient_texname.empty(),
@@ -226,7 +238,16 @@ void ObjMaterials::parse(std::string text) {
     maps.diffuse = load(source.diffuse_texname, source.diffuse_texopt, MapUse::color);
     const auto alpha = load(source.alpha_texname, source.alpha_texopt, MapUse::alpha);
     maps.emission = load(source.emissive_texname, source.emissive_texopt, MapUse::color);
-    const auto normals = load(source.normal_texname, source.normal_texopt, MapUse::data);
+    maps.roughness = load(source.roughness_texname, source.roughness_texopt, MapUse::data);
+    maps.metallic = load(source.metallic_texname, source.metallic_texopt, MapUse::data);
+    maps.sheen = load(source.sheen_texname, source.sheen_texopt, MapUse::data);
+    auto normals = load(source.normal_texname, source.normal_texopt, MapUse::data);
+    // Many programs name their normal map as a bump map.
+    const auto bumps = load(source.bump_texname, source.bump_texopt, MapUse::data);
+    if (bumps && !normals && has_normals(*bumps))
+      normals = bumps;
+    else if (bumps)
+      warn("left out: bump maps");
 
     std::unique_ptr<Material> made = convert(source, maps);
     made->name = printable(source.name);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "host/image/image_file.hpp"
 #include "support.hpp"
 
 using namespace eyeray::engine;
@@ -106,9 +107,8 @@ TEST_CASE("each material has its mesh, and its .mtl is read") {
   CHECK(warns(scene, "1 of its materials is not defined, such as `who`"));
   REQUIRE(scene.materials[3]->mask);
   CHECK(scene.materials[3]->mask->blends);
-  CHECK(warns(scene, "bump maps"));
   CHECK(warns(scene, "a picture was left out: cannot read"));
-  CHECK(scene.files.size() == 3);
+  CHECK(scene.files.size() == 4);
 }
 
 TEST_CASE("vertices have colours, with or without a weight before them; vertices without one are white") {
@@ -173,7 +173,7 @@ TEST_CASE("values of a .mtl file that do not count are named") {
            std::pair("illum 4\nNi 1.5\nTf 1 0.5 0.5", "the tint (Tf) of glass"),
            {"illum 6\nNi 1.5\nKd 0.2 0.6 0.3", "the colour (Kd) of glass"},
            {"illum 4\nNi 1.5\nd 0.5", "the transparency (d) of glass"},
-           {"illum 9\nNi 1.5\nPr 0.5", "the values Pr, Pm, Pc and Ps of glass"},
+           {"illum 9\nNi 1.5\nPr 0.5", "the values and maps Pr, Pm, Pc and Ps of glass"},
            {"illum 9\nNi 1.5\nmap_Kd x.png", "pictures (map_Kd) of glass"},
            {"map_Pc x.png\nmap_Tr x.png\nmap_RMA x.png\ndecal x.png\nmap_aat on",
             "statements that eyeray does not know (decal, map_Pc, map_RMA, map_Tr)"},
@@ -252,7 +252,7 @@ TEST_CASE("options of maps may omit numbers; -s and -o transform the picture") {
         "-cc on", "-blendv off", "-colorspace linear"})
     for (const std::string name : {"my picture.png", "\"my picture.png\""}) {
       const ImportedScene scene =
-          square_of(folder, "map_Kd -s 2 " + option + " " + name + "\nbump -bm 3 x.png");
+          square_of(folder, "map_Kd -s 2 " + option + " " + name + "\nbump -s 2 -bm 3 my picture.png");
       CHECK(scene.warnings == std::vector<std::string>{
                                   "left out: the option " + option.substr(0, option.find(' ')) + " of maps",
                                   "left out: bump maps"});
@@ -288,4 +288,41 @@ TEST_CASE(
   const ImportedScene metal = square_of(folder, "Kd 1 0.5 0\nPr 0.2\nPm 1\naniso 0.5");
   CHECK(warns(metal, "anisotropy"));
   CHECK(!metal.materials[0]->emits());
+}
+
+TEST_CASE("maps of roughness, metalness and sheen multiply their values; a bluish bump map is a normal map") {
+  const Folder folder;
+  const auto write = [&](const char* name, const Vec3& color) {
+    image::Image picture(2, 2, 3);
+    for (size_t i = 0; i < picture.samples().size(); ++i) picture.samples()[i] = float(color[int(i % 3)]);
+    image::write_image(folder / name, picture);
+  };
+  write("white.png", Vec3(1));
+  write("black.png", Vec3(0));
+  write("grey.png", Vec3(0.2));
+  write("blue.png", Vec3(0.2140, 0.2140, 1));  // 128, 128, 255
+
+  // White metal reflects all light, and has no diffuse colour.
+  const ScatteringContext context{Vec2(0.5), 1, 1, 1};
+  const auto diffuse = [&](const std::string& statements) {
+    const ImportedScene scene = square_of(folder, "Kd 1 1 1\n" + statements);
+    CHECK(scene.warnings.empty());
+    return scene.materials[0]->scattering(context).diffuse.x;
+  };
+  CHECK(diffuse("map_Pm white.png") == diffuse("Pm 1"));
+  CHECK(diffuse("Pm 0.5\nmap_Pm white.png") == diffuse("Pm 0.5"));
+  CHECK(diffuse("Pr 0.5\nmap_Pm black.png") == diffuse("Pr 0.5"));
+  CHECK(diffuse("Pm 1") < diffuse("Pm 0.5"));
+  for (const char* map : {"map_Pr grey.png", "map_Ps grey.png"}) {
+    const ImportedScene scene = square_of(folder, map);
+    CHECK(scene.warnings.empty());
+    CHECK(scene.files.back() == folder / "grey.png");
+  }
+
+  for (const char* bump : {"map_Bump -bm 1 blue.png", "bump blue.png", "norm blue.png"})
+    CHECK(square_of(folder, bump).materials[0]->normal_map);
+  const ImportedScene heights = square_of(folder, "map_Bump grey.png");
+  CHECK_FALSE(heights.materials[0]->normal_map);
+  CHECK(warns(heights, "left out: bump maps"));
+  CHECK(warns(square_of(folder, "norm blue.png\nbump blue.png"), "left out: bump maps"));
 }
