@@ -12,6 +12,19 @@
 
 namespace eyeray::engine::dev {
 
+namespace {
+
+// The tone in a message; none if it has none, or no valid one.
+image::Tone tone_of(const Json& message) {
+  const auto found = message.find("tone");
+  if (found == message.end() || !found->is_object()) return {};
+  const auto curve = found->value("curve", size_t{0});
+  if (curve >= std::size(image::tone_curves)) return {};
+  return {found->value("exposure", 0.0), image::ToneCurve(curve), found->value("white_balance", 0.0)};
+}
+
+}  // namespace
+
 void Board::publish() {
   ++version_;
   changed_.notify_all();
@@ -26,6 +39,7 @@ void Board::put_rows(const Message& message) {
   if (channels != 1 && channels != 3) return;
   const int64_t shown_as = number("shown_as");
   if (shown_as > int64_t(image::FalseColor::position)) return;
+  const image::Tone tone = tone_of(message.json);
   const int64_t columns = (width + stride - 1) / stride;
   if (row + rows > (height + stride - 1) / stride) return;
   if (message.bytes.size() != size_t(columns * rows * channels) * sizeof(float)) return;
@@ -47,6 +61,7 @@ void Board::put_rows(const Message& message) {
       std::memcpy(image.pixel(int(x), int(y)), &message.bytes[size_t(from) * pixel], pixel);
     }
   }
+  pictures_[view].tone = tone;
   if (shown_as >= 0) pictures_[view].shown_as = image::FalseColor(shown_as);
   Json& version = status_["pictures"][view];
   version = version.is_number() ? version.get<uint64_t>() + 1 : 1;
@@ -77,6 +92,7 @@ std::optional<Board::Picture> Board::difference() const {
         a[i] = std::numeric_limits<float>::infinity();
     }
   }
+  gpu->tone = {};
   return gpu;
 }
 

@@ -10,6 +10,7 @@
 #include "host/dev/message.hpp"
 #include "host/image/false_color.hpp"
 #include "host/image/image.hpp"
+#include "host/image/tone.hpp"
 
 namespace eyeray::engine::dev {
 
@@ -33,11 +34,13 @@ class Board {
   struct Picture {
     image::Image image;
     std::optional<image::FalseColor> shown_as;
+    image::Tone tone;  // tone of colours
     std::vector<Row> rows;
   };
   // Stores rows of a view's picture, from the worker: {"generation", "view", "width", "height", "row",
-  // "rows", "sample", "stride", "channels"} and float32s; with "shown_as", a FalseColor. In a coarse picture
-  // (stride > 1) each pixel fills a square. Ignores an inconsistent message.
+  // "rows", "sample", "stride", "channels"} and float32s; with "shown_as", a FalseColor, or "tone",
+  // {"exposure", "curve", "white_balance"}. In a coarse picture (stride > 1) each pixel fills a square.
+  // Ignores an inconsistent message.
   void put_rows(const Message& message);
   // A copy of a view's picture; empty if the view has none.
   std::optional<Picture> picture(const std::string& view) const;

@@ -11,6 +11,7 @@
 #include "host/executors/cpp_compiler.hpp"
 #include "host/executors/open_device.hpp"
 #include "host/probe/probe.hpp"
+#include "host/render/light_meter.hpp"
 #include "host/scene/integrator.hpp"
 #include "host/session/request.hpp"
 
@@ -101,6 +102,7 @@ void RenderServer::load(const Json& request) {
   tunables_->begin();
   tunables_->as_constants = false;
   send("stage", {{"stage", "load"}});
+  tone_.reset();
   scene_ = std::make_shared<const Scene>(options_.load(request.value("defines", std::vector<std::string>{})));
   revision_ = request.value("revision", int64_t{0});
 
@@ -304,7 +306,17 @@ void RenderServer::send_rows(const std::string& name, const View& view, const Pa
             {"sample", painted.sample},
             {"preview", is_preview},
             {"processor_seconds", processor_seconds() - processor_seconds_}};
-  if (view.aov) json["shown_as"] = int(view.aov->shown_as);
+  if (view.aov) {
+    json["shown_as"] = int(view.aov->shown_as);
+  } else {
+    // The first rows are those of a coarse picture, which is whole.
+    if (!tone_) {
+      tone_ = scene_->image.tone;
+      if (scene_->image.meters) tone_->exposure = render::exposure_for(rows);
+    }
+    json["tone"] = {
+        {"exposure", tone_->exposure}, {"curve", int(tone_->curve)}, {"white_balance", tone_->white_balance}};
+  }
   send("rows", std::move(json),
        {reinterpret_cast<const char*>(rows.samples().data()), rows.sample_count() * sizeof(float)});
 }

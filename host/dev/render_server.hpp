@@ -88,6 +88,7 @@ class RenderServer {
   std::shared_ptr<executors::Tunables> tunables_;
   bool previews_ = false;
   std::shared_ptr<const Scene> scene_;
+  std::optional<image::Tone> tone_;  // tone of this revision's colours, with the metered exposure
   // Executors of this revision, by backend and by the values that they count.
   std::map<std::pair<executors::Backend, film::Needs>, std::unique_ptr<executors::Executor>> executors_;
   int64_t made_of_ = -1;  // the revision of being_made_

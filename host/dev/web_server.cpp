@@ -15,6 +15,7 @@
 #include "host/core/escaped_text.hpp"
 #include "host/core/json_depth.hpp"
 #include "host/image/image_file.hpp"
+#include "host/image/tone.hpp"
 
 namespace eyeray::engine::dev {
 
@@ -52,12 +53,11 @@ std::optional<Board::Picture> values_of(const Board& board, const std::string& v
   return view == difference ? board.difference() : board.picture(view);
 }
 
-// Data in false colour, or colours brightened by so many stops.
+// Data in false colour, or colours in the scene's tone, brightened by so many stops.
 image::Image for_people(Board::Picture picture, double stops) {
   if (picture.shown_as) return image::false_color(picture.image, *picture.shown_as);
-  const float factor = float(std::exp2(stops));
-  for (float& sample : picture.image.samples()) sample *= factor;
-  return std::move(picture.image);
+  picture.tone.exposure += stops;
+  return image::toned(picture.image, picture.tone);
 }
 
 double number(Request& request, const char* name, double otherwise) {

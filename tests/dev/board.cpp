@@ -50,6 +50,24 @@ TEST_CASE("a picture grows by rows, and a coarse one fills squares") {
   CHECK(image.pixel(4, 2)[0] == 0.25f);
 }
 
+TEST_CASE("a picture has the tone of its rows, and a difference has none") {
+  Board board;
+  Message message = rows(0, 1, 1, grey(5, 1));
+  message.json["tone"] = {{"exposure", 1.5}, {"curve", int(image::ToneCurve::agx)}, {"white_balance", 5000}};
+  for (const char* view : {"gpu", "reference"}) {
+    message.json["view"] = view;
+    board.put_rows(message);
+  }
+  CHECK(board.picture("gpu")->tone.exposure == 1.5);
+  CHECK(board.picture("gpu")->tone.curve == image::ToneCurve::agx);
+  CHECK(board.picture("gpu")->tone.white_balance == 5000);
+  CHECK(board.difference()->tone.exposure == 0);
+  CHECK(board.difference()->tone.curve == image::ToneCurve::none);
+  message.json["tone"]["curve"] = 99;
+  board.put_rows(message);
+  CHECK(board.picture("reference")->tone.curve == image::ToneCurve::none);
+}
+
 TEST_CASE("rows not rendered yet have no value") {
   Board board;
   board.put_rows(rows(0, 1, 1, grey(5, 1)));

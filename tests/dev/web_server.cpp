@@ -35,6 +35,33 @@ TEST_CASE("the page, its pictures and values are served under the token") {
     CHECK(status(site.get(site.root() + "values?view=gpu" + pixels)) == 400);
 }
 
+TEST_CASE("a frame has its picture's tone, and the stops of the request more") {
+  Site site;
+  const auto put = [&](const char* view, const Json& tone) {
+    const std::vector<float> grey(3, 0.25f);
+    Message rows{{{"view", view},
+                  {"width", 1},
+                  {"height", 1},
+                  {"row", 0},
+                  {"rows", 1},
+                  {"stride", 1},
+                  {"channels", 3}},
+                 std::string(reinterpret_cast<const char*>(grey.data()), 12)};
+    if (!tone.is_null()) rows.json["tone"] = tone;
+    site.board.put_rows(rows);
+  };
+  put("gpu", nullptr);
+  put("twin", {{"exposure", 1}, {"curve", 0}, {"white_balance", 0}});
+  put("reference", {{"exposure", 1}, {"curve", int(image::ToneCurve::filmic)}, {"white_balance", 0}});
+  const auto frame = [&](const std::string& query) {
+    const std::string answer = site.get(site.root() + "frame?view=" + query);
+    return answer.substr(answer.find("\x89PNG"));
+  };
+  CHECK(frame("twin") == frame("gpu&exposure=1"));
+  CHECK(frame("twin&exposure=-1") == frame("gpu"));
+  CHECK(frame("reference") != frame("twin"));
+}
+
 TEST_CASE("the server serves nothing without the token, and no file of the machine") {
   const Site site;
   for (const std::string& path : {std::string("/"), std::string("/main.mjs"), std::string("/frame?view=gpu"),

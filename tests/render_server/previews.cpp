@@ -137,3 +137,17 @@ TEST_CASE("a newer edit ends a preview, though the kernel of the older one still
   served.rows(3);
   CHECK(served.picture() == picture);
 }
+
+TEST_CASE("colours have the scene's tone; a metered exposure is that of the first rows") {
+  Served served;
+  served.ask(1, "image.exposure=-1.5", false);
+  for (const Json& rows : served.rows(1)) CHECK(rows.at("tone").at("exposure") == -1.5);
+  CHECK(served.board.picture("gpu")->tone.exposure == -1.5);
+  served.ask(2, "image.exposure=auto", true);
+  const std::vector<Json> rows = served.rows(2);
+  for (const Json& each : rows) CHECK(each.at("tone") == rows.front().at("tone"));
+  const double exposure = rows.front().at("tone").at("exposure");
+  served.ask(3, "render.background=0", false);
+  CHECK(served.rows(3).front().at("tone").at("exposure") == 0);
+  CHECK(exposure != 0);
+}
