@@ -51,14 +51,6 @@ bool is_glass(const tinyobj::material_t& source) {
   return refracts(source.illum) && source.ior > 1;
 }
 
-// True if a value or map of the physically based extension (Pr, Pm, Pc, Ps) is set, which `illum` does not
-// describe.
-bool is_principled(const tinyobj::material_t& source) {
-  return source.roughness > 0 || source.metallic > 0 || source.clearcoat_thickness > 0 || source.sheen > 0 ||
-         !source.roughness_texname.empty() || !source.metallic_texname.empty() ||
-         !source.sheen_texname.empty();
-}
-
 constexpr size_t most_statements_named = 16;
 
 // Limit on a material's emission: a larger value is a mistake.
@@ -77,6 +69,13 @@ struct Maps {
   std::shared_ptr<const ImageTexture> diffuse, emission, roughness, metallic, sheen;
 };
 
+// True if a value or map of the physically based extension (Pr, Pm, Pc, Ps) is set, which `illum` does not
+// describe.
+bool is_principled(const tinyobj::material_t& source, const Maps& maps) {
+  return source.roughness > 0 || source.metallic > 0 || source.clearcoat_thickness > 0 || source.sheen > 0 ||
+         maps.roughness || maps.metallic || maps.sheen;
+}
+
 std::unique_ptr<Material> convert(const tinyobj::material_t& source, const Maps& maps) {
   if (is_glass(source)) {
     const double ior = source.ior <= 4 ? source.ior : 1.5;
@@ -84,7 +83,7 @@ std::unique_ptr<Material> convert(const tinyobj::material_t& source, const Maps&
   }
   const TexturePtr diffuse = textured(color(source.diffuse), maps.diffuse);
   const TexturePtr emitted = emission(source, maps.emission);
-  if (is_principled(source)) {
+  if (is_principled(source, maps)) {
     const auto constant = [](double value) { return textures::make_constant(Vec3(share(value))); };
     // A value multiplies its map. A value of 0 beside a map is absent.
     const auto scaled = [](double value, const std::shared_ptr<const ImageTexture>& map) {
@@ -141,7 +140,7 @@ void add_unknown(const tinyobj::material_t& source, std::set<std::string>& names
 }
 
 // The words for a warning about each value of a material that has no counterpart here.
-std::vector<std::string> left_out(const tinyobj::material_t& source) {
+std::vector<std::string> left_out(const tinyobj::material_t& source, const Maps& maps) {
   std::vector<std::string> words;
   const auto add = [&](bool has, const char* what) {
     if (has) words.emplace_back(what);
@@ -155,7 +154,7 @@ std::vector<std::string> left_out(const tinyobj::material_t& source) {
   add(glass && source.dissolve > 0 && source.dissolve < 1,
       "the transparency (d) of glass: an index (Ni) of 1 makes it count");
   add(glass && !source.diffuse_texname.empty(), "pictures (map_Kd) of glass");
-  add(glass && is_principled(source), "the values and maps Pr, Pm, Pc and Ps of glass");
+  add(glass && is_principled(source, maps), "the values and maps Pr, Pm, Pc and Ps of glass");
   add(glass && !source.alpha_texname.empty(), "maps of transparency (map_d) of glass");
   add(glass && emits, "the emission (Ke) of glass");
   add(!source.displacement_texname.empty(), "displacement maps");
@@ -255,7 +254,7 @@ void ObjMaterials::parse(std::string text) {
     if (normals) made->normal_map = NormalMap{textures::make_image(normals)};
     materials.push_back(std::move(made));
     uv_.push_back(uv.value_or(ObjUv{}));
-    for (const std::string& what : left_out(source)) warn("left out: " + what);
+    for (const std::string& what : left_out(source, maps)) warn("left out: " + what);
     add_unknown(source, unknown);
   }
   if (unknown.empty()) return;
