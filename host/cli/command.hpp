@@ -67,6 +67,12 @@ class SceneOptions {
     options.defines_.insert(options.defines_.end(), defines.begin(), defines.end());
     return options;
   }
+  // These options for a mesh alone that turns once in so many frames.
+  SceneOptions with_turntable(int frames) const {
+    SceneOptions options = *this;
+    options.turntable_ = std::to_string(frames);
+    return options;
+  }
   // These options for another scene.
   SceneOptions for_file(const std::string& file) const {
     SceneOptions options = *this;
@@ -78,7 +84,7 @@ class SceneOptions {
   std::string file_;
   std::vector<std::string> defines_;
   loader::Trust trust_;
-  std::string look_, camera_, size_;
+  std::string look_, camera_, turntable_, size_;
   std::array<std::string, 8> values_;  // the values of the options in options.cpp's table, --spp first
 };
 

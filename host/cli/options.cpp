@@ -160,6 +160,7 @@ std::string SceneOptions::as_written() const {
   add("-s", size_);
   add("--look", look_);
   add("--camera", camera_);
+  add("--turntable", turntable_);
   for (size_t i = 0; i < value_options.size(); ++i) add(value_options[i].name, values_[i]);
   return text;
 }
@@ -167,8 +168,10 @@ std::string SceneOptions::as_written() const {
 Scene SceneOptions::load() const {
   std::vector<loader::Override> overrides;
   for (const std::string& define : defines_) overrides.push_back({define});
-  if (!look_.empty()) overrides.push_back({"look=" + look_, "--look " + look_});
-  if (!camera_.empty()) overrides.push_back({"camera=" + camera_, "--camera " + camera_});
+  for (const auto& [name, value] :
+       {std::pair("look", look_), std::pair("camera", camera_), std::pair("turntable", turntable_)})
+    if (!value.empty())
+      overrides.push_back({fmt::format("{}={}", name, value), fmt::format("--{} {}", name, value)});
   if (!size_.empty()) {
     const auto [width, height] = parse_size(size_);
     overrides.push_back({fmt::format("image.width={}", width), "-s " + size_});

@@ -242,7 +242,7 @@ ExitCode RenderCommand::run_frames() {
 ExitCode RenderCommand::run() {
   session_.options() = options.executor;
   if (turntable > 0) {
-    options.scene = options.scene.with_defines({fmt::format("turntable={}", turntable)});
+    options.scene = options.scene.with_turntable(turntable);
     frames = fmt::format("0:{}", turntable - 1);
   }
   if (!frames.empty()) return run_frames();

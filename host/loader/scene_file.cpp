@@ -109,6 +109,13 @@ std::optional<Override> take(std::vector<Override>& overrides, const ViewKey& ke
   return last;
 }
 
+std::optional<size_t> whole_number(const std::string& text) {
+  size_t number = 0;
+  const char* const last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), last, number);
+  return error == std::errc() && end == last ? std::optional(number) : std::nullopt;
+}
+
 MeshLook take_look(std::vector<Override>& overrides) {
   std::string name;
   const auto change = take(overrides, look_key, name);
@@ -124,11 +131,10 @@ int take_turntable(std::vector<Override>& overrides) {
   std::string frames;
   const auto change = take(overrides, turntable_key, frames);
   if (!change) return 0;
-  int count = 0;
-  const auto [end, error] = std::from_chars(frames.data(), frames.data() + frames.size(), count);
-  if (error != std::errc() || end != frames.data() + frames.size() || count < 2 || count > most_frames)
+  const size_t count = whole_number(frames).value_or(0);
+  if (count < 2 || count > size_t(most_frames))
     throw Error(ExitCode::bad_input, "{}: a turntable has 2 to {} frames", as_written(*change), most_frames);
-  return count;
+  return int(count);
 }
 
 // Removes all cameras but the one that an override names, or else the first. Several cameras may have one
@@ -144,7 +150,7 @@ void choose_camera(std::vector<importers::ImportedCamera>& cameras, std::vector<
   if (change) {
     const auto named = std::ranges::find(cameras, wanted, &importers::ImportedCamera::name);
     size_t index = size_t(named - cameras.begin());
-    if (named == cameras.end()) std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
+    if (named == cameras.end()) index = whole_number(wanted).value_or(cameras.size());
     if (wanted.empty() || index >= cameras.size())
       throw Error(ExitCode::bad_input, "{}: {} has no such camera; it has {}", as_written(*change),
                   file.string(), names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")));

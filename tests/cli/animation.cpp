@@ -186,3 +186,26 @@ TEST_CASE("an open shutter blurs the picture, in shards as in one piece") {
   CHECK(read_text(folder / "merged.pfm") == read_text(folder / "blurred.pfm"));
   CHECK(run_eyeray({"check", folder.scene(), "-D", "animation.shutter=-1"}).code == 2);
 }
+
+TEST_CASE("--turntable turns a mesh alone once; a scene has none") {
+  const TemporaryFolder folder;
+  const auto turn = [&](const std::string& scene, const char* frames) {
+    return run_eyeray({"render", scene, "--turntable", frames, "--look", "plain", "-s", "32x24", "-o",
+                       folder / "%d.pfm", "--quiet"});
+  };
+  CHECK(turn("scenes/meshes/ring.ply", "3").code == 0);
+  CHECK(folder.names() == std::set<std::string>{"0.pfm", "1.pfm", "2.pfm"});
+  CHECK(read_text(folder / "0.pfm") != read_text(folder / "1.pfm"));
+  CHECK(run_eyeray({"render", "scenes/meshes/ring.ply", "-D", "turntable=3", "-D", "animation.frame=2",
+                    "--look", "plain", "-s", "32x24", "-o", folder / "two.pfm", "--quiet"})
+            .code == 0);
+  CHECK(read_text(folder / "2.pfm") == read_text(folder / "two.pfm"));
+
+  const ProcessResult scene = turn("scenes/whitted.toml", "3");
+  CHECK(scene.code == 2);
+  CHECK(scene.err.find("--look plain: a look is for a mesh alone, and scenes/whitted.toml is a scene") !=
+        std::string::npos);
+  const ProcessResult once = turn("scenes/meshes/ring.ply", "1");
+  CHECK(once.code == 2);
+  CHECK(once.err.find("--turntable") != std::string::npos);
+}

@@ -246,7 +246,7 @@ TEST_CASE(
   CHECK(eye("camera=from above") == 2);
   CHECK(eye("camera=\"from above\"") == 2);
   CHECK(eye("camera=3") == 4);
-  for (const char* wrong : {"camera=plan", "camera=4", "camera=-1", "camera="}) {
+  for (const char* wrong : {"camera=plan", "camera=4", "camera=0 ", "camera=-1", "camera="}) {
     CAPTURE(wrong);
     CHECK_THROWS_WITH(load_scene(gltf, std::vector<Override>{{wrong}}),
                       (std::string("-D ") + wrong + ": " + gltf +
