@@ -211,8 +211,8 @@ TEST_CASE("of two triangles behind each other, a ray at their edge hits the near
         float t[2];
         for (int k = 0; k < 2; ++k) {
           const Vec3 n = glm::cross(Vec3(q) - Vec3(p), Vec3(c[k]) - Vec3(p));
-          const auto along = [&](const Vec3& d) { return glm::dot(Vec3(p) - Vec3(o), n) / glm::dot(d, n); };
-          const double slope = (along(beside) - along(Vec3(ray.d))) * 1e3;
+          const auto t_along = [&](const Vec3& d) { return glm::dot(Vec3(p) - Vec3(o), n) / glm::dot(d, n); };
+          const double slope = (t_along(beside) - t_along(Vec3(ray.d))) * 1e3;
           lean[k] = slope / (1 + std::abs(slope));
           shader::vec2 uv{};
           const auto triangle = k == 0 ? make_triangle(p, q, c[k]) : make_triangle(c[k], q, p);
