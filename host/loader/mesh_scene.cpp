@@ -221,6 +221,13 @@ class Studio {
 
 }  // namespace
 
+bool has_room_for_studio(const importers::ImportedScene& framed) {
+  constexpr double farthest = 1e10;
+  const Bounds box = bounds_of(framed);
+  const Vec3 reach = glm::max(glm::abs(box.min), glm::abs(box.max));
+  return std::max({reach.x, reach.y, reach.z}) <= farthest;
+}
+
 toml::table mesh_scene(const std::filesystem::path& file, const importers::ImportedScene& import,
                        const importers::ImportedScene& framed, const MeshView& view) {
   const auto [around, look, formulas, turntable] = view;

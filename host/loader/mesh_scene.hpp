@@ -17,6 +17,9 @@ struct MeshView {
   int turntable = 0;  // the frames in which the model turns once about the vertical; 0: it does not turn
 };
 
+// True if the floor and the lights around the model are within the range of numbers.
+bool has_room_for_studio(const importers::ImportedScene& framed);
+
 // The tables that a person would write to view the file: [[mesh]], some ambient light, and the file's camera
 // and lights. A missing camera is replaced by one that frames `framed`, three quarters from the front with y
 // up. Missing lights are replaced by one over the camera's left shoulder and a weak one from its right.

@@ -165,7 +165,7 @@ void choose_camera(std::vector<importers::ImportedCamera>& cameras, std::vector<
 // The document of a scene that shows the mesh file. Takes the overrides for its view out.
 Document read_mesh(const fs::path& file, std::vector<Override>& overrides, bool formulas, MeshImports& meshes,
                    DiagnosticLog& log) {
-  const MeshLook look = take_look(overrides);
+  MeshLook look = take_look(overrides);
   const int turntable = take_turntable(overrides);
   log.add_source(file.string(), "");
   meshes.show(requested_seconds(overrides));
@@ -184,8 +184,13 @@ Document read_mesh(const fs::path& file, std::vector<Override>& overrides, bool 
   choose_camera(loaded.scene->cameras, overrides, file, log);
   const bool around = std::ranges::any_of(
       overrides, [](const Override& each) { return each.text.starts_with("environment"); });
-  return {mesh_scene(file, *loaded.scene, rest ? *rest : *loaded.scene, {around, look, formulas, turntable}),
-          {}};
+  const importers::ImportedScene& framed = rest ? *rest : *loaded.scene;
+  if (look != MeshLook::plain && !has_room_for_studio(framed)) {
+    look = MeshLook::plain;
+    log.warning({},
+                "reaches beyond 1e10, where a floor and lights around it have no room: it is shown plain");
+  }
+  return {mesh_scene(file, *loaded.scene, framed, {around, look, formulas, turntable}), {}};
 }
 
 // If the scene moves while its shutter is open, sets the function that makes the scene at another moment. It

@@ -258,6 +258,21 @@ TEST_CASE(
                     ("-D camera=0: " + obj + " has no such camera; it has none").c_str());
 }
 
+TEST_CASE("a mesh alone that leaves no room for a studio is shown plain, with a warning") {
+  const Folder folder;
+  const auto load = [&](const char* reach) {
+    return load_scene(
+        folder.write("a.obj", fmt::format("v 0 0 0\nv {0} 0 0\nv {0} {0} 0\nf 1 2 3\n", reach)));
+  };
+  const Scene within = load("1e10"), beyond = load("1.1e10");
+  CHECK(within.warnings.empty());
+  CHECK(within.shapes.size() == 4);
+  CHECK(beyond.shapes.empty());
+  REQUIRE(beyond.warnings.size() == 1);
+  CHECK(contains(beyond.warnings[0].message, "reaches beyond 1e10"));
+  CHECK(load("9e11").shapes.empty());
+}
+
 TEST_CASE("a mesh file that cannot be read is an error") {
   const Folder folder;
   CHECK(refusal(folder.write("bad.ply", "ply\nx\n")) ==
