@@ -30,13 +30,6 @@ bool is_word(std::string_view text) {
   return digit(text[0]) && dot != std::string_view::npos && dot + 1 < text.size() && letter(text[dot + 1]);
 }
 
-std::optional<size_t> as_index(std::string_view text) {
-  size_t index = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return index;
-}
-
 class Assignment {
  public:
   // `at`: the position for errors in the key. `value_at`: the position of the text's value, if it is in a
@@ -196,9 +189,20 @@ class Assignment {
 
 }  // namespace
 
+std::optional<size_t> as_index(std::string_view text) {
+  size_t index = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return index;
+}
+
+std::string as_written(const Override& change) {
+  return change.written.empty() ? "-D " + change.text : change.written;
+}
+
 void apply_overrides(toml::table& root, std::span<const Override> overrides, DiagnosticLog& log) {
   for (const Override& change : overrides) {
-    const std::string written = change.written.empty() ? "-D " + change.text : change.written;
+    const std::string written = as_written(change);
     const SourcePosition at{printable(written), 0, 0};
     Assignment(change.text, at, at, root, log).apply();
   }

@@ -3,14 +3,22 @@
 
 #include <toml++/toml.h>
 
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "host/core/diagnostic_log.hpp"
 #include "host/loader/scene_file.hpp"
 
 namespace eyeray::engine::loader {
+
+// The whole number that is all of the text, or nothing.
+std::optional<size_t> as_index(std::string_view text);
+
+// The override as the user wrote it, for messages.
+std::string as_written(const Override& change);
 
 // Sets each value at its key in the tree, as if it stood in the file. All values are checked later.
 void apply_overrides(toml::table& root, std::span<const Override> overrides, DiagnosticLog& log);

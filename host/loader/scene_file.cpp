@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <iterator>
 #include <optional>
 #include <vector>
@@ -89,10 +88,6 @@ struct ViewKey {
 constexpr ViewKey look_key{"look=", "look"}, camera_key{"camera=", "camera by name"},
     turntable_key{"turntable=", "turntable"};
 
-std::string as_written(const Override& change) {
-  return change.written.empty() ? "-D " + change.text : change.written;
-}
-
 // Takes the last override with that key out of the list, and all before it. `value`: the value, without
 // quotes.
 std::optional<Override> take(std::vector<Override>& overrides, const ViewKey& key, std::string& value) {
@@ -107,13 +102,6 @@ std::optional<Override> take(std::vector<Override>& overrides, const ViewKey& ke
   if (value.size() > 1 && value.front() == '"' && value.back() == '"')
     value = value.substr(1, value.size() - 2);
   return last;
-}
-
-std::optional<size_t> whole_number(const std::string& text) {
-  size_t number = 0;
-  const char* const last = text.data() + text.size();
-  const auto [end, error] = std::from_chars(text.data(), last, number);
-  return error == std::errc() && end == last ? std::optional(number) : std::nullopt;
 }
 
 MeshLook take_look(std::vector<Override>& overrides) {
@@ -131,7 +119,7 @@ int take_turntable(std::vector<Override>& overrides) {
   std::string frames;
   const auto change = take(overrides, turntable_key, frames);
   if (!change) return 0;
-  const size_t count = whole_number(frames).value_or(0);
+  const size_t count = as_index(frames).value_or(0);
   if (count < 2 || count > size_t(most_frames))
     throw Error(ExitCode::bad_input, "{}: a turntable has 2 to {} frames", as_written(*change), most_frames);
   return int(count);
@@ -150,7 +138,7 @@ void choose_camera(std::vector<importers::ImportedCamera>& cameras, std::vector<
   if (change) {
     const auto named = std::ranges::find(cameras, wanted, &importers::ImportedCamera::name);
     size_t index = size_t(named - cameras.begin());
-    if (named == cameras.end()) index = whole_number(wanted).value_or(cameras.size());
+    if (named == cameras.end()) index = as_index(wanted).value_or(cameras.size());
     if (wanted.empty() || index >= cameras.size())
       throw Error(ExitCode::bad_input, "{}: {} has no such camera; it has {}", as_written(*change),
                   file.string(), names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")));
