@@ -141,7 +141,7 @@ void SceneOptions::add_to(CLI::App& command) {
       ->group(group);
   add("-s,--size", size_, "WxH", "Picture size in pixels, such as 640x480.");
   add("--look", look_, "NAME",
-      fmt::format("How a mesh alone is shown (docs/mesh-files.md): {}.",
+      fmt::format("How a mesh alone is shown (docs/scene-file.md): {}.",
                   fmt::join(loader::look_names, ", ")));
   add("--camera", camera_, "NAME", "The camera of a glTF file alone, by its name or its number from 0.");
   static_assert(std::tuple_size_v<decltype(values_)> == value_options.size());
