@@ -9,6 +9,7 @@
 #include "host/loader/keyframes.hpp"
 #include "host/loader/overrides.hpp"
 #include "host/loader/sections.hpp"
+#include "host/loader/variables.hpp"
 #include "host/reading/table.hpp"
 
 namespace eyeray::engine::loader {
@@ -146,9 +147,13 @@ std::span<const Key> track_keys() {
 Animation apply_animation(toml::table& root, DiagnosticLog& log) {
   const Section &settings = *find_section("animation"), &track = *find_section("track");
   const toml::node* const written = root.get(settings.name);
-  const reading::TableReader reader = reading::read_table(
-      {.title = settings.title, .table = written ? written->as_table() : nullptr, .keys = {settings.keys}},
-      log);
+  DiagnosticLog unheard;  // for faults that the builder of the scene reports
+  const reading::Variables variables = read_let(root, unheard);
+  const reading::TableReader reader = reading::read_table({.title = settings.title,
+                                                           .table = written ? written->as_table() : nullptr,
+                                                           .keys = {settings.keys},
+                                                           .sources = {.variables = &variables}},
+                                                          log);
   Animation animation{.frame = reader.number("frame"),
                       .frames_per_second = reader.number("frames_per_second"),
                       .shutter = reader.number("shutter"),

@@ -111,7 +111,7 @@ intensity = 8
 ```
 
 `intensity` is the radiance: each point of the surface emits as much in each direction. The light has the keys of its shape too: those of
-[[[parallelogram]]](#parallelogram) for a rectangle, of [[[disk]]](#disk), [[[sphere]]](#sphere) and [[[triangle]]](#triangle). A `batch` makes many lights.
+[[[parallelogram]]](#parallelogram) for a rectangle, of [[[disk]]](#disk), [[[sphere]]](#sphere) and [[[triangle]]](#triangle). A `batch` or a `repeat` makes many lights.
 
 A shape or mesh whose [[[material]]](#material) has `emission` is an area light as well; it may also reflect light, and its radiance may be a texture.
 )";
@@ -128,7 +128,8 @@ bool is_area_light(const toml::table& light) {
   return type && type->is_string() && type->as_string()->get() == lights::area_type;
 }
 
-const AreaShape* area_shape(const toml::table& light, DiagnosticLog& log) {
+const AreaShape* area_shape(const toml::table& light, const reading::ValueSources& sources,
+                            DiagnosticLog& log) {
   const std::string_view name = light["shape"].value_or(std::string_view());
   const auto found = std::ranges::find(area_shapes(), name, &AreaShape::name);
   if (found != area_shapes().end()) return &*found;
@@ -136,7 +137,8 @@ const AreaShape* area_shape(const toml::table& light, DiagnosticLog& log) {
   reading::read_table({.title = "[[light]] of type area",
                        .table = &light,
                        .keys = {keys_of_every_area_light()},
-                       .open = true},
+                       .open = true,
+                       .sources = sources},
                       log);
   return nullptr;
 }

@@ -8,6 +8,7 @@
 #include "host/core/diagnostic_log.hpp"
 #include "host/loader/sections.hpp"
 #include "host/reading/table_reader.hpp"
+#include "host/reading/value.hpp"
 #include "host/scene/shape.hpp"
 
 namespace eyeray::engine::loader {
@@ -33,6 +34,7 @@ bool is_area_light(const toml::table& light);
 Vec3 radiance_of(const Shape& shape, reading::TableReader& light);
 
 // The shape that an area light's table names. Null after an error, which is in the log.
-const AreaShape* area_shape(const toml::table& light, DiagnosticLog& log);
+const AreaShape* area_shape(const toml::table& light, const reading::ValueSources& sources,
+                            DiagnosticLog& log);
 
 }  // namespace eyeray::engine::loader

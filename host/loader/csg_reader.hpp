@@ -8,6 +8,7 @@
 
 #include "host/core/diagnostic_log.hpp"
 #include "host/loader/csg_parts.hpp"
+#include "host/loader/tables.hpp"
 #include "host/reading/source_position.hpp"
 #include "host/reading/table.hpp"
 
@@ -80,7 +81,7 @@ class CsgReader {
             });
         ok = ok && wanted > 0 && added == wanted;
       };
-      ok = host_.for_each(holder, name, add_part, "csg") && ok;
+      ok = for_each_table(holder, name, log_, add_part, "csg") && ok;
     }
     return ok;
   }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "host/loader/sections.hpp"
+#include "host/loader/variables.hpp"
 #include "host/reading/source_position.hpp"
 
 namespace eyeray::engine::loader {
@@ -42,21 +43,28 @@ std::vector<const toml::table*> tables(const toml::table& holder, std::string_vi
   return found;
 }
 
+}  // namespace
+
+// The number of objects that the table's batch or `repeat` makes.
+double GroupPlan::copies(const toml::table& table) {
+  return batch_size(table) * repeat_size(table, variables_);
+}
+
 // The number of shapes and CSG objects in a shape's table, including itself, the parts of a CSG object, and
-// its batch.
-double count_shapes(const toml::table& table) {
+// its copies.
+double GroupPlan::count_shapes(const toml::table& table) {
   double count = 1;
   for (const toml::table* held : {&table, table[minus_key].as_table()}) {
     if (!held) continue;
     for (const std::string_view name : placed_names())
       for (const toml::table* part : tables(*held, name)) count += count_shapes(*part);
   }
-  return count * batch_size(table);
+  return count * copies(table);
 }
 
-}  // namespace
-
-GroupPlan::GroupPlan(const toml::table& root, GroupStorage storage, DiagnosticLog& log) : log_(log) {
+GroupPlan::GroupPlan(const toml::table& root, GroupStorage storage, reading::Variables& variables,
+                     DiagnosticLog& log)
+    : variables_(variables), log_(log) {
   enter_names(root);
   Node& scene = node_of(root);
   scene.is_scene = true;
@@ -84,6 +92,7 @@ GroupPlan::Node& GroupPlan::node_of(const toml::table& table) {
   if (fresh) {
     entry->second = &nodes_.emplace_back();
     entry->second->table = &table;
+    entry->second->counters = counter_names(table);
   }
   return *entry->second;
 }
@@ -120,14 +129,16 @@ void GroupPlan::link(Node& node) {
           link_instances(node, table);
           break;
         case Section::Kind::group:
-          if (!is_pattern(table))
-            node.members.push_back({&node_of(table), batch_size(table)});
-          else if (!node.is_scene)
+          if (!is_pattern(table)) {
+            Node& inner = node_of(table);
+            inner.counters.insert(inner.counters.end(), node.counters.begin(), node.counters.end());
+            node.members.push_back({&inner, copies(table)});
+          } else if (!node.is_scene)
             log_.error(reading::position_of(table.get("pattern")->source()),
                        "only a [[group]] that is in no other can be a pattern");
           break;
         default:
-          node.own += section.is_combined() ? count_shapes(table) : batch_size(table);
+          node.own += section.is_combined() ? count_shapes(table) : copies(table);
           node.bounded = node.bounded && (!section.shape || section.shape->bounded);
       }
     }
@@ -143,9 +154,9 @@ void GroupPlan::link_instances(Node& node, const toml::table& table) {
       log_.error(reading::position_of(name.source()),
                  fmt::format("more than one [[group]] is named \"{}\"", name.as_string()->get()));
     if (found != by_name_.end())
-      node.members.push_back({found->second, count * batch_size(*found->second->table)});
+      node.members.push_back({found->second, count * copies(*found->second->table)});
   };
-  if (const toml::node* name = table.get("group")) return add(*name, batch_size(table));
+  if (const toml::node* name = table.get("group")) return add(*name, copies(table));
   if (const toml::array* names = table[batch_key]["group"].as_array())
     for (const toml::node& name : *names) add(name, 1);
 }
@@ -189,7 +200,8 @@ void GroupPlan::choose(Node& node, GroupStorage storage) {
     const double shown = count * node.shown;
     apart += std::min(shown * group->items, group->items + instance_cost * shown);
   }
-  const bool possible = node.bounded && node.shown >= 2 && node.items > 0;
+  const bool possible =
+      node.bounded && node.shown >= 2 && node.items > 0 && !contents_mention(*node.table, node.counters);
   const bool worthwhile = once <= apart && node.shown * node.items - once >= worth_keeping_once;
   node.instanced =
       possible && (storage == GroupStorage::instanced || (storage == GroupStorage::automatic && worthwhile));

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "host/core/diagnostic_log.hpp"
+#include "host/reading/number_expression.hpp"
 #include "host/scene/scene.hpp"
 
 namespace eyeray::engine::loader {
@@ -19,8 +20,9 @@ namespace eyeray::engine::loader {
 class GroupPlan {
  public:
   // Reads only the structure of the tables; the reader of each table reports the faults within it. Reports
-  // groups that contain themselves, and groups that make too many objects for any memory.
-  GroupPlan(const toml::table& root, GroupStorage storage, DiagnosticLog& log);
+  // groups that contain themselves, and groups that make too many objects for any memory. `variables`: those
+  // of [let].
+  GroupPlan(const toml::table& root, GroupStorage storage, reading::Variables& variables, DiagnosticLog& log);
 
   // True if the groups can be shown; false after errors.
   bool sound() const { return sound_; }
@@ -48,17 +50,20 @@ class GroupPlan {
       double count;  // the number of its copies in one copy of the node
     };
     std::vector<Member> members;
-    double own = 0;       // number of its own shapes and meshes, …
-    double items = 0;     // … also with those of its groups, …
-    double objects = 0;   // … and also with the groups themselves
-    bool bounded = true;  // true if all its items are bounded
-    int height = 0;       // depth of nested groups below it
+    double own = 0;                          // number of its own shapes and meshes, …
+    double items = 0;                        // … also with those of its groups, …
+    double objects = 0;                      // … and also with the groups themselves
+    bool bounded = true;                     // true if all its items are bounded
+    std::vector<std::string_view> counters;  // counters of its `repeat`, and of the groups around it
+    int height = 0;                          // depth of nested groups below it
     enum class Visit { none, begun, done } visit = Visit::none;
     double shown = 0;  // number of its copies in the world, except those within an instance
     bool instanced = false;
     bool idle = false;
   };
 
+  double copies(const toml::table& table);
+  double count_shapes(const toml::table& table);
   Node& node_of(const toml::table& table);
   void enter_names(const toml::table& root);
   void link(Node& node);
@@ -68,6 +73,7 @@ class GroupPlan {
   void check_counts(const Node& root);
   void fail(const toml::node& at, std::string message);
 
+  reading::Variables& variables_;
   DiagnosticLog& log_;
   std::deque<Node> nodes_;
   std::map<const toml::table*, Node*> by_table_;

@@ -63,10 +63,11 @@ struct Kind {
 };
 
 // Reads the type of a table, and the table by the keys of that type. The type is null after an error in it,
-// which is in the log. `table`: null if it is not written.
+// which is in the log. `table`: null if it is not written. `extra_keys`: keys that other code reads.
 template <typename Type>
 Kind<Type> read_kind(const Section& section, const toml::table* table, std::span<const Type* const> types,
-                     const reading::ValueSources& sources, DiagnosticLog& log) {
+                     const reading::ValueSources& sources, DiagnosticLog& log,
+                     std::span<const std::string_view> extra_keys = {}) {
   const Type* type = named_type(table, section, types);
   const std::string title = type ? fmt::format("{} of type {}", section.title, type->name) : section.title;
   const std::vector<std::string_view> others =
@@ -76,6 +77,7 @@ Kind<Type> read_kind(const Section& section, const toml::table* table, std::span
           reading::read_table({.title = title,
                                .table = table,
                                .keys = {section.keys, type ? type->keys : std::span<const reading::Key>()},
+                               .extra_keys = extra_keys,
                                .refused_keys = others,
                                .open = !type,
                                .sources = sources},

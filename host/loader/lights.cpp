@@ -7,7 +7,8 @@ namespace eyeray::engine::loader {
 
 std::unique_ptr<Light> read_light(const Section& section, const toml::table& table,
                                   const reading::ValueSources& sources, DiagnosticLog& log) {
-  auto [type, reader] = read_kind(section, &table, lights::types(), sources, log);
+  constexpr std::string_view read_elsewhere[] = {repeat_key};
+  auto [type, reader] = read_kind(section, &table, lights::types(), sources, log, read_elsewhere);
   return type ? type->parse(reader) : nullptr;
 }
 

@@ -6,6 +6,7 @@
 #include "host/loader/environments.hpp"
 #include "host/loader/scene_file.hpp"
 #include "host/loader/sections.hpp"
+#include "host/loader/variables.hpp"
 #include "host/materials/registry.hpp"
 #include "host/reading/table.hpp"
 #include "host/reference/integrator.hpp"
@@ -86,7 +87,7 @@ std::string scene_manual() {
     }
     text += std::string(section.doc) + "\n\n";
     if (!section.manual.empty()) text += trimmed(section.manual);
-    text += key_table({section.keys});
+    if (!section.keys.empty()) text += key_table({section.keys});
     if (section.kind == image)
       text += values_manual("pattern", sample_patterns,
                             [](uint32_t i) { return reference::sampler(SamplePattern(i)).manual; });
@@ -115,6 +116,7 @@ std::string scene_manual() {
       "keys apply to all.\n\n"
       "```toml\n[[sphere]]\nmaterial = \"glass\"\n"
       "batch = { center = [[0, 0, 0], [3, 0, 0]], radius = [1, 0.5] }\n```\n";
+  text += fmt::format("\n## `repeat`\n\n{}\n", repeat_manual());
   text +=
       "\n## `include`\n\nA file name or a list of file names, before all tables. Names are relative to the "
       "file that contains them. See [scene-file.md](scene-file.md#several-files).\n";

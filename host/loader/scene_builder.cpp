@@ -21,6 +21,8 @@
 #include "host/loader/photon_check.hpp"
 #include "host/loader/sections.hpp"
 #include "host/loader/settings.hpp"
+#include "host/loader/tables.hpp"
+#include "host/loader/variables.hpp"
 #include "host/reading/source_position.hpp"
 #include "host/reading/table.hpp"
 #include "host/scene/affine.hpp"
@@ -57,7 +59,11 @@ class Builder {
  public:
   Builder(const toml::table& root, const SceneSources& sources, DiagnosticLog& log)
       : root_(root),
-        values_{.formulas = sources.formulas, .images = sources.images, .textures = textures::types()},
+        variables_(read_let(root, log)),
+        values_{.formulas = sources.formulas,
+                .images = sources.images,
+                .textures = textures::types(),
+                .variables = &variables_},
         meshes_(sources.meshes),
         log_(log) {}
 
@@ -79,28 +85,15 @@ class Builder {
     reading::TableReader verify = read_single("verify");
     scene_.verify = read_verify(verify);
 
-    for_each(root_, "light", [&](const Section& section, const toml::table& table) {
-      if (is_area_light(table)) {
-        if (const AreaShape* shape = area_shape(table, log_)) area_lights_.push_back({shape, &table});
-        return;
-      }
-      if (++lights_ == most_lights + 1) {
-        log_.error(reading::position_of(table.source()),
-                   fmt::format("a scene can have at most {} lights", most_lights));
-      }
-      if (lights_ > most_lights) return;
-      if (std::unique_ptr<Light> light = read_light(section, table, values_, log_)) {
-        scene_.lights.push_back(std::move(light));
-        light_positions_.push_back(reading::position_of(table.source()));
-      }
-    });
+    for_each_table(root_, "light", log_,
+                   [&](const Section& section, const toml::table& table) { add_lights(section, table); });
     if (surroundings.sun) {
       scene_.lights.push_back(std::move(surroundings.sun));
       light_positions_.push_back(reading::position_of(around->source()));
     }
-    for_each(root_, "material",
-             [&](const Section& section, const toml::table& table) { materials_.add(section, table); });
-    plan_.emplace(root_, scene_.render.groups, log_);
+    for_each_table(root_, "material", log_,
+                   [&](const Section& section, const toml::table& table) { materials_.add(section, table); });
+    plan_.emplace(root_, scene_.render.groups, variables_, log_);
     if (plan_->sound()) {
       add_placed(root_, Placing{});
       check_idle_patterns();
@@ -121,35 +114,11 @@ class Builder {
 
   reading::TableReader read_single(std::string_view name) {
     const Section& section = *find_section(name);
-    return reading::read_table({section.title, single(name), {section.keys}}, log_);
+    return reading::read_table(
+        {.title = section.title, .table = single(name), .keys = {section.keys}, .sources = values_}, log_);
   }
 
-  // Visits the tables in the list `name`. Returns false, and adds an error, if its value is no list or an
-  // element is no table.
-  template <typename Visit>
-  bool for_each(const toml::table& holder, std::string_view name, const Visit& visit,
-                std::string_view holder_name = "group") {
-    const toml::node* list = holder.get(name);
-    if (!list) return true;
-    const Section& section = *find_section(name);
-    if (!list->is_array()) {
-      log_.error(reading::position_of(list->source()),
-                 fmt::format("`{0}` must be a list of tables, written [[{1}.{0}]]", name, holder_name));
-      return false;
-    }
-    bool ok = true;
-    for (const toml::node& node : *list->as_array()) {
-      if (node.is_table()) {
-        visit(section, *node.as_table());
-      } else {
-        log_.error(reading::position_of(node.source()),
-                   fmt::format("every {} must be a table", section.title));
-        ok = false;
-      }
-    }
-    return ok;
-  }
-
+  void add_lights(const Section& section, const toml::table& table);
   void add_placed(const toml::table& holder, const Placing& group);
   void add_area_lights(std::string_view shape);
   void add_table(const Section& section, const toml::table& table, const Placing& group);
@@ -168,6 +137,7 @@ class Builder {
   void check_whole(reading::TableReader& render);
 
   const toml::table& root_;
+  reading::Variables variables_;
   const reading::ValueSources values_;
   MeshImports* meshes_;
   DiagnosticLog& log_;
@@ -185,10 +155,31 @@ class Builder {
   bool tried_shapes_ = false;
 };
 
+// Adds the lights of a table, but notes an area light for later.
+void Builder::add_lights(const Section& section, const toml::table& table) {
+  if (is_area_light(table)) {
+    if (const AreaShape* shape = area_shape(table, values_, log_)) area_lights_.push_back({shape, &table});
+    return;
+  }
+  const Repeat repeat = read_repeat(table, variables_, log_);
+  for (size_t i = 0; i < repeat.count; ++i) {
+    const LoopScope scope(variables_, repeat, i);
+    if (++lights_ == most_lights + 1) {
+      log_.error(reading::position_of(table.source()),
+                 fmt::format("a scene can have at most {} lights", most_lights));
+    }
+    if (lights_ > most_lights) return;
+    if (std::unique_ptr<Light> light = read_light(section, table, values_, log_)) {
+      scene_.lights.push_back(std::move(light));
+      light_positions_.push_back(reading::position_of(table.source()));
+    }
+  }
+}
+
 // Adds the shapes, meshes and groups of a group, or of the scene.
 void Builder::add_placed(const toml::table& holder, const Placing& group) {
   for (const std::string_view name : placed_names()) {
-    for_each(holder, name, [&](const Section& section, const toml::table& table) {
+    for_each_table(holder, name, log_, [&](const Section& section, const toml::table& table) {
       // Skip a pattern: only instances show it.
       if (section.kind == Section::Kind::group && GroupPlan::is_pattern(table)) return;
       add_table(section, table, group);
@@ -254,7 +245,12 @@ void Builder::add_group(reading::TableReader& reader, const toml::table& table, 
 void Builder::add_instance(reading::TableReader& reader, const Placing& placing) {
   if (!reader.valid("group")) return;
   const std::string name = reader.string("group");
-  if (const toml::table* group = plan_->find(name)) return add_table(*find_section("group"), *group, placing);
+  if (const toml::table* group = plan_->find(name)) {
+    const auto around = std::exchange(variables_.loops, {});
+    add_table(*find_section("group"), *group, placing);
+    variables_.loops = around;
+    return;
+  }
   if (log_.damaged()) return;
   const std::string nearest = nearest_name(name, plan_->names());
   reader.error("group", fmt::format("no [[group]] is named \"{}\"{}", name,
@@ -274,7 +270,8 @@ void Builder::check_idle_patterns() {
   }
 }
 
-// Calls add(reader, placing) for the table, or for each element of its batch. Returns the number of elements.
+// Calls add(reader, placing) for the table, for each element of its batch, or for each of its repetitions.
+// Returns their number.
 template <typename Add>
 size_t Builder::for_each_placed(const Section& section, const toml::table& table, const Placing& group,
                                 const Add& add) {
@@ -283,16 +280,19 @@ size_t Builder::for_each_placed(const Section& section, const toml::table& table
     return placed.name.index == Names::none ? "" : describe(section.name, placed.name, scene_.names);
   });
   const Batch batch = read_batch(section, table, log_);
-  std::vector<std::string_view> elsewhere{batch_key};
+  const Repeat repeat = read_repeat(table, variables_, log_);
+  const size_t count = batch.count * repeat.count;  // one of them is 1, or 0
+  std::vector<std::string_view> elsewhere{batch_key, repeat_key};
   if (section.kind == Section::Kind::group || section.is_combined())
     elsewhere.insert(elsewhere.end(), placed_names().begin(), placed_names().end());
   if (section.is_combined()) elsewhere.push_back(minus_key);
   if (section.kind != Section::Kind::group) tried_shapes_ = true;
-  for (size_t i = 0; i < batch.count; ++i) {
+  for (size_t i = 0; i < count; ++i) {
+    const LoopScope scope(variables_, repeat, i);
     placed.name = {group.name.index, false};
     if (const std::string_view name = written_name(table, batch, i); !name.empty()) {
-      // If the batch does not list names, its elements have the table's name and a number.
-      const bool shared = batch.lists && !batch.lists->contains("name");
+      // If the batch does not list names, its elements have the table's name and a number, as repetitions do.
+      const bool shared = batch.lists ? !batch.lists->contains("name") : !repeat.counters.empty();
       placed.name = {scene_.names.add(name, shared ? uint32_t(i + 1) : 0, group.name.index), true};
     }
     reading::TableReader reader =
@@ -317,7 +317,7 @@ size_t Builder::for_each_placed(const Section& section, const toml::table& table
     worst_condition_ = std::max(worst_condition_, condition(Mat3(placed.to_world)));
     add(reader, placed);
   }
-  return batch.count;
+  return count;
 }
 
 std::unique_ptr<Shape> Builder::read_shape(const Section& section, const toml::table& table,

@@ -35,14 +35,25 @@ Json from_toml(const toml::node& node) {
   return list;
 }
 
+Json reference_to(std::string_view definition) {
+  return {{"$ref", fmt::format("#/$defs/{}", definition)}};
+}
+
+// The definitions of values for which an expression may stand.
+constexpr std::string_view number_definition = "number", integer_definition = "integer",
+                           list_definition = "list";
+Json or_expression(std::string_view type) {
+  return {{"type", {type, "string"}}, {"pattern", "^="}};
+}
+
 // The number as JSON: an integer if it is one, so that the schema contains 1 and not 1.0.
 Json bound(double value) {
   if (std::fabs(value) < 1e15 && std::trunc(value) == value) return static_cast<int64_t>(value);
   return value;
 }
 
-Json number_schema(const Key& key, std::string_view type) {
-  Json schema = {{"type", type}};
+Json number_schema(const Key& key, std::string_view definition = number_definition) {
+  Json schema = reference_to(definition);
   if (std::isfinite(key.min)) schema[key.above_min ? "exclusiveMinimum" : "minimum"] = bound(key.min);
   if (std::isfinite(key.max)) schema[key.below_max ? "exclusiveMaximum" : "maximum"] = bound(key.max);
   return schema;
@@ -53,7 +64,8 @@ Json list_schema(Json items) {
 }
 
 Json vector_schema(const Key& key, int size) {
-  Json schema = list_schema(number_schema(key, "number"));
+  Json schema = reference_to(list_definition);
+  schema["items"] = number_schema(key);
   schema["minItems"] = schema["maxItems"] = size;
   return schema;
 }
@@ -63,10 +75,6 @@ Json either(Json a, Json b) {
 }
 
 Json table_schema(std::span<const Key> keys);
-
-Json reference_to(std::string_view definition) {
-  return {{"$ref", fmt::format("#/$defs/{}", definition)}};
-}
 
 // The names of definitions for values that many keys take.
 constexpr std::string_view texture_definition = "texture", transform_definition = "transform";
@@ -100,10 +108,10 @@ Json value_schema(const Key& key) {
     case KeyType::boolean:
       return {{"type", "boolean"}};
     case KeyType::integer:
-      return number_schema(key, "integer");
+      return number_schema(key, integer_definition);
     case KeyType::number:
-      if (!key.word.empty()) return either(number_schema(key, "number"), {{"const", key.word}});
-      return number_schema(key, "number");
+      if (!key.word.empty()) return either(number_schema(key), {{"const", key.word}});
+      return number_schema(key);
     case KeyType::string:
       return {{"type", "string"}};
     case KeyType::choice:
@@ -128,13 +136,14 @@ Json value_schema(const Key& key) {
     case KeyType::formula_file:
       return {{"type", "string"}};
     case KeyType::parameters: {
-      Json list = list_schema({{"type", "number"}});
+      Json list = list_schema(reference_to(number_definition));
       list["minItems"] = 2;
       list["maxItems"] = 4;
-      return {{"type", "object"}, {"additionalProperties", either({{"type", "number"}}, std::move(list))}};
+      return {{"type", "object"},
+              {"additionalProperties", either(reference_to(number_definition), std::move(list))}};
     }
     case KeyType::color_map: {
-      Json pair = list_schema(either(number_schema(positive, "number"), vector_schema(positive, 3)));
+      Json pair = list_schema(either(number_schema(positive), vector_schema(positive, 3)));
       pair["minItems"] = pair["maxItems"] = 2;
       return list_schema(std::move(pair));
     }
@@ -146,11 +155,11 @@ Json value_schema(const Key& key) {
       return list;
     }
     case KeyType::color:
-      return either(number_schema(positive, "number"), vector_schema(positive, 3));
+      return either(number_schema(positive), vector_schema(positive, 3));
     case KeyType::scale2:
-      return either(number_schema(key, "number"), vector_schema(key, 2));
+      return either(number_schema(key), vector_schema(key, 2));
     case KeyType::scale3:
-      return either(number_schema(key, "number"), vector_schema(key, 3));
+      return either(number_schema(key), vector_schema(key, 3));
     case KeyType::rotation:
       return table_schema(reading::rotation_keys());
     case KeyType::transform:
@@ -161,7 +170,7 @@ Json value_schema(const Key& key) {
       return rows;
     }
     case KeyType::texture: {
-      Json schema = either(number_schema(positive, "number"), vector_schema(positive, 3));
+      Json schema = either(number_schema(positive), vector_schema(positive, 3));
       schema["anyOf"].push_back(reference_to(texture_definition));
       return schema;
     }
@@ -213,6 +222,23 @@ Json world_ray(const Section& section) {
   return schema;
 }
 
+// The schema of `repeat`.
+Json repeat_schema() {
+  Json count = reference_to(integer_definition);
+  count["minimum"] = 1;
+  return {{"description", "Counters; the table is read once for each combination of their values."},
+          {"type", "object"},
+          {"minProperties", 1},
+          {"additionalProperties", std::move(count)}};
+}
+
+Json let_schema() {
+  Json list = list_schema(reference_to(number_definition));
+  list["minItems"] = 1;
+  return {{"type", "object"},
+          {"additionalProperties", either(reference_to(number_definition), std::move(list))}};
+}
+
 Json shapes_of_csg() {
   Json shapes = Json::object();
   for (const std::string_view name : placed_names()) {
@@ -241,6 +267,7 @@ Json placed_schema(const Section& section, std::span<const Key> keys) {
       {"properties", std::move(lists)},
       {"minProperties", 1},
       {"additionalProperties", false}};
+  schema["properties"][std::string(repeat_key)] = reference_to(repeat_key);
   if (schema.contains("required")) {
     schema["anyOf"] = {{{"required", schema["required"]}}, {{"required", {batch_key}}}};
     schema.erase("required");
@@ -261,6 +288,7 @@ Json placed_schema(const Section& section, std::span<const Key> keys) {
 
 Json lights_schema(const Section& section) {
   Json schema = kinds_schema(section, lights::types());
+  for (Json& kind : schema["oneOf"]) kind["properties"][std::string(repeat_key)] = reference_to(repeat_key);
   for (const AreaShape& shape : area_shapes()) {
     Json one = placed_schema(shape.section, shape.section.keys);
     one["properties"]["type"] = {{"const", lights::area_type}};
@@ -271,6 +299,7 @@ Json lights_schema(const Section& section) {
 }
 
 Json section_schema(const Section& section) {
+  if (section.kind == Section::Kind::let) return let_schema();
   if (section.is_placed()) return list_schema(world_ray(section));
   if (section.kind == Section::Kind::material) return list_schema(kinds_schema(section, materials::types()));
   if (section.kind == Section::Kind::camera) return kinds_schema(section, cameras::types());
@@ -284,7 +313,10 @@ Json section_schema(const Section& section) {
 std::string scene_schema() {
   const Json file_name = {{"type", "string"}};
   Json properties;
-  Json definitions = {{texture_definition, texture_schema()}, {transform_definition, transform_schema()}};
+  Json definitions = {
+      {number_definition, or_expression("number")}, {integer_definition, or_expression("integer")},
+      {list_definition, or_expression("array")},    {repeat_key, repeat_schema()},
+      {texture_definition, texture_schema()},       {transform_definition, transform_schema()}};
   properties[std::string(include_key)] = {{"description", "Scene files to include, relative to this one."},
                                           {"anyOf", {file_name, list_schema(file_name)}}};
   for (const Section& section : sections()) {

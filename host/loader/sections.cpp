@@ -11,6 +11,7 @@
 #include "host/loader/environments.hpp"
 #include "host/loader/medium.hpp"
 #include "host/loader/settings.hpp"
+#include "host/loader/variables.hpp"
 #include "host/materials/registry.hpp"
 #include "host/reading/foreign_words.hpp"
 #include "host/shapes/registry.hpp"
@@ -288,6 +289,7 @@ constexpr Key group_keys[] = {
 std::vector<Section> make_sections() {
   using enum Section::Kind;
   std::vector<Section> all = {
+      {let, "let", "[let]", "Variables for the numbers of the scene.", {}, nullptr, let_manual()},
       {image, "image", "[image]", "The picture.", image_keys()},
       {camera, "camera", "[camera]", "Position and projection of the view.", camera_keys()},
       {render, "render", "[render]", "How the picture is computed.", render_keys()},

@@ -13,6 +13,7 @@ namespace eyeray::engine::loader {
 
 struct Section {
   enum class Kind {
+    let,
     image,
     camera,
     render,
@@ -38,7 +39,8 @@ struct Section {
   std::string_view manual = {};              // the manual's addition to `doc`; Markdown
 
   bool many() const { return title.starts_with("[["); }
-  // True if the table is an object in the world. Such a table may have a batch, and may stand in a group.
+  // True if the table is an object in the world. Such a table may have a batch or be repeated, and may stand
+  // in a group.
   bool is_placed() const {
     return kind == Kind::shape || kind == Kind::mesh || kind == Kind::group || kind == Kind::instance;
   }
@@ -65,8 +67,9 @@ std::span<const reading::Key> part_keys();
 // The table within a CSG object's table that contains the parts to take away.
 inline constexpr std::string_view minus_key = "minus";
 
-// The key that lists the files to include, and the key of a table's batch.
+// The key that lists the files to include, and the keys that make many objects of a table.
 inline constexpr std::string_view include_key = "include";
 inline constexpr std::string_view batch_key = "batch";
+inline constexpr std::string_view repeat_key = "repeat";
 
 }  // namespace eyeray::engine::loader

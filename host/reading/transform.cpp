@@ -42,15 +42,17 @@ std::span<const Key> rotation_keys() {
   return turn_keys;
 }
 
-std::optional<Mat4> read_rotation(const toml::table& table, DiagnosticLog& log) {
-  TableReader reader = read_table({"rotate", &table, {turn_keys}}, log);
+std::optional<Mat4> read_rotation(const toml::table& table, DiagnosticLog& log, const ValueSources& sources) {
+  TableReader reader =
+      read_table({.title = "rotate", .table = &table, .keys = {turn_keys}, .sources = sources}, log);
   const Vec3 axis = reader.vec3("axis");
   if (!(glm::length(axis) >= 1 / largest_number)) reader.error("axis", "the rotation axis has no length");
   if (reader.failed()) return std::nullopt;
   return glm::rotate(Mat4(1.0), glm::radians(reader.number("degrees")), glm::normalize(axis));
 }
 
-std::optional<Mat4> read_transform(const toml::array& steps, DiagnosticLog& log) {
+std::optional<Mat4> read_transform(const toml::array& steps, DiagnosticLog& log,
+                                   const ValueSources& sources) {
   Mat4 map(1.0);
   bool ok = true;
   for (const toml::node& node : steps) {
@@ -63,7 +65,8 @@ std::optional<Mat4> read_transform(const toml::array& steps, DiagnosticLog& log)
       ok = false;
       continue;
     }
-    TableReader step = read_table({"transform", table, {step_keys}}, log);
+    TableReader step =
+        read_table({.title = "transform", .table = table, .keys = {step_keys}, .sources = sources}, log);
     if (step.has("scale")) {
       const Vec3 scale = step.scale3("scale");
       if (scale.x == 0 || scale.y == 0 || scale.z == 0)

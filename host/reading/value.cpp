@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "host/core/error.hpp"
+#include "host/reading/expression_node.hpp"
 #include "host/reading/foreign_words.hpp"
 #include "host/reading/source_position.hpp"
 #include "host/reading/table.hpp"
@@ -30,12 +31,6 @@ std::string describe_node(const toml::node& node) {
   return node.is_table() ? "a table" : "a date or time";
 }
 
-TexturePtr plain_texture(const Vec3& color, const ValueSources& sources) {
-  const auto plain = std::ranges::find_if(sources.textures, &TextureType::of_color);
-  CHECK(plain != sources.textures.end());
-  return (*plain)->of_color(color);
-}
-
 // Reads one value, and records whether all of it was right.
 class Reader {
  public:
@@ -53,7 +48,17 @@ class Reader {
   void mismatch(const toml::node& node) {
     fail(node, fmt::format("`{}` must be {}, not {}", key_.name, describe(key_), describe_node(node)));
   }
+  void mismatch(const toml::node& node, std::span<const double> values) {
+    if (expression_of(node).empty()) return mismatch(node);
+    fail(node,
+         fmt::format(
+             "`{}` must be {}, not {}, which is {}", key_.name, describe(key_), describe_node(node),
+             values.size() == 1 ? fmt::format("{}", values[0]) : fmt::format("a list of {}", values.size())));
+  }
 
+  // The numbers that a number or an expression stands for; none, with an error, if it is neither.
+  std::vector<double> numbers(const toml::node& node);
+  double checked(double value, const toml::node& node);
   double number(const toml::node& node);
   int64_t integer(const toml::node& node);
   int64_t choice(const toml::node& node);
@@ -76,14 +81,28 @@ class Reader {
   bool ok_ = true;
 };
 
+std::vector<double> Reader::numbers(const toml::node& node) {
+  if (node.is_number()) return {*node.value<double>()};
+  if (!sources_.variables || expression_of(node).empty()) return mismatch(node), std::vector<double>{};
+  auto values = evaluate(node, *sources_.variables, log_);
+  ok_ = ok_ && values;
+  return values.value_or(std::vector<double>{});
+}
+
 double Reader::number(const toml::node& node) {
-  if (!node.is_number()) return mismatch(node), 0.0;
-  const double value = *node.value<double>();
+  const std::vector<double> values = numbers(node);
+  if (values.size() > 1) mismatch(node, values);
+  return values.size() == 1 ? checked(values[0], node) : 0.0;
+}
+
+// The value; with an error if it is not in the key's range.
+double Reader::checked(double value, const toml::node& node) {
   if (!std::isfinite(value)) {
-    fail(node, fmt::format("`{}` must be finite, not {}", key_.name, value));
+    fail(node,
+         fmt::format("`{}` must be finite, not {}", key_.name, std::isnan(value) ? std::nan("") : value));
   } else if (value < key_.min || value > key_.max || (key_.above_min && value <= key_.min) ||
              (key_.below_max && value >= key_.max)) {
-    mismatch(node);
+    mismatch(node, {{value}});
   } else if (std::fabs(value) > largest_number) {
     fail(node, fmt::format("`{}` is {:g}, beyond the range of float32 arithmetic (±{:g})", key_.name, value,
                            largest_number));
@@ -95,6 +114,11 @@ double Reader::number(const toml::node& node) {
 }
 
 int64_t Reader::integer(const toml::node& node) {
+  if (!expression_of(node).empty()) {
+    const double value = number(node);
+    if (ok_ && (std::trunc(value) != value || std::fabs(value) > 0x1p53)) mismatch(node, {{value}});
+    return ok_ ? int64_t(value) : 0;
+  }
   if (const auto* number = node.as_floating_point(); number && std::trunc(number->get()) == number->get()) {
     fail(node, fmt::format("`{0}` must be {1}; write {2:.0f} without a decimal point", key_.name,
                            describe(key_), number->get()));
@@ -138,7 +162,14 @@ std::array<int64_t, 2> Reader::choice2(const toml::node& node) {
 template <int N>
 glm::vec<N, double> Reader::vector(const toml::node& node, bool or_one_number) {
   glm::vec<N, double> value(0.0);
-  if (or_one_number && node.is_number()) return glm::vec<N, double>(number(node));
+  if (node.is_number() && !or_one_number) return mismatch(node), value;
+  if (node.is_number() || !expression_of(node).empty()) {
+    const std::vector<double> values = numbers(node);
+    if (values.size() == 1 && or_one_number) return glm::vec<N, double>(checked(values[0], node));
+    if (values.size() != N && !values.empty()) mismatch(node, values);
+    for (size_t i = 0; values.size() == N && i < N; ++i) value[int(i)] = checked(values[i], node);
+    return value;
+  }
   const toml::array* list = node.as_array();
   if (!list || list->size() != N) return mismatch(node), value;
   for (int i = 0; i < N; ++i) value[i] = number((*list)[static_cast<size_t>(i)]);
@@ -174,7 +205,9 @@ std::vector<Vec4> Reader::color_map(const toml::node& node) {
   for (const toml::node& element : *list) {
     const toml::array* pair = element.as_array();
     if (!pair || pair->size() != 2) return mismatch(element), colors;
-    const double at = (*pair)[0].value<double>().value_or(-1);
+    const bool calculated = !expression_of((*pair)[0]).empty();
+    const double at = calculated ? number((*pair)[0]) : (*pair)[0].value<double>().value_or(-1);
+    if (!ok_) return colors;
     if (!(at >= (colors.empty() ? 0 : colors.back().w) && at <= 1))
       return fail((*pair)[0], fmt::format("the position of a color in `{}` must be a number from 0 to 1, not "
                                           "less than the one before it",
@@ -208,6 +241,8 @@ std::vector<formula::FormulaParameter> Reader::parameters(const toml::node& node
     const toml::array* list = value.as_array();
     if (value.is_number())
       parameter.values = {number(value)};
+    else if (!expression_of(value).empty())
+      for (const double each : numbers(value)) parameter.values.push_back(checked(each, value));
     else if (!list || list->size() < 2 || list->size() > 4)
       fail(value,
            fmt::format("`{}` must be a number or 2 to 4 of them, not {}", key.str(), describe_node(value)));
@@ -312,11 +347,11 @@ Value Reader::value(const toml::node& node) {
       return vector<3>(node, true);
     case KeyType::transform:
       if (!node.is_array()) return mismatch(node), Mat4(1.0);
-      if (const auto matrix = read_transform(*node.as_array(), log_)) return *matrix;
+      if (const auto matrix = read_transform(*node.as_array(), log_, sources_)) return *matrix;
       return ok_ = false, Mat4(1.0);
     case KeyType::rotation:
       if (!node.is_table()) return mismatch(node), Mat4(1.0);
-      if (const auto turn = read_rotation(*node.as_table(), log_)) return *turn;
+      if (const auto turn = read_rotation(*node.as_table(), log_, sources_)) return *turn;
       return ok_ = false, Mat4(1.0);
     case KeyType::matrix:
       return matrix(node);
@@ -335,56 +370,6 @@ std::optional<Value> read_value(const Key& key, const toml::node& node, Diagnost
   Value value = reader.value(node);
   if (!reader.ok()) return std::nullopt;
   return value;
-}
-
-Value stand_in(const Key& key, const ValueSources& sources) {
-  // Take the number in the key's range that is nearest to 1.
-  const double low = key.above_min ? std::nextafter(key.min, Key::inf) : key.min;
-  const double high = key.below_max ? std::nextafter(key.max, -Key::inf) : key.max;
-  const double number = std::clamp(1.0, low, high);
-  switch (key.type) {
-    case KeyType::boolean:
-      return false;
-    case KeyType::integer:
-      return static_cast<int64_t>(number);
-    case KeyType::number:
-      return number;
-    case KeyType::string:
-      return std::string();
-    case KeyType::choice:
-      return int64_t{0};
-    case KeyType::choice2:
-      return std::array<int64_t, 2>{};
-    case KeyType::vec2:
-    case KeyType::scale2:
-      return Vec2(number);
-    case KeyType::vec3:
-    case KeyType::color:
-    case KeyType::scale3:
-      return Vec3(number);
-    case KeyType::vec2_list:
-      return std::vector<Vec2>();
-    case KeyType::vec3_list:
-      return std::vector<Vec3>();
-    case KeyType::color_map:
-      return std::vector<Vec4>();
-    case KeyType::keyframes:
-      return true;
-    case KeyType::outlines:
-      return std::vector<std::vector<Vec3>>();
-    case KeyType::formula:
-    case KeyType::formula_file:
-      return formula::FormulaText();
-    case KeyType::parameters:
-      return std::vector<formula::FormulaParameter>();
-    case KeyType::texture:
-      return plain_texture(Vec3(number), sources);
-    case KeyType::transform:
-    case KeyType::rotation:
-    case KeyType::matrix:
-      return Mat4(1.0);
-  }
-  return false;
 }
 
 }  // namespace eyeray::engine::reading

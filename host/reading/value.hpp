@@ -10,6 +10,7 @@
 #include "host/core/diagnostic_log.hpp"
 #include "host/reading/formula_source.hpp"
 #include "host/reading/image_source.hpp"
+#include "host/reading/number_expression.hpp"
 #include "host/reading/table_reader.hpp"
 #include "host/reading/texture_type.hpp"
 
@@ -27,7 +28,11 @@ struct ValueSources {
   FormulaSource* formulas = nullptr;                  // loads the files of formulas; null: none may be named
   ImageSource* images = nullptr;                      // loads the images of textures; null: none may be named
   std::span<const TextureType* const> textures = {};  // the kinds, among them that of plain colors
+  const Variables* variables = nullptr;  // variables of expressions; null: numbers cannot be expressions
 };
+
+// The texture of one color.
+TexturePtr plain_texture(const Vec3& color, const ValueSources& sources);
 
 // The value; or nothing, with an error in the log for each fault in the value.
 std::optional<Value> read_value(const Key& key, const toml::node& node, DiagnosticLog& log,

@@ -15,6 +15,8 @@ WRONG = {
     "a key that no sphere has": '[[sphere]]\ncentre = [0, 0, 0]\nradius = 1\nmaterial = "m"\n',
     "a table that no scene has": "[[ball]]\nradius = 1\n",
     "a vector of two": '[[sphere]]\ncenter = [0, 0]\nradius = 1\nmaterial = "m"\n',
+    "a text in place of a number": '[camera]\nfov = "wide"\n',
+    "a counter without a count": '[[light]]\ntype = "point"\nposition = [0, 0, 0]\nintensity = 1\nrepeat = { i = 0 }\n',
     "a texture of no kind": '[[material]]\nname = "m"\ntype = "diffuse"\ncolor = { marbel = {} }\n',
     "a material of no type": '[[material]]\nname = "m"\ntype = "difuse"\n',
     "an integrator of no name": '[render]\nintegrator = "paths"\n',
