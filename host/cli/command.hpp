@@ -84,7 +84,7 @@ class SceneOptions {
   std::string file_;
   std::vector<std::string> defines_;
   loader::Trust trust_;
-  std::string look_, camera_, turntable_, size_;
+  std::string look_, camera_, turntable_, point_size_, size_;
   std::array<std::string, 8> values_;  // the values of the options in options.cpp's table, --spp first
 };
 

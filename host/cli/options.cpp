@@ -118,8 +118,9 @@ std::vector<executors::Backend> parse_backends(const std::string& list) {
 void SceneOptions::add_to(CLI::App& command) {
   const std::string group = "Scene";
   command
-      .add_option("SCENE", file_,
-                  "The scene file (docs/scene-file.md), or a mesh: .obj, .ply, .stl, .gltf, .glb.")
+      .add_option(
+          "SCENE", file_,
+          "The scene file (docs/scene-file.md), or a mesh: .obj, .ply, .stl, .gltf, .glb, .xyz, .pcd.")
       ->required()
       ->check([](const std::string& file) { return file.empty() ? "must be the name of a file" : ""; });
   const auto add = [&](const char* name, auto& value, const char* text, const std::string& description) {
@@ -144,6 +145,8 @@ void SceneOptions::add_to(CLI::App& command) {
       fmt::format("How a mesh alone is shown (docs/scene-file.md): {}.",
                   fmt::join(loader::look_names, ", ")));
   add("--camera", camera_, "NAME", "The camera of a glTF file alone, by its name or its number from 0.");
+  add("--point-size", point_size_, "X",
+      "The diameter of the spheres that show the points of a scan alone, in the file's units.");
   static_assert(std::tuple_size_v<decltype(values_)> == value_options.size());
   for (size_t i = 0; i < value_options.size(); ++i) {
     const ValueOption& each = value_options[i];
@@ -161,6 +164,7 @@ std::string SceneOptions::as_written() const {
   add("--look", look_);
   add("--camera", camera_);
   add("--turntable", turntable_);
+  add("--point-size", point_size_);
   for (size_t i = 0; i < value_options.size(); ++i) add(value_options[i].name, values_[i]);
   return text;
 }
@@ -172,6 +176,7 @@ Scene SceneOptions::load() const {
        {std::pair("look", look_), std::pair("camera", camera_), std::pair("turntable", turntable_)})
     if (!value.empty())
       overrides.push_back({fmt::format("{}={}", name, value), fmt::format("--{} {}", name, value)});
+  if (!point_size_.empty()) overrides.push_back({"point_size=" + point_size_, "--point-size " + point_size_});
   if (!size_.empty()) {
     const auto [width, height] = parse_size(size_);
     overrides.push_back({fmt::format("image.width={}", width), "-s " + size_});

@@ -61,7 +61,8 @@ std::string defines(const records::PackedScene& scene, const Used& used, const S
   define("HAS_LIGHT_BVH", int(!scene.light_nodes.empty()));
   define("HAS_ENVIRONMENT_LIGHT", scene.frame.environment_numbers > 0 ? "true" : "false");
   define("TRIANGLE_METHOD", fmt::format("{}u", scene.frame.triangle_method));
-  define("HAS_COLORS", int(scene.vertex_colors));
+  define("HAS_COLORS", int(scene.own_colors));
+  define("HAS_PIECES", int(scene.pieces));
   define("HAS_SECOND_UV", int(scene.second_uv));
   define("HAS_SMOOTH", int(any_smooth(scene)));
   define("HAS_EMISSION", int(any_emits(scene)));

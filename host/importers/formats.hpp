@@ -18,6 +18,7 @@ struct MeshFile {
   AssetFiles assets;
   image::PixelBudget* pixels;
   Playing playing;
+  std::optional<double> point_size;  // see ImportOptions
 };
 
 // Each reader fills all of an ImportedScene but its `files`. InputError for a fault in the file; Error if a
@@ -25,6 +26,8 @@ struct MeshFile {
 ImportedScene import_obj(MeshFile& file);
 ImportedScene import_ply(MeshFile& file);
 ImportedScene import_stl(MeshFile& file);
+ImportedScene import_xyz(MeshFile& file);
+ImportedScene import_pcd(MeshFile& file);
 ImportedScene import_gltf(MeshFile& file);  // .gltf and .glb, distinguished by their first bytes
 
 // Default angle of smoothing in degrees, for files without normals other than glTF.

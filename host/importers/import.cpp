@@ -24,6 +24,8 @@ Reader find_reader(const std::filesystem::path& file) {
   if (ending == ".obj") return import_obj;
   if (ending == ".ply") return import_ply;
   if (ending == ".stl") return import_stl;
+  if (ending == ".xyz") return import_xyz;
+  if (ending == ".pcd") return import_pcd;
   if (ending == ".gltf" || ending == ".glb") return import_gltf;
   return nullptr;
 }
@@ -52,8 +54,8 @@ ImportedScene read_mesh_file(MeshFile& file) {
     throw malformed(file.name, error.what());
   }
   drop_empty(scene);
-  if (scene.instances.empty() && !scene.played) {
-    std::string why = "it has no visible triangles";
+  if (scene.instances.empty() && scene.clouds.empty() && !scene.played) {
+    std::string why = "it has no visible triangles or points";
     for (const std::string& warning : scene.warnings) why += "; " + warning;
     throw malformed(file.name, why);
   }
@@ -73,7 +75,8 @@ ImportedScene import_file(const std::filesystem::path& file, const ImportOptions
                   options.smooth,
                   AssetFiles(file, options.allowed_folders),
                   options.pixels ? options.pixels : &own,
-                  options.playing};
+                  options.playing,
+                  options.point_size};
   ImportedScene scene = read_mesh_file(source);
   scene.files = source.assets.files();
   scene.files.insert(scene.files.begin(), file);
@@ -82,8 +85,13 @@ ImportedScene import_file(const std::filesystem::path& file, const ImportOptions
 
 ImportedScene import_bytes(std::string bytes, const std::string& name, const ImportOptions& options) {
   image::PixelBudget own;
-  MeshFile source{
-      name, std::move(bytes), options.smooth, {}, options.pixels ? options.pixels : &own, options.playing};
+  MeshFile source{name,
+                  std::move(bytes),
+                  options.smooth,
+                  {},
+                  options.pixels ? options.pixels : &own,
+                  options.playing,
+                  options.point_size};
   return read_mesh_file(source);
 }
 

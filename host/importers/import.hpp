@@ -1,4 +1,4 @@
-// Reads mesh files as parts of a scene: Wavefront OBJ, PLY, STL, glTF 2.0.
+// Reads mesh files as parts of a scene: Wavefront OBJ, PLY, STL, glTF 2.0, and points as PLY, XYZ and PCD.
 #pragma once
 
 #include <filesystem>
@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "host/scene/point_cloud.hpp"
 #include "host/scene/scene.hpp"
 
 namespace eyeray::engine::image {
@@ -38,6 +39,8 @@ struct ImportOptions {
   // The pixel budget of the scene that imports the file; null if there is no scene.
   image::PixelBudget* pixels = nullptr;
   Playing playing = {};
+  // Diameter of the spheres that show points, in the file's units. Absent: it follows from their spacing.
+  std::optional<double> point_size = {};
 };
 
 // An animation of a file, with its start and end in seconds.
@@ -57,6 +60,7 @@ struct ImportedCamera {
 struct ImportedScene {
   std::vector<Mesh> meshes;         // keep the promises of scene/mesh.hpp
   std::vector<Instance> instances;  // `material` is an index of `materials`, or −1: the file names none
+  std::vector<std::shared_ptr<const PointCloud>> clouds;  // points that no faces connect
   std::vector<std::unique_ptr<Material>> materials;
   std::vector<std::variant<PointLight, DirectionalLight, SpotLight>> lights;
   std::vector<ImportedCamera> cameras;  // in the order of the scene's nodes
@@ -67,7 +71,7 @@ struct ImportedScene {
 };
 
 // The endings of mesh files, for messages.
-inline constexpr std::string_view mesh_endings = ".obj, .ply, .stl, .gltf or .glb";
+inline constexpr std::string_view mesh_endings = ".obj, .ply, .stl, .gltf, .glb, .xyz or .pcd";
 
 // True if the name has a mesh file's ending, in upper or lower case.
 bool is_mesh_file(const std::filesystem::path& file);

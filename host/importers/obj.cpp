@@ -8,6 +8,7 @@
 #include <map>
 
 #include "host/core/free_memory.hpp"
+#include "host/importers/cloud_builder.hpp"
 #include "host/importers/formats.hpp"
 #include "host/importers/malformed.hpp"
 #include "host/importers/mesh_builder.hpp"
@@ -55,7 +56,7 @@ class ObjReader {
   VertexPool vertices;
   std::vector<Part> parts;
   ObjMaterials materials;
-  size_t lines_and_points = 0;
+  size_t lines = 0, points = 0;  // elements `l` and `p`
   bool curves = false;
 
  private:
@@ -140,8 +141,10 @@ void ObjReader::read_statement() {
     use_material(rest());
   } else if (takes("mtllib")) {
     materials.load(rest());
-  } else if (takes("l") || takes("p")) {
-    ++lines_and_points;
+  } else if (takes("l")) {
+    ++lines;
+  } else if (takes("p")) {
+    ++points;
   } else if (takes("curv") || takes("surf")) {
     curves = true;
   }
@@ -291,8 +294,15 @@ ImportedScene import_obj(MeshFile& file) {
     scene.warnings.push_back(fmt::format("{} of its materials {} not defined, such as `{}`", unknown,
                                          unknown == 1 ? "is" : "are", example));
   }
-  if (reader.lines_and_points > 0)
-    scene.warnings.push_back(fmt::format("{} lines and points were left out", reader.lines_and_points));
+  // A file without faces is one of points, of which few have elements `p`.
+  const bool shows_points = scene.instances.empty();
+  if (const size_t left_out = reader.lines + (shows_points ? 0 : reader.points); left_out > 0)
+    scene.warnings.push_back(fmt::format("{} lines and points were left out", left_out));
+  if (shows_points) {
+    RawPoints raw{file.name, std::move(reader.vertices.positions), std::move(reader.vertices.colors)};
+    if (auto cloud = build_cloud(std::move(raw), file.point_size, scene.warnings))
+      scene.clouds.push_back(std::move(cloud));
+  }
   if (reader.curves) scene.warnings.emplace_back("free-form curves and surfaces were left out");
   counts.report(scene.warnings);
   return scene;

@@ -4,9 +4,11 @@
 #include <cmath>
 
 #include "host/core/free_memory.hpp"
+#include "host/importers/cloud_builder.hpp"
 #include "host/importers/formats.hpp"
 #include "host/importers/ply_header.hpp"
 #include "host/importers/ply_polygons.hpp"
+#include "host/importers/ply_slots.hpp"
 #include "host/importers/ply_values.hpp"
 #include "host/importers/texture_files.hpp"
 #include "host/materials/make.hpp"
@@ -14,57 +16,6 @@
 namespace eyeray::engine::importers {
 
 namespace {
-
-// The meaning of a vertex's property; `none` if it has none here.
-enum Slot { x, y, z, nx, ny, nz, u, v, red, green, blue, alpha, none };
-
-constexpr std::pair<std::string_view, Slot> slot_names[] = {
-    {"x", x},
-    {"y", y},
-    {"z", z},
-    {"nx", nx},
-    {"ny", ny},
-    {"nz", nz},
-    {"s", u},
-    {"t", v},
-    {"u", u},
-    {"v", v},
-    {"texture_u", u},
-    {"texture_v", v},
-    {"texture_s", u},
-    {"texture_t", v},
-    {"red", red},
-    {"green", green},
-    {"blue", blue},
-    {"r", red},
-    {"g", green},
-    {"b", blue},
-    {"diffuse_red", red},
-    {"diffuse_green", green},
-    {"diffuse_blue", blue},
-    {"alpha", alpha},
-    {"a", alpha},
-    {"diffuse_alpha", alpha},
-};
-
-Slot slot_of(std::string_view name) {
-  const auto known = std::ranges::find(slot_names, name, [](const auto& row) { return row.first; });
-  return known == std::end(slot_names) ? none : known->second;
-}
-
-// The value of full brightness in a colour of this type.
-double brightest(PlyType type) {
-  switch (type) {
-    case PlyType::uint8:
-    case PlyType::int8:
-      return 255;
-    case PlyType::uint16:
-    case PlyType::int16:
-      return 65535;
-    default:
-      return 1;
-  }
-}
 
 template <typename Values>
 class PlyReader {
@@ -89,7 +40,7 @@ class PlyReader {
 
   VertexPool vertices;
   PlyPolygons polygons;
-  bool transparent = false;  // true if a colour has an alpha below 1
+  size_t transparent = 0;  // colours with an alpha below 1
 
  private:
   void check_count(const PlyElement& element) const;
@@ -133,8 +84,8 @@ void PlyReader<Values>::read_vertices(const PlyElement& element) {
     has[meaning.back()] = true;
   }
   if (!has[x] || !has[y] || !has[z]) values_.fail("the vertices must have x, y and z");
-  const bool normals = has[nx] && has[ny] && has[nz];
-  const bool uv = has[u] && has[v];
+  const bool normals = has[nx] && has[ny] && has[nz] && header_.has_faces();
+  const bool uv = has[u] && has[v] && header_.has_faces();
   const bool colors = has[red] && has[green] && has[blue];
 
   vertices.positions.reserve(element.count);
@@ -156,7 +107,7 @@ void PlyReader<Values>::read_vertices(const PlyElement& element) {
     if (normals) vertices.normals.emplace_back(row[nx], row[ny], row[nz]);
     if (uv) vertices.uv.emplace_back(row[u], row[v]);
     if (colors) vertices.colors.push_back(color_from_display({row[red], row[green], row[blue]}));
-    transparent = transparent || (colors && has[alpha] && row[alpha] < 1);
+    transparent += colors && has[alpha] && row[alpha] < 1;
   }
 }
 
@@ -211,7 +162,7 @@ void PlyReader<Values>::read_faces(const PlyElement& element) {
     }
     polygons.sizes.push_back(static_cast<uint32_t>(size));
     if (colored) polygons.colors.push_back(color_from_display({row[red], row[green], row[blue]}));
-    transparent = transparent || (colored && has[alpha] && row[alpha] < 1);
+    transparent += colored && has[alpha] && row[alpha] < 1;
     if (uv_list && !uv.empty() && uv.size() != size)
       values_.fail(fmt::format("a face of {} corners has {} pairs of texcoord", size, uv.size()));
     if (uv_list) {
@@ -322,15 +273,34 @@ std::vector<int> show_pictures(const PlyHeader& header, MeshFile& file, size_t s
   return materials;
 }
 
+// Shows the vertices of a file without faces.
+template <typename Values>
+ImportedScene show_points(const PlyHeader& header, PlyReader<Values> reader, const MeshFile& file) {
+  ImportedScene scene;
+  if (reader.transparent > 0)
+    scene.warnings.push_back(
+        fmt::format("the transparency (alpha) of {} of its points was left out", reader.transparent));
+  if (!header.pictures.empty())
+    scene.warnings.emplace_back("its pictures (comment TextureFile) were left out: it has no faces");
+  std::vector<std::string> rest;
+  for (const PlyElement& element : header.elements)
+    for (const PlyProperty& property : element.properties)
+      if (element.name == "vertex" && !is_shown_of_points(property)) rest.push_back(property.name);
+  report_left_out("properties", std::move(rest), scene.warnings);
+  RawPoints points{file.name, std::move(reader.vertices.positions), std::move(reader.vertices.colors)};
+  if (auto cloud = build_cloud(std::move(points), file.point_size, scene.warnings))
+    scene.clouds.push_back(std::move(cloud));
+  return scene;
+}
+
 template <typename Values>
 ImportedScene import_values(const PlyHeader& header, MeshFile& file) {
   PlyReader<Values> reader(header, file);
   reader.read();
   free_memory(file.bytes);  // the meshes need the memory
 
+  if (reader.polygons.sizes.empty()) return show_points(header, std::move(reader), file);
   ImportedScene scene;
-  if (reader.polygons.sizes.empty())
-    throw malformed(file.name, "it has no faces: points alone cannot be seen");
   MeshCounts counts;
   const bool own_uv = !reader.polygons.uv.empty();
   add_values_of_faces(reader.polygons, reader.vertices, scene.warnings);
@@ -345,7 +315,7 @@ ImportedScene import_values(const PlyHeader& header, MeshFile& file) {
   if (other_pictures && materials[0] >= 0)
     scene.warnings.emplace_back(
         "faces have a texnumber other than 0, but there is one picture: they show it");
-  if (reader.transparent)
+  if (reader.transparent > 0)
     scene.warnings.emplace_back(
         "the transparency of colours (alpha) was left out: give the mesh a `material` with `alpha`");
   const auto has_material = [](const PlyElement& element) {

@@ -160,6 +160,12 @@ bool PlyElement::has_lists() const {
   return false;
 }
 
+bool PlyHeader::has_faces() const {
+  return std::ranges::any_of(elements, [](const PlyElement& element) {
+    return element.count > 0 && (element.name == "face" || element.name == "tristrips");
+  });
+}
+
 PlyHeader read_ply_header(std::string_view bytes, const std::string& file) {
   return HeaderReader(bytes, file).read();
 }

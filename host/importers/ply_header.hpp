@@ -37,6 +37,9 @@ struct PlyHeader {
   std::vector<std::string>
       pictures;     // from comments and obj_infos `TextureFile NAME`, which MeshLab and others write
   size_t size = 0;  // bytes up to the data
+
+  // True if the file has faces or strips of triangles, not vertices alone.
+  bool has_faces() const;
 };
 
 // Reads the header. InputError, with the line, if it is wrong.

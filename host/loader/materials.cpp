@@ -86,6 +86,16 @@ int Materials::find(reading::TableReader& shape) {
   return 0;
 }
 
+void Materials::check_opaque(reading::TableReader& shape, int index) const {
+  if (index < 0 || size_t(index) >= scene_.materials.size()) return;
+  const Material& material = *scene_.materials[size_t(index)];
+  const bool transmits = material.medium() || material.thin() || material.shadow_transmittance() > 0;
+  if (transmits || material.mask)
+    shape.error("material",
+                fmt::format("points may overlap, so their material must be opaque: {}",
+                            transmits ? "light passes through this one" : "this one has an `alpha`"));
+}
+
 int Materials::emitter(const Vec3& radiance, bool in_front) {
   const auto [entry, fresh] =
       emitters_.try_emplace({radiance.x, radiance.y, radiance.z, in_front}, int(scene_.materials.size()));

@@ -21,6 +21,8 @@ class Materials {
   void add(const Section& section, const toml::table& table);
   // The index in Scene::materials of a shape's `material`; 0 after an error.
   int find(reading::TableReader& shape);
+  // Reports a material that light passes, for a shape whose parts overlap. `index`: that in Scene::materials.
+  void check_opaque(reading::TableReader& shape, int index) const;
   // The index in Scene::materials of a material that emits this radiance, in front or on both sides, and
   // reflects nothing.
   int emitter(const Vec3& radiance, bool in_front);

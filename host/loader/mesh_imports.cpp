@@ -1,5 +1,7 @@
 #include "host/loader/mesh_imports.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 #include "host/core/diagnostic.hpp"
@@ -18,6 +20,8 @@ std::string one_sentence(const InputError& error) {
   return fmt::format("{}:{}:{}: {}", at.file, at.line, at.column, first.message);
 }
 
+constexpr size_t most_animations_named = 16;
+
 // The warnings for a scene that shows the file.
 std::vector<std::string> warnings_of(const importers::ImportedScene& scene, const fs::path& file) {
   std::vector<std::string> all = scene.warnings;
@@ -34,6 +38,15 @@ std::vector<std::string> warnings_of(const importers::ImportedScene& scene, cons
 
 }  // namespace
 
+std::string no_such_animation(const std::string& wanted, std::span<const std::string> names) {
+  if (names.empty()) return "the file has no animations";
+  std::vector<std::string> all;
+  for (size_t i = 0; i < std::min(names.size(), most_animations_named); ++i)
+    all.push_back(names[i].empty() ? fmt::format("\"{}\"", i) : fmt::format("\"{}\"", printable(names[i])));
+  return fmt::format("the file has no animation \"{}\"; it has {}{}", wanted, fmt::join(all, ", "),
+                     names.size() > all.size() ? ", …" : "");
+}
+
 void MeshImports::add_file(const fs::path& file) {
   if (std::ranges::find(files_, file) == files_.end()) files_.push_back(file);
 }
@@ -48,7 +61,8 @@ AllowedFolders::File MeshImports::find(const std::string& name, const std::strin
 }
 
 importers::ImportedScene MeshImports::read(const fs::path& file, const Wanted& wanted) {
-  const importers::ImportOptions options{wanted.smooth, trees_, &budget_, wanted.playing};
+  const auto& [smooth, point_size, playing] = wanted.reading;
+  const importers::ImportOptions options{smooth, trees_, &budget_, playing, point_size};
   if (memory_) return importers::import_bytes(memory_->find(file.string())->second, file.string(), options);
   add_file(file);
   return importers::import_file(file, options);
@@ -73,11 +87,10 @@ void MeshImports::import(Entry& entry, const fs::path& file, const Wanted& wante
   }
 }
 
-MeshImports::Loaded MeshImports::load(const std::string& name, std::optional<double> smooth,
-                                      importers::Playing playing, const std::string& from) {
+MeshImports::Loaded MeshImports::load(const std::string& name, Reading reading, const std::string& from) {
   const auto [path, whole] = find(name, from);
-  playing.seconds = seconds_;
-  const Wanted wanted{whole, smooth, std::move(playing)};
+  reading.playing.seconds = seconds_;
+  const Wanted wanted{whole, std::move(reading)};
   const auto [found, fresh] = entries_.try_emplace(wanted);
   Entry& entry = found->second;
   if (fresh) import(entry, path, wanted);
@@ -86,8 +99,9 @@ MeshImports::Loaded MeshImports::load(const std::string& name, std::optional<dou
   return {&entry.scene, fresh};
 }
 
-MeshImports::Loaded MeshImports::load_alone(const fs::path& file) {
-  const Wanted wanted{folders_->find("file", file.filename().string(), file).whole, std::nullopt, {seconds_}};
+MeshImports::Loaded MeshImports::load_alone(const fs::path& file, std::optional<double> point_size) {
+  const Wanted wanted{folders_->find("file", file.filename().string(), file).whole,
+                      {.point_size = point_size, .playing = {seconds_}}};
   importers::ImportedScene scene = read(file, wanted);
   for (const fs::path& each : scene.files) add_file(each);
   for (std::string& warning : warnings_of(scene, file)) reported_.insert(std::move(warning));

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ namespace eyeray::engine::loader {
 
 // The value of `animation` in [[mesh]] that shows a file at rest.
 inline constexpr const char* no_animation = "none";
+
+// The error for an animation that a file lacks. `names`: those of its animations.
+std::string no_such_animation(const std::string& wanted, std::span<const std::string> names);
 
 class MeshImports {
  public:
@@ -35,14 +39,22 @@ class MeshImports {
   // Sets the moment at which animated files are shown, in seconds; it is 0 before that.
   void show(double seconds) { seconds_ = seconds; }
 
+  // The options with which a file is read; see importers::ImportOptions.
+  struct Reading {
+    std::optional<double> smooth = {};
+    std::optional<double> point_size = {};
+    importers::Playing playing = {};
+
+    auto operator<=>(const Reading&) const = default;
+  };
+
   // The contents of the file that is called `name` in the file `from`. The pointer stays valid. The moment in
-  // `playing` is ignored. If the file cannot be read: Error, one sentence, the same each time.
-  Loaded load(const std::string& name, std::optional<double> smooth, importers::Playing playing,
-              const std::string& from);
+  // `reading.playing` is ignored. If the file cannot be read: Error, one sentence, the same each time.
+  Loaded load(const std::string& name, Reading reading, const std::string& from);
 
   // The contents of a mesh file that is itself the scene; later requests do not return it as fresh.
   // InputError and Error as import_file.
-  Loaded load_alone(const std::filesystem::path& file);
+  Loaded load_alone(const std::filesystem::path& file, std::optional<double> point_size);
   // The file without animation, which is read but not shown. InputError, as from import_file, if nothing
   // could be seen.
   importers::ImportedScene rest(const std::filesystem::path& file) const;
@@ -63,8 +75,7 @@ class MeshImports {
   // A file, by its canonical path, and the way to read it.
   struct Wanted {
     std::filesystem::path file;
-    std::optional<double> smooth;
-    importers::Playing playing;
+    Reading reading;
 
     auto operator<=>(const Wanted&) const = default;
   };

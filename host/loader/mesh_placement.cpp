@@ -5,6 +5,7 @@
 
 #include "host/scene/affine.hpp"
 #include "host/scene/triangle.hpp"
+#include "host/shapes/make.hpp"
 
 namespace eyeray::engine::loader {
 
@@ -36,8 +37,7 @@ void MeshPlacer::take_materials(importers::ImportedScene& import, Placed& placed
   std::ranges::move(import.materials, std::back_inserter(scene_.materials));
 }
 
-int MeshPlacer::plain_material_index(const Mesh& mesh) {
-  const bool colored = !mesh.colors.empty();
+int MeshPlacer::plain_material_index(bool colored) {
   int& index = plain_[colored];
   if (index < 0) {
     index = static_cast<int>(scene_.materials.size());
@@ -70,9 +70,9 @@ std::string MeshPlacer::check(size_t index, const Mat4& transform) const {
   return "";
 }
 
-std::string MeshPlacer::place(importers::ImportedScene& import, const Mat4& transform,
-                              std::optional<int> material, const SourcePosition& position,
-                              const NameRef& name, std::vector<Instance>& into) {
+std::string MeshPlacer::place(importers::ImportedScene& import, const Placing& placing,
+                              std::vector<Instance>& into) {
+  const auto& [transform, material, position, name] = placing;
   Placed& file = placed_[&import];
   if (file.first_mesh < 0) take_meshes(import, file);
   if (!material && file.first_material < 0) take_materials(import, file);
@@ -80,11 +80,29 @@ std::string MeshPlacer::place(importers::ImportedScene& import, const Mat4& tran
     Instance placed{file.first_mesh + instance.mesh, transform * instance.transform, 0, position, name};
     if (std::string wrong = check(static_cast<size_t>(placed.mesh), placed.transform); !wrong.empty())
       return wrong;
-    placed.material = material ? *material
-                      : instance.material < 0
-                          ? plain_material_index(scene_.meshes[static_cast<size_t>(placed.mesh)])
-                          : file.first_material + instance.material;
+    placed.material =
+        material ? *material
+        : instance.material < 0
+            ? plain_material_index(!scene_.meshes[static_cast<size_t>(placed.mesh)].colors.empty())
+            : file.first_material + instance.material;
     into.push_back(std::move(placed));
+  }
+  return "";
+}
+
+std::string MeshPlacer::place_points(const importers::ImportedScene& import, const Placing& placing,
+                                     std::vector<std::unique_ptr<Shape>>& into) {
+  for (const auto& cloud : import.clouds) {
+    auto points = shapes::make_points(cloud, cloud->radius, placing.transform);
+    if (!points)
+      return similarity(placing.transform)
+                 ? "the transformed points are out of range (coordinates up to 1e12)"
+                 : "the file has points, which cannot be sheared or scaled unevenly";
+    points->material = placing.material ? *placing.material : plain_material_index(!cloud->colors.empty());
+    points->type = "points";
+    points->name = placing.name;
+    points->position = placing.position;
+    into.push_back(std::move(points));
   }
   return "";
 }

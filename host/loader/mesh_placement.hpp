@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,12 +16,20 @@ class MeshPlacer {
  public:
   explicit MeshPlacer(Scene& scene) : scene_(scene) {}
 
-  // Adds everything that the file shows to `into`, moved by `transform`. `material` is for all of it; if
-  // absent, the file's own materials are used. The file's meshes move into the scene at the first call, its
-  // materials when they are first needed. Returns the reason why the file cannot be shown under `transform`,
-  // or "".
-  std::string place(importers::ImportedScene& import, const Mat4& transform, std::optional<int> material,
-                    const SourcePosition& position, const NameRef& name, std::vector<Instance>& into);
+  struct Placing {
+    Mat4 transform;
+    std::optional<int> material;  // for all of it; absent: the file's own materials
+    SourcePosition position;
+    NameRef name;
+  };
+
+  // Adds all meshes that the file shows to `into`. The file's meshes move into the scene at the first call,
+  // its materials when they are first needed. Returns the reason why the file cannot be shown under the
+  // transform, or "".
+  std::string place(importers::ImportedScene& import, const Placing& placing, std::vector<Instance>& into);
+  // Likewise adds the file's points, as shapes. All of them share the file's data.
+  std::string place_points(const importers::ImportedScene& import, const Placing& placing,
+                           std::vector<std::unique_ptr<Shape>>& into);
 
   // The reason why a mesh of the scene cannot be shown under this map, or "".
   std::string check(size_t mesh, const Mat4& transform) const;
@@ -39,12 +48,12 @@ class MeshPlacer {
 
   void take_meshes(importers::ImportedScene& import, Placed& placed);
   void take_materials(importers::ImportedScene& import, Placed& placed);
-  int plain_material_index(const Mesh& mesh);
+  int plain_material_index(bool colored);
 
   Scene& scene_;
   std::map<const importers::ImportedScene*, Placed> placed_;
   std::vector<Extent> extents_;  // one a mesh of the scene
-  int plain_[2] = {-1, -1};      // materials for meshes without one: without and with vertex colours
+  int plain_[2] = {-1, -1};      // materials for meshes without one: without and with colours of their own
 };
 
 }  // namespace eyeray::engine::loader

@@ -24,7 +24,7 @@ toml::array list(const Vec3& v) {
 // instead.
 constexpr size_t most_points = 4'000'000;
 
-// Calls visit(p) for points in the world that span all instances.
+// Calls visit(p) for points in the world that span all instances and all clouds.
 template <typename Visit>
 void each_point(const importers::ImportedScene& import, const Visit& visit) {
   size_t count = 0;
@@ -40,6 +40,12 @@ void each_point(const importers::ImportedScene& import, const Visit& visit) {
       for (int corner = 0; corner < 8; ++corner) {
         move({corner & 1 ? low.x : high.x, corner & 2 ? low.y : high.y, corner & 4 ? low.z : high.z});
       }
+    }
+  }
+  for (const auto& cloud : import.clouds) {
+    for (const Vec3& position : cloud->positions) {
+      visit(position - cloud->radius);
+      visit(position + cloud->radius);
     }
   }
 }
@@ -230,7 +236,7 @@ bool has_room_for_studio(const importers::ImportedScene& framed) {
 
 toml::table mesh_scene(const std::filesystem::path& file, const importers::ImportedScene& import,
                        const importers::ImportedScene& framed, const MeshView& view) {
-  const auto [around, look, formulas, turntable] = view;
+  const auto [around, look, formulas, turntable, point_size] = view;
   const importers::ImportedCamera camera =
       import.cameras.empty() ? framing(framed, turntable > 0) : import.cameras.front();
   const bool own_lights = import.lights.empty() && !around;
@@ -242,6 +248,7 @@ toml::table mesh_scene(const std::filesystem::path& file, const importers::Impor
   toml::table root;
   root.insert("camera", table(camera));
   toml::table mesh{{"file", file.filename().string()}};
+  if (point_size) mesh.insert("point_size", *point_size);
   if (turntable > 0) {
     const Vec3 centre = middle_of(bounds_of(framed));
     mesh.insert("transform",

@@ -4,6 +4,7 @@
 #include <toml++/toml.h>
 
 #include <filesystem>
+#include <optional>
 
 #include "host/importers/import.hpp"
 #include "host/loader/scene_file.hpp"
@@ -15,6 +16,7 @@ struct MeshView {
   MeshLook look;
   bool formulas;      // the scene may have formulas, as a floor needs to fade
   int turntable = 0;  // the frames in which the model turns once about the vertical; 0: it does not turn
+  std::optional<double> point_size = {};  // diameter of points; empty: it follows from their spacing
 };
 
 // True if the floor and the lights around the model are within the range of numbers.

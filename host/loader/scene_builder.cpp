@@ -38,17 +38,6 @@ namespace {
 // a driver's limit of 65 535 iterations a loop, for a scene with 24 shapes and no BVH (docs/lavapipe.md).
 constexpr size_t most_lights = 2048;
 
-constexpr size_t most_animations_named = 16;
-
-std::string no_such_animation(const std::string& wanted, std::span<const std::string> names) {
-  if (names.empty()) return "the file has no animations";
-  std::vector<std::string> all;
-  for (size_t i = 0; i < std::min(names.size(), most_animations_named); ++i)
-    all.push_back(names[i].empty() ? fmt::format("\"{}\"", i) : fmt::format("\"{}\"", printable(names[i])));
-  return fmt::format("the file has no animation \"{}\"; it has {}{}", wanted, fmt::join(all, ", "),
-                     names.size() > all.size() ? ", …" : "");
-}
-
 // The placement and the name of an object.
 struct Placing {
   Mat4 to_world{1.0};
@@ -152,6 +141,7 @@ class Builder {
   size_t lights_ = 0;
   std::vector<SourcePosition> light_positions_ = {};  // one for each of scene_.lights
   std::vector<std::pair<const AreaShape*, const toml::table*>> area_lights_ = {};
+  std::vector<std::unique_ptr<Shape>> clouds_ = {};  // points of the mesh files that have just been read
   bool tried_shapes_ = false;
 };
 
@@ -184,6 +174,10 @@ void Builder::add_placed(const toml::table& holder, const Placing& group) {
       if (section.kind == Section::Kind::group && GroupPlan::is_pattern(table)) return;
       add_table(section, table, group);
     });
+    // The points of mesh files follow those of tables: Scene::shapes are in registry order.
+    if (name == "points")
+      for (auto& cloud : std::exchange(clouds_, {}))
+        (building_ ? building_->shapes : scene_.shapes).push_back(std::move(cloud));
     if (&holder == &root_) add_area_lights(name);
   }
 }
@@ -332,8 +326,10 @@ std::unique_ptr<Shape> Builder::parse_shape(const Section& section, reading::Tab
                                             const Placing& placing, int material) {
   std::unique_ptr<Shape> shape = section.shape->parse(reader, placing.to_world);
   if (!shape) return nullptr;
-  if (!section.shape->flat && material >= 0 && !scene_.materials.empty() &&
-      scene_.materials[size_t(material)]->mask)
+  if (section.shape->overlaps)
+    materials_.check_opaque(reader, material);
+  else if (!section.shape->flat && material >= 0 && !scene_.materials.empty() &&
+           scene_.materials[size_t(material)]->mask)
     reader.error(
         "material",
         fmt::format("a material with `alpha` has cutouts, and a ray may hit the {} again behind one; only "
@@ -351,22 +347,24 @@ void Builder::add_mesh(reading::TableReader& reader, const Placing& placing) {
   const int material = own_materials ? 0 : materials_.find(reader);
   if (reader.failed()) return;
   if (!meshes_) return reader.error("file", "only a scene in a file can name mesh files");
-  const std::optional<double> smooth =
-      reader.has("smooth") ? std::optional(reader.number("smooth")) : std::nullopt;
+  MeshImports::Reading reading{.playing = {.loop = reader.boolean("loop")}};
+  if (reader.has("smooth")) reading.smooth = reader.number("smooth");
+  if (reader.has("point_size")) reading.point_size = reader.number("point_size");
+  if (reader.has("animation")) reading.playing.animation = reader.string("animation");
   try {
-    importers::Playing playing{.loop = reader.boolean("loop")};
-    if (reader.has("animation")) playing.animation = reader.string("animation");
-    const auto [import, fresh] =
-        meshes_->load(reader.string("file"), smooth, playing, reader.position("file").file);
-    if (playing.animation && *playing.animation != no_animation && !import->played)
-      return reader.error("animation", no_such_animation(*playing.animation, import->animations));
+    const auto [import, fresh] = meshes_->load(reader.string("file"), reading, reader.position("file").file);
+    const auto& wanted = reading.playing.animation;
+    if (wanted && *wanted != no_animation && !import->played)
+      return reader.error("animation", no_such_animation(*wanted, import->animations));
     if (fresh) {
       for (const std::string& warning : import->warnings) log_.warning(reader.position(), warning);
     }
-    const std::string wrong =
-        placer_.place(*import, placing.to_world, own_materials ? std::nullopt : std::optional(material),
-                      reader.position(), placing.name, building_ ? building_->instances : scene_.instances);
+    const MeshPlacer::Placing placed{placing.to_world, own_materials ? std::nullopt : std::optional(material),
+                                     reader.position(), placing.name};
+    std::string wrong = placer_.place(*import, placed, building_ ? building_->instances : scene_.instances);
+    if (wrong.empty()) wrong = placer_.place_points(*import, placed, clouds_);
     if (!wrong.empty()) reader.error("transform", wrong);
+    if (!own_materials && !import->clouds.empty()) materials_.check_opaque(reader, material);
   } catch (const Error& refused) {
     reader.error("file", refused.what());
   }

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <charconv>
 #include <iterator>
 #include <optional>
 #include <vector>
@@ -19,6 +20,7 @@
 #include "host/loader/mesh_scene.hpp"
 #include "host/loader/overrides.hpp"
 #include "host/loader/scene_builder.hpp"
+#include "host/scene/affine.hpp"
 #include "host/scene/integrator.hpp"
 
 namespace eyeray::engine::loader {
@@ -86,7 +88,7 @@ struct ViewKey {
   std::string_view text, name;
 };
 constexpr ViewKey look_key{"look=", "look"}, camera_key{"camera=", "camera by name"},
-    turntable_key{"turntable=", "turntable"};
+    turntable_key{"turntable=", "turntable"}, point_size_key{"point_size=", "point size"};
 
 // Takes the last override with that key out of the list, and all before it. `value`: the value, without
 // quotes.
@@ -125,6 +127,18 @@ int take_turntable(std::vector<Override>& overrides) {
   return int(count);
 }
 
+// The diameter of points; empty: it follows from their spacing.
+std::optional<double> take_point_size(std::vector<Override>& overrides) {
+  std::string size;
+  const auto change = take(overrides, point_size_key, size);
+  if (!change) return std::nullopt;
+  double value = 0;
+  const auto [end, error] = std::from_chars(size.data(), size.data() + size.size(), value);
+  if (error != std::errc() || end != size.data() + size.size() || !(value > 0 && value <= max_coordinate))
+    throw Error(ExitCode::bad_input, "{}: a point size is a number above 0", as_written(*change));
+  return value;
+}
+
 // Removes all cameras but the one that an override names, or else the first. Several cameras may have one
 // name; then the first with it is meant. A number counts cameras from 0, if none has that name.
 void choose_camera(std::vector<importers::ImportedCamera>& cameras, std::vector<Override>& overrides,
@@ -155,9 +169,10 @@ Document read_mesh(const fs::path& file, std::vector<Override>& overrides, bool 
                    DiagnosticLog& log) {
   MeshLook look = take_look(overrides);
   const int turntable = take_turntable(overrides);
+  const std::optional<double> point_size = take_point_size(overrides);
   log.add_source(file.string(), "");
   meshes.show(requested_seconds(overrides));
-  const MeshImports::Loaded loaded = meshes.load_alone(file);
+  const MeshImports::Loaded loaded = meshes.load_alone(file, point_size);
   // Frame the file at rest, so that the camera does not move during an animation.
   std::optional<importers::ImportedScene> rest;
   if (loaded.scene->played && loaded.scene->cameras.empty()) {
@@ -169,6 +184,8 @@ Document read_mesh(const fs::path& file, std::vector<Override>& overrides, bool 
     }
   }
   for (const std::string& warning : loaded.scene->warnings) log.warning({}, warning);
+  if (point_size && loaded.scene->clouds.empty())
+    log.warning({}, "has no points, so --point-size changes nothing");
   choose_camera(loaded.scene->cameras, overrides, file, log);
   const bool around = std::ranges::any_of(
       overrides, [](const Override& each) { return each.text.starts_with("environment"); });
@@ -178,7 +195,7 @@ Document read_mesh(const fs::path& file, std::vector<Override>& overrides, bool 
     log.warning({},
                 "reaches beyond 1e10, where a floor and lights around it have no room: it is shown plain");
   }
-  return {mesh_scene(file, *loaded.scene, framed, {around, look, formulas, turntable}), {}};
+  return {mesh_scene(file, *loaded.scene, framed, {around, look, formulas, turntable, point_size}), {}};
 }
 
 // If the scene moves while its shutter is open, sets the function that makes the scene at another moment. It
@@ -210,7 +227,7 @@ Scene load_moment(const fs::path& file, std::span<const Override> overrides, con
     return scene;
   }
   for (const Override& each : overrides)
-    for (const ViewKey& key : {look_key, camera_key, turntable_key})
+    for (const ViewKey& key : {look_key, camera_key, turntable_key, point_size_key})
       if (each.text.starts_with(key.text))
         throw Error(ExitCode::bad_input, "{}: a {} is for a mesh alone, and {} is a scene", as_written(each),
                     key.name, file.string());

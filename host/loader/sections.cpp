@@ -14,6 +14,7 @@
 #include "host/loader/variables.hpp"
 #include "host/materials/registry.hpp"
 #include "host/reading/foreign_words.hpp"
+#include "host/scene/affine.hpp"
 #include "host/shapes/registry.hpp"
 
 namespace eyeray::engine::loader {
@@ -163,8 +164,8 @@ constexpr Key keys_of_parts[] = {
 };
 
 constexpr std::string_view mesh_manual =
-    R"(The ending of the file name selects the format: `.obj` (Wavefront), `.ply`, `.stl`, `.gltf` or `.glb` (glTF 2.0). The
-name is relative to the scene file. The file, and all files that it names, must lie in the scene's folder tree
+    R"(The ending of the file name selects the format: `.obj` (Wavefront), `.ply`, `.stl`, `.gltf` or `.glb` (glTF
+2.0), and for points `.ply` without faces, `.xyz` or `.pcd`. Points are shown as spheres. The name is relative to the scene file. The file, and all files that it names, must lie in the scene's folder tree
 after following links, or in a folder that `--allow-path` allows. A file is read once. Each table, and each
 element of a `batch`, is one more instance of it, so thousands of instances need little more memory than one.
 
@@ -197,6 +198,14 @@ constexpr Key mesh_keys[] = {
             "the file has normals. 0 means flat shading. When absent: 40, and 0 for glTF.",
      .min = 0,
      .max = 180,
+     .optional = true},
+    {.name = "point_size",
+     .type = KeyType::number,
+     .doc = "Diameter of the spheres that show points, in the file's units. When absent, it follows from the "
+            "distances between points, so that a dense scan looks closed.",
+     .min = 0,
+     .max = max_coordinate,
+     .above_min = true,
      .optional = true},
     {.name = "animation",
      .type = KeyType::string,
@@ -238,7 +247,7 @@ A group that is placed many times is instanced; see `groups` of [render](#render
 memory than one group, and ids and surfaces stay the same. A group that holds a plane, which is infinite, is
 copied instead.
 
-A group may stretch and shear its contents: a sphere in it becomes an ellipsoid.)";
+A group may stretch and shear its contents, except points: a sphere in it becomes an ellipsoid.)";
 
 constexpr std::string_view instance_manual =
     R"(Places a [[group]] of the scene by its `name`, as if the group were written here. An instance may be in
@@ -305,7 +314,8 @@ std::vector<Section> make_sections() {
        track_manual},
       {light, "light", "[[light]]", "A light.", light_keys()},
       {material, "material", "[[material]]", "Materials of surfaces.", material_keys()},
-      {mesh, "mesh", "[[mesh]]", "The triangles of a mesh file.", mesh_keys, nullptr, mesh_manual},
+      {mesh, "mesh", "[[mesh]]", "The triangles of a mesh file, or the points of a scan.", mesh_keys, nullptr,
+       mesh_manual},
   };
   for (const shapes::ShapeType* type : shapes::types()) {
     const std::span<const Key> keys = type->combine ? part_keys() : shape_keys;

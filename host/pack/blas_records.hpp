@@ -6,12 +6,23 @@
 #include <vector>
 
 #include "host/bvh/box.hpp"
+#include "host/core/error.hpp"
+#include "host/core/parallel_for.hpp"
 #include "host/pack/mesh_records.hpp"
 
 namespace eyeray::engine::pack {
 
 class BlasRecords {
  public:
+  // The pieces of a shape. box(i) returns the box of the i-th; it is called from many threads.
+  template <typename BoxOf>
+  void add_shapes(std::span<const shader::Primitive> records, const BoxOf& box) {
+    CHECK(meshes_.empty());
+    const size_t first = boxes.size();
+    shapes_.insert(shapes_.end(), records.begin(), records.end());
+    boxes.resize(first + records.size());
+    parallel_for(0, int(records.size()), [&](int i) { boxes[first + size_t(i)] = box(size_t(i)); });
+  }
   void add_shape(const shader::Primitive& record, const bvh::Box& box);
   // The triangles follow those of the meshes before.
   void add_mesh(const MeshRecords& mesh);

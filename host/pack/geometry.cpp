@@ -96,25 +96,31 @@ class GeometryPacker {
     packer_.set_origin(origin);
     for (size_t i = 0; i < shapes.size(); ++i) {
       const Shape& shape = *shapes[i];
-      packer_.pieces.clear();
       shape.pack(packer_);
-      for (size_t piece = 0; piece < packed_.primitives.size(); ++piece) {
-        shader::Primitive& record = packed_.primitives[piece];
+      // All pieces of a shape have its kind and its material.
+      shader::Primitive& first = packed_.primitives.front();
+      if (kind_of(first) == shader::KIND_csg) finish_csg(first, packed_);
+      const uint32_t depth = use_material(kind_of(first), material_of(first), shape.counts_crossings());
+      for (shader::Primitive& record : packed_.primitives) {
         record.id = uint32_t(id(i));
-        if (kind_of(record) == shader::KIND_csg) finish_csg(record, packed_);
-        record.optical_depth = use_material(kind_of(record), material_of(record), shape.counts_crossings());
-        const Bounds bounds = packer_.pieces.empty() ? shape.bounds() : packer_.pieces.at(piece);
-        records.add_shape(record, kind_of(record) == shader::KIND_triangle ? triangle_box(record)
-                                                                           : shape_box(bounds, origin));
+        record.optical_depth = depth;
+      }
+      if (packer_.pieces.empty()) {
+        records.add_shape(first, kind_of(first) == shader::KIND_triangle ? triangle_box(first)
+                                                                         : shape_box(shape.bounds(), origin));
+      } else {
+        records.add_shapes(packed_.primitives,
+                           [&](size_t piece) { return shape_box(packer_.pieces[piece], origin); });
       }
       packed_.primitives.clear();
+      free_memory(packer_.pieces);
     }
     packer_.set_origin(scene_.camera.eye);
     return records;
   }
 
   void note_attributes(const Mesh& mesh) {
-    packed_.vertex_colors = packed_.vertex_colors || !mesh.colors.empty();
+    packed_.own_colors = packed_.own_colors || !mesh.colors.empty();
     packed_.second_uv = packed_.second_uv || !mesh.second_uv.empty();
   }
 

@@ -109,6 +109,7 @@ constexpr Word words[] = {
     {"disk", " disc circle "},
     {"parallelogram", " quad rectangle rect square "},
     {"polygon", " ngon "},
+    {"points", " pointcloud cloud particles spheres "},
     {"mesh", " object obj model trimesh trianglemesh plymesh mesh2 gltf "},
     {"csg", " csg difference intersection union merge boolean "},
     {"implicit", " isosurface blob metaball metaballs sdf poly quartic cubic function gyroid "},

@@ -49,9 +49,10 @@ struct PackedScene {
   bool quantised_nodes = false;  // the coding of `nodes`
   uint32_t stack_size = 1;       // the most entries that a traversal may have waiting
   RawVector<shader::uvec4> vertices;
-  bool bent_normals = false;   // whether any material bends the normals of its surface
-  bool vertex_colors = false;  // whether any of `vertices` have colours
-  bool second_uv = false;      // whether any of `vertices` have second texture coordinates
+  bool bent_normals = false;  // whether any material bends the normals of its surface
+  bool own_colors = false;    // whether any of `vertices`, or any points, have colours
+  bool pieces = false;        // whether any shape has several primitives
+  bool second_uv = false;     // whether any of `vertices` have second texture coordinates
   // The factor by which rounding in a shape's object space grows in world space: |linear| · |inverse|, the
   // largest of all shapes.
   float map_growth = 1;
@@ -93,6 +94,12 @@ class Packer {
   void add_piece(const shader::Primitive& primitive, const Bounds& bounds) {
     add(primitive);
     pieces.push_back(bounds);
+    scene.pieces = true;
+  }
+  // Makes room for the pieces of a shape that has many.
+  void reserve_pieces(size_t count) {
+    scene.primitives.reserve(scene.primitives.size() + count);
+    pieces.reserve(count);
   }
   // A primitive; its id and optical depth are filled in later. a, b, c: as in the shape's .glsl. `extra`:
   // an index into vertices.

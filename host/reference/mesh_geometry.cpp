@@ -31,7 +31,7 @@ Corners MeshGeometry::corners(uint32_t triangle) const {
 
 BoxRay MeshGeometry::box_ray(const Ray& ray) const {
   const double reach = std::max(magnitude(bounds_.min), magnitude(bounds_.max));
-  return {ray, rounding * (magnitude(ray.o) + reach)};
+  return {ray, box_rounding * (magnitude(ray.o) + reach)};
 }
 
 std::optional<TriangleHit> MeshGeometry::intersect_one(uint32_t triangle, const Ray& ray,

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "host/reference/bvh.hpp"
+#include "host/scene/box_bvh.hpp"
 #include "host/scene/material.hpp"
 #include "host/scene/mesh.hpp"
 #include "host/scene/triangle.hpp"
@@ -44,7 +44,7 @@ class MeshGeometry {
 
   const Mesh& mesh_;
   Bounds bounds_;
-  Bvh bvh_;
+  BoxBvh bvh_;
 };
 
 }  // namespace eyeray::engine::reference

@@ -47,7 +47,7 @@ Objects::Objects(std::span<const std::unique_ptr<Shape>> shapes, std::span<const
     reach_ = std::max(reach_, instances_[i].reach());
     growth_ = std::max(growth_, instances_[i].growth());
   }
-  bvh_ = Bvh(uint32_t(boxes_.size()), [this](uint32_t i) { return boxes_[i]; }, acceleration);
+  bvh_ = BoxBvh(uint32_t(boxes_.size()), [this](uint32_t i) { return boxes_[i]; }, acceleration);
 }
 
 int Objects::material(const Hit& hit) const {
@@ -90,7 +90,7 @@ void Objects::for_each_entered(const Ray& ray, double limit, const Visit& visit)
   for (size_t i = 0; i < unbounded_.size() && limit >= 0; ++i) limit = visit(unbounded_[i], 0.0, limit);
   if (boxes_.empty() || limit < 0) return;
 
-  const BoxRay box_ray(ray, rounding * growth_ * (magnitude(ray.o) + reach_));
+  const BoxRay box_ray(ray, box_rounding * growth_ * (magnitude(ray.o) + reach_));
   bvh_.search(box_ray, limit, [&](uint32_t i, double so_far) {
     const double entry = box_ray.entry(boxes_[i]);
     return entry < infinity ? visit(bounded_[i], entry, so_far) : so_far;

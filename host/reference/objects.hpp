@@ -94,7 +94,7 @@ class Objects {
   Bounds bounds_;
   double reach_ = 0;   // the largest coordinate in any computation that yields a box
   double growth_ = 1;  // the largest growth() of all instances
-  Bvh bvh_;            // BVH over boxes_
+  BoxBvh bvh_;         // BVH over boxes_
 };
 
 }  // namespace eyeray::engine::reference

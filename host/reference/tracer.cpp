@@ -59,7 +59,7 @@ Tracer::Tracer(const Scene& scene, Acceleration acceleration)
     groups_growth_ = std::max(groups_growth_, groups_.back().growth());
   }
   group_bvh_ =
-      Bvh(uint32_t(groups_.size()), [this](uint32_t i) { return groups_[i].bounds(); }, acceleration);
+      BoxBvh(uint32_t(groups_.size()), [this](uint32_t i) { return groups_[i].bounds(); }, acceleration);
   if (walks_at_random(scene.render.integrator)) light_choice_ = eyeray::engine::light_choice(scene);
 }
 
@@ -74,7 +74,7 @@ void Tracer::leave_out(LeftOutPhotons photons) const {
 }
 
 BoxRay Tracer::group_box_ray(const Ray& ray) const {
-  return {ray, rounding * groups_growth_ * (magnitude(ray.o) + groups_reach_)};
+  return {ray, box_rounding * groups_growth_ * (magnitude(ray.o) + groups_reach_)};
 }
 
 uint64_t Tracer::primitive(const Objects& objects, const Objects::Hit& hit, int group) const {

@@ -84,7 +84,7 @@ class Tracer {
   std::vector<GroupGeometry> groups_;
   double groups_reach_ = 0;   // the largest coordinate in any computation that yields a group's box
   double groups_growth_ = 1;  // the largest growth() of all groups
-  Bvh group_bvh_;             // BVH over the boxes of groups_
+  BoxBvh group_bvh_;          // BVH over the boxes of groups_
   LightChoice light_choice_;
   std::unique_ptr<PhotonMaps> photon_maps_;
 };

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "host/scene/point_cloud.hpp"
 #include "host/scene/shape.hpp"
 #include "host/shapes/planar_region.hpp"
 
@@ -75,5 +76,10 @@ std::unique_ptr<Shape> make_implicit(FormulaUse use, bool open, const Mat4& tran
 // are closed, at most 32 together, and have their materials.
 std::unique_ptr<Shape> make_csg(bool all, std::vector<std::unique_ptr<Shape>> operands,
                                 std::vector<std::unique_ptr<Shape>> removed = {});
+
+// Spheres of one radius, in the cloud's own units, around its points. Null if `transform` is no similarity,
+// or if the spheres are out of range there.
+std::unique_ptr<Shape> make_points(std::shared_ptr<const PointCloud> cloud, double radius,
+                                   const Mat4& transform = Mat4(1.0));
 
 }  // namespace eyeray::engine::shapes

@@ -28,6 +28,8 @@ struct ShapeType {
   bool bounded = true;  // whether every such shape has an end in all directions
   // True if a ray hits it once at most, so that it may have a material with cutouts.
   bool flat = false;
+  // True if its parts may overlap, so that it needs an opaque material.
+  bool overlaps = false;
 };
 
 // Every kind of shape, in registry order: the order of Scene::shapes, hence of primitive indices.

@@ -8,6 +8,7 @@
 #include "host/shapes/make.hpp"
 #include "host/shapes/object_shape.hpp"
 #include "host/shapes/registry.hpp"
+#include "host/shapes/sphere_roots.hpp"
 
 namespace eyeray::engine::shapes {
 
@@ -96,21 +97,9 @@ class Sphere final : public Shape {
  private:
   // The span of the line within the sphere.
   std::optional<Span> inside(const Ray& ray) const {
-    // Compute the discriminant from the point of the ray's line that is nearest to the centre.
-    const Vec3 f = ray.o - center_;
-    const double a = glm::dot(ray.d, ray.d);
-    const double b = -glm::dot(f, ray.d);
-    const Vec3 nearest = f + ray.d * (b / a);
-    const double discriminant = radius_ * radius_ - glm::dot(nearest, nearest);
-    if (!(discriminant >= 0)) return std::nullopt;
-
-    // Form both roots without cancellation: q has the sign of b.
-    const double q = b + std::copysign(std::sqrt(a * discriminant), b);
-    const double c = glm::dot(f, f) - radius_ * radius_;
-    double near = c / q;
-    double far = q / a;
-    if (!(near <= far)) std::swap(near, far);
-    return Span{{near, 0, 0}, {far, 0, 0}};
+    const auto roots = sphere_roots(center_, radius_, ray);
+    if (!roots) return std::nullopt;
+    return Span{{roots->first, 0, 0}, {roots->second, 0, 0}};
   }
 
   // The uv on the map of a direction from the centre, in the sphere's own axes.

@@ -4,6 +4,7 @@
 #define ALPHA_TEST_GLSL
 #include "geometry/corners.glsl"
 #include "geometry/instance.glsl"
+#include "geometry/own_color.glsl"
 #include "geometry/ray.glsl"
 #include "math/rng.glsl"
 #include "textures/texture.glsl"

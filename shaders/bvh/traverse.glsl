@@ -50,10 +50,15 @@ uint iteration_limit(TraversalState state) {
 #endif
 }
 
-// The nearest hit with t > 0: of exactly equal ones that of the lowest id, so that neither the order of traversal nor that of the slots
-// matters.
+// The nearest hit with t > 0: of exactly equal ones that of the lowest id, and of a shape's several primitives that of the lowest uv.x. So
+// neither the order of traversal nor that of the slots matters.
 void update_closest_hit(INOUT(TraversalState) state, float t, vec2 uv, uint slot, uint id, uint instance) {
-  bool nearer = t > 0.0f && (t < state.hit.t || (t == state.hit.t && id < state.hit.id));
+#if HAS_PIECES
+  bool precedes = id < state.hit.id || (id == state.hit.id && uv.x < state.hit.uv.x);
+#else
+  bool precedes = id < state.hit.id;
+#endif
+  bool nearer = t > 0.0f && (t < state.hit.t || (t == state.hit.t && precedes));
   state.hit.t = nearer ? t : state.hit.t;
   state.hit.slot = nearer ? slot : state.hit.slot;
   state.hit.id = nearer ? id : state.hit.id;

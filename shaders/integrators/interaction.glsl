@@ -1,6 +1,7 @@
 // The interaction of a path with a surface: all values that integrators and materials need, found once.
 #ifndef INTERACTION_GLSL
 #define INTERACTION_GLSL
+#include "geometry/own_color.glsl"
 #include "geometry/surface.glsl"
 #include "materials/material.glsl"
 #include "materials/media.glsl"
@@ -56,7 +57,7 @@ Interaction surface_interaction(Ray ray, Hit hit, uint media, INOUT(uint) flags)
   at.context.point = context_on(at.surface);
   at.context.color = vec3(1.0f, 1.0f, 1.0f);
 #if HAS_COLORS
-  at.context.color = vertex_color(primitive, hit);
+  at.context.color = own_color(primitive, hit);
 #endif
   at.context.cos_view = minimum(maximum(-dot3(ray.d, at.seen.normal), 0.0f), 1.0f);
 #if HAS_BENT_COAT

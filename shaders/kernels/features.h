@@ -4,10 +4,13 @@
 #define FEATURES_H
 
 // ---- The scene's features. Default: everything; the twin takes it, and shaders test the records as well -------------
-#ifndef HAS_COLORS  // a mesh's vertices have colours
+#ifndef HAS_COLORS  // a mesh's vertices have colours, or points have
 #define HAS_COLORS 1
 #endif
-#ifndef HAS_SECOND_UV  // … or second texture coordinates, which an image may read
+#ifndef HAS_PIECES  // a shape has several primitives of one id
+#define HAS_PIECES 1
+#endif
+#ifndef HAS_SECOND_UV  // a mesh's vertices have second texture coordinates, which an image may read
 #define HAS_SECOND_UV 1
 #endif
 #ifndef HAS_SMOOTH  // a triangle has normals at its corners

@@ -23,7 +23,8 @@
   R(X, bilinear, 17u, immediate, no_leaf) \
   R(X, implicit, 18u, deferred, closed) \
   R(X, csg, 19u, deferred, no_leaf) \
-  R(X, bezier, 20u, deferred, no_leaf)
+  R(X, bezier, 20u, deferred, no_leaf) \
+  R(X, points, 21u, immediate, no_leaf)
 
 // The lists of a specialised kernel hold its scene's kinds alone (executors/specialise.cpp); these hold all.
 #ifndef SHAPES

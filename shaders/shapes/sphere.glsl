@@ -75,20 +75,26 @@ vec4 sphere_level(Primitive s, vec3 p) {
   return vec4(f, 0.5f * sphere_radius(s) * (dot3(f, f) - 1.0f));
 }
 
-Surface sphere_surface(Primitive s, Ray ray, Hit hit) {
-  vec3 centre = sphere_center(s);
+vec3 sphere_normal(Primitive s, Ray ray, Hit hit) {
   // A sphere smaller than the rounding of its distance may be hit at its very centre.
-  vec3 from_centre = (ray.o - centre) + ray.d * hit.t;
-  vec3 n = dot3(from_centre, from_centre) > 0.0f ? normalize3(from_centre) : -ray.d;
+  vec3 from_centre = (ray.o - sphere_center(s)) + ray.d * hit.t;
+  return dot3(from_centre, from_centre) > 0.0f ? normalize3(from_centre) : -ray.d;
+}
+
+// Surface::offset where the normal is n.
+float sphere_offset(Primitive s, vec3 n) { return 4.0f * EPSILON * (dot3(abs3(n), abs3(sphere_center(s))) + sphere_radius(s)); }
+
+Surface sphere_surface(Primitive s, Ray ray, Hit hit) {
+  vec3 n = sphere_normal(s, ray, hit);
 
   Surface surface;
-  surface.p = centre + n * sphere_radius(s);
+  surface.p = sphere_center(s) + n * sphere_radius(s);
   surface.normal_geometric = n;
   surface.normal = n;
   surface.uv = vec2(0.0f, 0.0f);
   if (UV_OF(sphere)) surface.uv = sphere_uv(s, n);
   set_sphere_gradients(s, n, surface);
-  surface.offset = 4.0f * EPSILON * (dot3(abs3(n), abs3(centre)) + sphere_radius(s));
+  surface.offset = sphere_offset(s, n);
   return surface;
 }
 

@@ -187,6 +187,23 @@ TEST_CASE("an open shutter blurs the picture, in shards as in one piece") {
   CHECK(run_eyeray({"check", folder.scene(), "-D", "animation.shutter=-1"}).code == 2);
 }
 
+TEST_CASE("--point-size changes the picture of a scan; other files have no use for it") {
+  const TemporaryFolder folder;
+  const auto render = [&](const char* size, const std::string& picture) {
+    return run_eyeray({"render", "scenes/meshes/vase.xyz", "--point-size", size, "--look", "plain", "-s",
+                       "32x24", "-o", folder / picture, "--quiet"});
+  };
+  CHECK(render("0.03", "small.pfm").code == 0);
+  CHECK(render("0.3", "large.pfm").code == 0);
+  CHECK(read_text(folder / "small.pfm") != read_text(folder / "large.pfm"));
+  const ProcessResult none = render("0", "none.pfm");
+  CHECK(none.code == 2);
+  CHECK(none.err.find("--point-size 0: a point size is a number above 0") != std::string::npos);
+  CHECK(run_eyeray({"check", "scenes/meshes/ring.ply", "--point-size", "1"})
+            .err.find("has no points, so --point-size changes nothing") != std::string::npos);
+  CHECK(run_eyeray({"check", "scenes/whitted.toml", "--point-size", "1"}).code == 2);
+}
+
 TEST_CASE("--turntable turns a mesh alone once; a scene has none") {
   const TemporaryFolder folder;
   const auto turn = [&](const std::string& scene, const char* frames) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/ext/matrix_transform.hpp>
 #include <numbers>
 
 #include "host/formula/formula.hpp"
@@ -183,6 +184,15 @@ const std::map<std::string, MakeShape> makers = {
          net[size_t(i)] = Vec3(i % 4 - 1.5, 0, i / 4 - 1.5) / 1.5 + random.point(bend);
        if (random.below(4) == 0) net[1] = net[2] = net[3] = net[0];
        return shapes::make_bezier(net, some_map(random, size));
+     }},
+    {"points",
+     [](Random& random, double size) {
+       // Few or many, apart or overlapping.
+       auto cloud = std::make_shared<PointCloud>();
+       const int count = 1 + random.below(20);
+       for (int i = 0; i < count; ++i) cloud->positions.push_back(random.point(0.6 * size));
+       return shapes::make_points(cloud, size * random.log_uniform(0.1, 0.6),
+                                  glm::translate(Mat4(1.0), random.point(2 * size)));
      }},
 };
 

@@ -26,6 +26,13 @@ std::vector<Seed> seeds() {
     return "ply\nformat " + format + " 1.0\nelement vertex 4\n" + xyz +
            "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
   };
+  const auto pcd = [](const std::string& data) {
+    return "VERSION 0.7\nFIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH 2\nHEIGHT 1\n"
+           "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 2\nDATA " +
+           data + "\n";
+  };
+  Bytes points;
+  for (const double number : {0, 0, 0, 7, 1, 2, 3, 255}) points.add(float(number));
   GltfFile gltf = square_file();
   gltf.primitive()["attributes"]["NORMAL"] = gltf.add({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, 5126, "VEC3", 3);
   gltf.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {1, 0, 0, 1}}}}}};
@@ -42,6 +49,11 @@ std::vector<Seed> seeds() {
       {"a.ply", header("ascii") + "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n"},
       {"b.ply", header("binary_little_endian") + little.text()},
       {"c.ply", header("binary_big_endian") + big.text()},
+      {"d.ply", "ply\nformat ascii 1.0\nelement vertex 2\n" + xyz + "end_header\n0 0 0\n1 2 3\n"},
+      {"a.xyz", "# a scan\n3\n0 0 0 255 0 128\n1 0 0 0 255 1\n0 2e0 +0 7 8 9\n"},
+      {"a.pcd", pcd("ascii") + "0 0 0 7\n1 0 0 9\n"},
+      {"b.pcd", pcd("binary") + points.text()},
+      {"c.pcd", pcd("binary_compressed") + std::string("\x21\0\0\0\x20\0\0\0\x1f", 9) + points.text()},
       {"a.gltf", gltf.gltf()},
       {"a.glb", gltf.glb()},
       {"meshopt.glb", meshopt_grid().glb()},
@@ -71,7 +83,7 @@ TEST_CASE("files truncated at every byte are refused or read") {
     size_t read = 0;
     for (size_t length = 0; length < bytes.size(); ++length) read += survives(bytes.substr(0, length), name);
     // Binary data and JSON must be complete; a text file may end sooner.
-    if (!name.ends_with("obj")) CHECK(read <= 1);
+    if (!name.ends_with("obj") && !name.ends_with("xyz")) CHECK(read <= 1);
   }
 }
 
@@ -134,7 +146,7 @@ TEST_CASE("files with random damage are refused or read") {
 
 TEST_CASE("files other than mesh files are refused") {
   CHECK(refusal("", "a.3ds") ==
-        "a.3ds: error: a mesh file's name must end in .obj, .ply, .stl, .gltf or .glb");
+        "a.3ds: error: a mesh file's name must end in .obj, .ply, .stl, .gltf, .glb, .xyz or .pcd");
   CHECK_FALSE(is_mesh_file("a.toml"));
   CHECK_FALSE(is_mesh_file("obj"));
   CHECK(is_mesh_file("x/A.GLB"));

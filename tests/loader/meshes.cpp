@@ -103,7 +103,7 @@ TEST_CASE("a fault in a mesh is an error at its key") {
         "2:8: error: ../outside.obj lies outside the scene's folder; --allow-path DIR allows other ones");
   CHECK(message("file = ''") == "2:8: error: `file` needs the name of a file");
   CHECK(contains(message("file = 'scene.toml'"),
-                 "a mesh file's name must end in .obj, .ply, .stl, .gltf or .glb"));
+                 "a mesh file's name must end in .obj, .ply, .stl, .gltf, .glb, .xyz or .pcd"));
   CHECK(message("smooth = 3") == "1:1: error: [[mesh]] needs `file`, a string");
   CHECK(message("file = 'a.obj'\nsmooth = 181") ==
         "3:10: error: `smooth` must be a number from 0 to 180, not 181");
@@ -112,7 +112,7 @@ TEST_CASE("a fault in a mesh is an error at its key") {
         "3:13: error: the transformed vertices are out of range (coordinates up to 1e12)");
   CHECK(message("file = 'a.obj'\nradius = 3") ==
         "3:1: error: unknown key `radius` in [[mesh]]; its keys are name, file, material, transform, smooth, "
-        "animation, loop, batch, repeat");
+        "point_size, animation, loop, batch, repeat");
   CHECK(contains(message("file = 'a.obj'\nbatch = { radius = [3] }"),
                  "unknown key `radius` in the batch of [[mesh]]"));
   CHECK_THROWS_AS(parse_scene("[[mesh]]\nfile = 'a.obj'", "memory.toml"), InputError);

@@ -21,7 +21,8 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// The shapes of scenes/shapes/KIND.toml as a group that stands four times, the last time sheared.
+// The shapes of scenes/shapes/KIND.toml as a group that stands four times, the last time sheared. Points
+// cannot be sheared, so they are turned and mirrored instead.
 std::string grouped(const shapes::ShapeType& type) {
   std::ifstream file(fmt::format("scenes/shapes/{}.toml", type.name));
   REQUIRE(file);
@@ -35,6 +36,9 @@ std::string grouped(const shapes::ShapeType& type) {
     }
     if (kept) text += line + '\n';
   }
+  const char* last = type.name == "points"
+                         ? "{ rotate = { axis = [0, 1, 1], degrees = 70 } }, { scale = -0.5 }"
+                         : "{ matrix = [[1, 0.4, 0, 5], [0, 0.6, 0.2, 90], [0.1, 0, -1.5, 3]] }";
   return text + R"(
 [[instance]]
 group = "all"
@@ -42,9 +46,8 @@ batch = { transform = [
   [],
   [{ rotate = { axis = [1, 2, 3], degrees = 50 } }, { scale = 0.3 }, { translate = [30, 4, -9] }],
   [{ scale = [-2, 2, 2] }, { translate = [-80, 10, 20] }],
-  [{ matrix = [[1, 0.4, 0, 5], [0, 0.6, 0.2, 90], [0.1, 0, -1.5, 3]] }],
-] }
-)";
+  [)" + last +
+         "],\n] }\n";
 }
 
 Scene stored(const std::string& text, std::string_view groups) {

@@ -1,4 +1,4 @@
-// Checks that importers' meshes keep the promises of scene/mesh.hpp.
+// Checks that importers' meshes and clouds keep the promises of scene/mesh.hpp and scene/point_cloud.hpp.
 #pragma once
 
 #include <algorithm>
@@ -51,7 +51,18 @@ inline std::string broken_promise(const Mesh& mesh) {
 inline std::string broken_promise(const importers::ImportedScene& scene) {
   for (const Mesh& mesh : scene.meshes)
     if (const std::string broken = broken_promise(mesh); !broken.empty()) return broken;
-  if (scene.instances.empty() && !scene.played) return "no instances";
+  if (scene.instances.empty() && scene.clouds.empty() && !scene.played) return "no instances";
+  for (const auto& cloud : scene.clouds) {
+    if (cloud->positions.empty()) return "no points";
+    if (!cloud->colors.empty() && cloud->colors.size() != cloud->positions.size())
+      return "number of points' colours";
+    for (const Vec3& position : cloud->positions)
+      if (!(magnitude(position) <= max_coordinate)) return "point out of range";
+    for (const glm::vec3& color : cloud->colors)
+      for (int i = 0; i < 3; ++i)
+        if (!(color[i] >= 0 && color[i] <= 1)) return "colour of a point out of range";
+    if (!(cloud->radius >= min_radius && std::isfinite(cloud->radius))) return "radius of points";
+  }
   for (const Instance& instance : scene.instances) {
     if (instance.mesh < 0 || size_t(instance.mesh) >= scene.meshes.size()) return "mesh of an instance";
     if (instance.material < -1 || instance.material >= int(scene.materials.size()))

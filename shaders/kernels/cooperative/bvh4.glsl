@@ -261,13 +261,17 @@ TraversalState trace_cooperatively(Ray own, float t_max) {
     }
     traverse_bvh4();
 
-    // The lowest id among equally near hits wins, as in `update_closest_hit`. The hit goes back to the lane that had the ray.
+    // The lowest id among equally near hits wins, then the lowest uv.x, as in `update_closest_hit`. The hit goes back to the lane that had
+    // the ray.
     int nearest_t = least(floatBitsToInt(state.hit.t));
     bool nearest = floatBitsToInt(state.hit.t) == nearest_t;
     uint id = least(nearest ? state.hit.id : NONE);
-    uint slot = least(nearest && state.hit.id == id ? state.hit.slot : NONE);
     bool first_of_them = nearest && state.hit.id == id;
     uint u = least(first_of_them ? floatBitsToUint(state.hit.uv.x) : NONE);
+#if HAS_PIECES
+    first_of_them = first_of_them && floatBitsToUint(state.hit.uv.x) == u;
+#endif
+    uint slot = least(first_of_them ? state.hit.slot : NONE);
     uint v = least(first_of_them ? floatBitsToUint(state.hit.uv.y) : NONE);
     uint occluded = sum(state.occluded);
     uint tracer = (rank % AT_ONCE) * 4u;

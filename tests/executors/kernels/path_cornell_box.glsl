@@ -7,6 +7,7 @@
 #define HAS_ENVIRONMENT_LIGHT false
 #define TRIANGLE_METHOD 0u
 #define HAS_COLORS 0
+#define HAS_PIECES 0
 #define HAS_SECOND_UV 0
 #define HAS_SMOOTH 0
 #define HAS_EMISSION 1
@@ -145,6 +146,10 @@
 #define FIRST_bezier 31u
 #define END_bezier 31u
 #define UV_bezier false
+#define KIND_points 21u
+#define FIRST_points 31u
+#define END_points 31u
+#define UV_points false
 #define KIND_FIRST(name) FIRST_##name
 #define KIND_END(name) END_##name
 #if defined FIRST_HITS || defined PROBING

@@ -1,11 +1,11 @@
-#include "host/reference/bvh.hpp"
+#include "host/scene/box_bvh.hpp"
 
 #include <algorithm>
 
 #include "host/core/error.hpp"
 #include "host/core/parallel_for.hpp"
 
-namespace eyeray::engine::reference {
+namespace eyeray::engine {
 
 namespace {
 
@@ -18,7 +18,7 @@ Bounds joined(const Bounds& a, const Bounds& b) {
 
 }  // namespace
 
-Bvh::Bvh(uint32_t count, const std::function<Bounds(uint32_t)>& box, Acceleration acceleration)
+BoxBvh::BoxBvh(uint32_t count, const std::function<Bounds(uint32_t)>& box, Acceleration acceleration)
     : count_(count) {
   if (acceleration == Acceleration::brute_force || count == 0) return;
   CHECK_LT(count, 1u << 31);
@@ -35,8 +35,8 @@ Bvh::Bvh(uint32_t count, const std::function<Bounds(uint32_t)>& box, Acceleratio
   build(0, 0, leaves_, keys, box);
 }
 
-void Bvh::build(size_t node, uint32_t first_leaf, uint32_t leaves, std::vector<Key>& keys,
-                const std::function<Bounds(uint32_t)>& box) {
+void BoxBvh::build(size_t node, uint32_t first_leaf, uint32_t leaves, std::vector<Key>& keys,
+                   const std::function<Bounds(uint32_t)>& box) {
   const uint32_t begin = first_of(first_leaf);
   const uint32_t end = first_of(first_leaf + leaves);
   if (leaves == 1) {
@@ -68,4 +68,4 @@ void Bvh::build(size_t node, uint32_t first_leaf, uint32_t leaves, std::vector<K
   nodes_[node] = joined(nodes_[2 * node + 1], nodes_[2 * node + 2]);
 }
 
-}  // namespace eyeray::engine::reference
+}  // namespace eyeray::engine

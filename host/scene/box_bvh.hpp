@@ -1,6 +1,6 @@
-// The reference's own BVH, as simple as possible. It finds the boxes that a ray may hit. Every node is halved
-// at the median of its boxes until a few are left. So the BVH is a complete tree, and its shape follows from
-// the number of boxes alone.
+// The BVH of float64 code, as simple as possible: for the reference, and for shapes of many parts. It finds
+// the boxes that a ray may hit. Every node is halved at the median of its boxes until a few are left. So the
+// BVH is a complete tree, and its shape follows from the number of boxes alone.
 //
 // Rounding loses no hit, for two reasons. First, every box is widened by the same margin for a ray. So a
 // point that a primitive's own intersection counts as a hit lies in the primitive's box. Second,
@@ -22,11 +22,11 @@
 #include "host/core/vec.hpp"
 #include "host/scene/bounds.hpp"
 
-namespace eyeray::engine::reference {
+namespace eyeray::engine {
 
 // Bound on the displacement of a point by rounding, relative to the coordinates it is computed from: 64 units
 // of 2⁻⁵³. The intersections of triangles and spheres take no more than 20.
-inline constexpr double rounding = 0x1p-47;
+inline constexpr double box_rounding = 0x1p-47;
 
 // A ray, prepared for the intersection with boxes.
 class BoxRay {
@@ -59,12 +59,12 @@ class BoxRay {
   Vec3 ahead_, behind_;
 };
 
-class Bvh {
+class BoxBvh {
  public:
-  Bvh() = default;  // without boxes
+  BoxBvh() = default;  // without boxes
   // Builds a BVH of the boxes 0 … count − 1, all finite. `box` is called from many threads. Takes O(n log n),
   // on all cores.
-  Bvh(uint32_t count, const std::function<Bounds(uint32_t)>& box, Acceleration acceleration);
+  BoxBvh(uint32_t count, const std::function<Bounds(uint32_t)>& box, Acceleration acceleration);
 
   // Calls visit(i, limit) for each box that the ray may enter at t ≤ limit, nearer boxes first as far as that
   // costs nothing. Under brute force it visits all boxes. Each call returns the new limit; a negative one
@@ -88,7 +88,7 @@ class Bvh {
 };
 
 template <typename Visit>
-void Bvh::search(const BoxRay& ray, double limit, const Visit& visit) const {
+void BoxBvh::search(const BoxRay& ray, double limit, const Visit& visit) const {
   if (nodes_.empty()) {
     for (uint32_t i = 0; i < count_ && limit >= 0; ++i) limit = visit(i, limit);
     return;
@@ -121,4 +121,4 @@ void Bvh::search(const BoxRay& ray, double limit, const Visit& visit) const {
   }
 }
 
-}  // namespace eyeray::engine::reference
+}  // namespace eyeray::engine

@@ -1,0 +1,201 @@
+// Reads XYZ: a point a line, x y z and perhaps more numbers. The format has no specification. Programs write
+// colours and normals behind z, which the numbers themselves distinguish.
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "host/core/diagnostic.hpp"
+#include "host/core/free_memory.hpp"
+#include "host/importers/cloud_builder.hpp"
+#include "host/importers/formats.hpp"
+#include "host/importers/malformed.hpp"
+#include "host/importers/mesh_builder.hpp"
+#include "host/importers/text_number.hpp"
+
+namespace eyeray::engine::importers {
+
+namespace {
+
+constexpr size_t most_columns = 16;
+
+bool ends_line(char c) {
+  return c == '\n' || c == '\r';
+}
+
+// The lines of a text that have content.
+class PointLines {
+ public:
+  PointLines(std::string_view text, const std::string& file) : text_(text), file_(file) {}
+
+  // Goes to the next line that is neither empty nor a comment. False at the end of the text.
+  bool next() {
+    if (std::exchange(begun_, true)) at_ = line_end();
+    for (;;) {
+      at_ = skip_spaces(text_, at_);
+      start_ = at_;
+      if (at_ == text_.size()) return false;
+      if (text_[at_] != '#' && !text_.substr(at_).starts_with("//")) return true;
+      at_ = line_end();
+    }
+  }
+
+  // Reads all numbers of the line. InputError at a word that is none.
+  void read(std::vector<double>& numbers) {
+    numbers.clear();
+    for (at_ = start_; skip_blanks();) {
+      if (numbers.size() == most_columns)
+        throw malformed_at(file_, text_, at_, fmt::format("a line has at most {} numbers", most_columns));
+      numbers.push_back(take_number(text_, at_, file_));
+    }
+  }
+
+  // True if the line begins with a number.
+  bool has_number() const {
+    double value = 0;
+    const size_t at = start_ + (text_[start_] == '+');
+    return std::from_chars(text_.data() + at, text_.data() + text_.size(), value).ec !=
+           std::errc::invalid_argument;
+  }
+  std::string_view line() { return text_.substr(start_, line_end() - start_); }
+  [[noreturn]] void fail(const std::string& message) const {
+    throw malformed_at(file_, text_, start_, message);
+  }
+
+ private:
+  size_t line_end() const {
+    size_t at = at_;
+    while (at < text_.size() && !ends_line(text_[at])) ++at;
+    return at;
+  }
+  // Goes to the next word of the line. False at the line's end.
+  bool skip_blanks() {
+    while (at_ < text_.size() && is_text_space(text_[at_]) && !ends_line(text_[at_])) ++at_;
+    return at_ < text_.size() && !ends_line(text_[at_]);
+  }
+
+  std::string_view text_;
+  const std::string& file_;
+  size_t at_ = 0;
+  size_t start_ = 0;  // begin of the line
+  bool begun_ = false;
+};
+
+// Decides whether three columns are colours. They are if all are integers from 0 to 255, and some above 1.
+// They are also if all are shares from 0 to 1 that are neither unit vectors, as normals are, nor all 0.
+class ColorColumns {
+ public:
+  explicit ColorColumns(size_t first) : first_(first) {}
+
+  void note(const std::vector<double>& numbers) {
+    double squares = 0;
+    for (size_t k = first_; k < first_ + 3; ++k) {
+      const double value = numbers[k];
+      codes_ = codes_ && value >= 0 && value <= 255 && value == std::floor(value);
+      shares_ = shares_ && value >= 0 && value <= 1;
+      above_zero_ = above_zero_ || value > 0;
+      above_one_ = above_one_ || value > 1;
+      squares += value * value;
+    }
+    units_ = units_ && std::fabs(squares - 1) < 0.02;
+  }
+
+  size_t first() const { return first_; }
+  // The number of full brightness; empty if these are no colours.
+  std::optional<double> brightest() const {
+    if (codes_ && above_one_) return 255;
+    if (shares_ && above_zero_ && !units_) return 1;
+    return std::nullopt;
+  }
+
+ private:
+  size_t first_;
+  bool codes_ = true, shares_ = true, units_ = true;  // true of all lines
+  bool above_zero_ = false, above_one_ = false;       // true of some
+};
+
+// The columns in which programs write colours: x y z r g b …; x y z intensity r g b; x y z nx ny nz r g b.
+std::vector<ColorColumns> candidates(size_t columns) {
+  std::vector<ColorColumns> all;
+  if (columns >= 6) all.emplace_back(3);
+  if (columns == 7) all.emplace_back(4);
+  if (columns >= 9) all.emplace_back(6);
+  return all;
+}
+
+struct XyzRows {
+  size_t columns = 0;
+  std::vector<Vec3> positions;
+  std::vector<float> rest;  // the other numbers of each line, if they may be colours
+  std::vector<ColorColumns> colors;
+  std::optional<double> stated;  // the number of points that the first line states
+};
+
+XyzRows read_rows(const MeshFile& file, std::vector<std::string>& warnings) {
+  PointLines lines(file.bytes, file.name);
+  XyzRows rows;
+  std::vector<double> numbers;
+  bool first_line = true;
+  while (lines.next()) {
+    if (std::exchange(first_line, false) && !lines.has_number()) {
+      warnings.push_back(
+          fmt::format("its first line was taken as a heading: {}", printable(lines.line().substr(0, 60))));
+      continue;
+    }
+    lines.read(numbers);
+    if (numbers.size() == 1 && rows.columns == 0 && !rows.stated) {
+      rows.stated = numbers[0];
+      continue;
+    }
+    if (rows.columns == 0) {
+      rows.columns = numbers.size();
+      rows.colors = candidates(rows.columns);
+    }
+    if (numbers.size() < 3) lines.fail("a point needs three numbers, x y z");
+    if (numbers.size() != rows.columns)
+      lines.fail(
+          fmt::format("this line has {} numbers, but the first point has {}", numbers.size(), rows.columns));
+    rows.positions.emplace_back(numbers[0], numbers[1], numbers[2]);
+    for (ColorColumns& each : rows.colors) each.note(numbers);
+    if (!rows.colors.empty()) rows.rest.insert(rows.rest.end(), numbers.begin() + 3, numbers.end());
+  }
+  return rows;
+}
+
+}  // namespace
+
+ImportedScene import_xyz(MeshFile& file) {
+  ImportedScene scene;
+  XyzRows rows = read_rows(file, scene.warnings);
+  free_memory(file.bytes);  // the points need the memory
+  const size_t count = rows.positions.size();
+  if (rows.stated && *rows.stated != double(count))
+    scene.warnings.push_back(
+        fmt::format("its first line states {} points, but there are {}", *rows.stated, count));
+
+  RawPoints points{file.name, std::move(rows.positions)};
+  size_t shown = 3;
+  for (const ColorColumns& each : rows.colors) {
+    const auto brightest = each.brightest();
+    if (!brightest) continue;
+    shown += 3;
+    points.colors.reserve(count);
+    const size_t width = rows.columns - 3;
+    for (size_t i = 0; i < count; ++i) {
+      const float* const at = &rows.rest[i * width + each.first() - 3];
+      points.colors.push_back(color_from_display(Vec3(at[0], at[1], at[2]) / *brightest));
+    }
+    break;
+  }
+  free_memory(rows.rest);
+  if (shown < rows.columns)
+    scene.warnings.push_back(
+        fmt::format("{} of its {} columns were left out: {}", rows.columns - shown, rows.columns,
+                    shown == 3 ? "only x y z are shown" : "only x y z and a color are shown"));
+  if (auto cloud = build_cloud(std::move(points), file.point_size, scene.warnings))
+    scene.clouds.push_back(std::move(cloud));
+  return scene;
+}
+
+}  // namespace eyeray::engine::importers
