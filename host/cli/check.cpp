@@ -92,11 +92,13 @@ Inventory take_inventory(const Scene& scene) {
   const records::PackedScene packed = pack::pack_without_texels(scene);
   Inventory inventory;
   const size_t environment_texels = scene.environment ? pack::environment_texels(*scene.environment) : 0;
+  std::vector<const shapes::ShapeType*> tables(shapes::types().begin(), shapes::types().end());
+  tables.insert(tables.end(), shapes::made_types().begin(), shapes::made_types().end());
   std::vector<uint32_t> kinds;
   for (const auto& shape : scene.shapes)
-    kinds.push_back(uint32_t(std::ranges::find(shapes::types(), shape->type, &shapes::ShapeType::name) -
-                             shapes::types().begin()));
-  inventory.shapes = count_kinds(shapes::types(), kinds);
+    kinds.push_back(
+        uint32_t(std::ranges::find(tables, shape->type, &shapes::ShapeType::name) - tables.begin()));
+  inventory.shapes = count_kinds(std::span<const shapes::ShapeType* const>(tables), kinds);
   kinds.clear();
   for (const shader::Material& material : packed.materials) kinds.push_back(material.kind);
   inventory.materials = count_kinds(materials::types(), kinds);

@@ -132,6 +132,11 @@ Json value_schema(const Key& key) {
       return list_schema(vector_schema(key, 3));
     case KeyType::outlines:
       return list_schema(list_schema(vector_schema(key, 3)));
+    case KeyType::rows: {
+      Json row = list_schema(number_schema(key));
+      row["minItems"] = row["maxItems"] = key.choices.size();
+      return list_schema(std::move(row));
+    }
     case KeyType::formula:
     case KeyType::formula_file:
       return {{"type", "string"}};

@@ -317,9 +317,11 @@ std::vector<Section> make_sections() {
       {mesh, "mesh", "[[mesh]]", "The triangles of a mesh file, or the points of a scan.", mesh_keys, nullptr,
        mesh_manual},
   };
-  for (const shapes::ShapeType* type : shapes::types()) {
-    const std::span<const Key> keys = type->combine ? part_keys() : shape_keys;
-    all.push_back({shape, type->name, fmt::format("[[{}]]", type->name), "", keys, type});
+  for (const auto types : {shapes::types(), shapes::made_types()}) {
+    for (const shapes::ShapeType* type : types) {
+      const std::span<const Key> keys = type->combine ? part_keys() : shape_keys;
+      all.push_back({shape, type->name, fmt::format("[[{}]]", type->name), "", keys, type});
+    }
   }
   all.push_back({group, "group", "[[group]]", "Shapes, meshes and groups that move together.", group_keys,
                  nullptr, group_manual});

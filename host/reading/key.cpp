@@ -1,6 +1,6 @@
 #include "host/reading/key.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -90,6 +90,8 @@ std::string describe(const Key& declared) {
       return "a list of points [[x, y, z], …]" + each(key);
     case KeyType::outlines:
       return "a list of lists of points [[[x, y, z], …], …]" + each(key);
+    case KeyType::rows:
+      return fmt::format("a list of rows [[{}], …]", fmt::join(key.choices, ", ")) + each(key);
     case KeyType::formula:
       return "GLSL in a string";
     case KeyType::formula_file:

@@ -21,6 +21,7 @@ enum class KeyType {
   vec2_list,     // [[x, y], …]
   vec3_list,     // [[x, y, z], …]
   outlines,      // [[[x, y, z], …], …]
+  rows,          // [[number, …], …]; Key::choices names the numbers of a row
   formula,       // GLSL, best in """…"""
   formula_file,  // the name of a file of GLSL
   parameters,    // { NAME = number or [2 to 4 numbers], … }

@@ -47,6 +47,8 @@ Value stand_in(const Key& key, const ValueSources& sources) {
       return true;
     case KeyType::outlines:
       return std::vector<std::vector<Vec3>>();
+    case KeyType::rows:
+      return std::vector<std::vector<double>>();
     case KeyType::formula:
     case KeyType::formula_file:
       return formula::FormulaText();

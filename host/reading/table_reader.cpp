@@ -168,6 +168,9 @@ std::vector<Vec3> TableReader::vec3_list(std::string_view key) const {
 std::vector<std::vector<Vec3>> TableReader::outlines(std::string_view key) const {
   return table_->get<std::vector<std::vector<Vec3>>>(key);
 }
+std::vector<std::vector<double>> TableReader::rows(std::string_view key) const {
+  return table_->get<std::vector<std::vector<double>>>(key);
+}
 formula::FormulaText TableReader::formula(std::string_view key) const {
   return table_->get<formula::FormulaText>(key);
 }

@@ -41,6 +41,7 @@ class TableReader {
   std::vector<Vec2> vec2_list(std::string_view key) const;
   std::vector<Vec3> vec3_list(std::string_view key) const;
   std::vector<std::vector<Vec3>> outlines(std::string_view key) const;
+  std::vector<std::vector<double>> rows(std::string_view key) const;
   formula::FormulaText formula(std::string_view key) const;  // for KeyType::formula and formula_file
   std::vector<formula::FormulaParameter> parameters(std::string_view key) const;
   Vec3 color(std::string_view key) const;

@@ -71,6 +71,7 @@ class Reader {
   template <int N>
   std::vector<glm::vec<N, double>> vector_list(const toml::node& node);
   std::vector<std::vector<Vec3>> vector_lists(const toml::node& node);
+  std::vector<std::vector<double>> rows(const toml::node& node);
   std::vector<Vec4> color_map(const toml::node& node);
   formula::FormulaText formula_file(const toml::node& node);
   std::vector<formula::FormulaParameter> parameters(const toml::node& node);
@@ -196,6 +197,19 @@ std::vector<std::vector<Vec3>> Reader::vector_lists(const toml::node& node) {
     values.push_back(vector_list<3>(element));
   }
   return values;
+}
+
+std::vector<std::vector<double>> Reader::rows(const toml::node& node) {
+  std::vector<std::vector<double>> all;
+  const toml::array* list = node.as_array();
+  if (!list) return mismatch(node), all;
+  for (const toml::node& element : *list) {
+    const toml::array* row = element.as_array();
+    if (!row || row->size() != key_.choices.size()) return mismatch(element), all;
+    for (std::vector<double>& values = all.emplace_back(); const toml::node& value : *row)
+      values.push_back(number(value));
+  }
+  return all;
 }
 
 std::vector<Vec4> Reader::color_map(const toml::node& node) {
@@ -325,6 +339,8 @@ Value Reader::value(const toml::node& node) {
       return vector_list<3>(node);
     case KeyType::outlines:
       return vector_lists(node);
+    case KeyType::rows:
+      return rows(node);
     case KeyType::formula:
       if (!node.is_string()) return mismatch(node), formula::FormulaText{};
       return formula::FormulaText{node.value_or(std::string()), start_of_text(node)};

@@ -18,10 +18,10 @@ namespace eyeray::engine::reading {
 
 // A checked value. The KeyTypes boolean, number, string and color give bool, double, std::string and Vec3.
 // integer and choice give int64_t, choice2 two of these, and scale2 and scale3 Vec2 and Vec3.
-using Value =
-    std::variant<bool, int64_t, std::array<int64_t, 2>, double, std::string, Vec2, Vec3, std::vector<Vec2>,
-                 std::vector<Vec3>, std::vector<Vec4>, std::vector<std::vector<Vec3>>, formula::FormulaText,
-                 std::vector<formula::FormulaParameter>, TexturePtr, Mat4>;
+using Value = std::variant<bool, int64_t, std::array<int64_t, 2>, double, std::string, Vec2, Vec3,
+                           std::vector<Vec2>, std::vector<Vec3>, std::vector<Vec4>,
+                           std::vector<std::vector<Vec3>>, std::vector<std::vector<double>>,
+                           formula::FormulaText, std::vector<formula::FormulaParameter>, TexturePtr, Mat4>;
 
 // The sources of values that are not in the TOML itself.
 struct ValueSources {

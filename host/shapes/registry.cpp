@@ -9,9 +9,21 @@ namespace eyeray::engine::shapes {
 SHAPES(X)
 #undef X
 
+#define MADE_SHAPES(X) X(blob)
+#define X(name) extern const ShapeType name##_type;
+MADE_SHAPES(X)
+#undef X
+
 std::span<const ShapeType* const> types() {
 #define X(name, number) &name##_type,
   static constexpr const ShapeType* types[] = {SHAPES(X)};
+#undef X
+  return types;
+}
+
+std::span<const ShapeType* const> made_types() {
+#define X(name) &name##_type,
+  static constexpr const ShapeType* types[] = {MADE_SHAPES(X)};
 #undef X
   return types;
 }

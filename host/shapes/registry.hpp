@@ -34,5 +34,7 @@ struct ShapeType {
 
 // Every kind of shape, in registry order: the order of Scene::shapes, hence of primitive indices.
 std::span<const ShapeType* const> types();
+// Tables whose shapes are of these kinds, made from other values: a blob is an implicit surface.
+std::span<const ShapeType* const> made_types();
 
 }  // namespace eyeray::engine::shapes

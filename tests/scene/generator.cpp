@@ -206,6 +206,10 @@ std::string Writer::value(const Key& key) {
       if (mishap()) points[1] = "[]";
       return fmt::format("[{}]", fmt::join(points, ", "));
     }
+    case KeyType::rows: {
+      const auto columns = int(key.choices.size());
+      return fmt::format("[{}, {}]", numbers(key, columns), numbers(key, columns));
+    }
     case KeyType::outlines:
       return fmt::format("[[{}, {}, {}]]", numbers(key, 3), numbers(key, 3), numbers(key, 3));
     case KeyType::color:
