@@ -122,7 +122,7 @@ py::array tonemapped_array(const eyeray::Picture& picture) {
     codes = picture.tonemapped();
   }
   const eyeray::Plane color = picture.color();
-  return py::array_t<uint8_t>({color.height, color.width, 3}, codes.data());
+  return py::array_t<uint8_t>({color.height, color.width, std::max(3, color.channels)}, codes.data());
 }
 
 std::string type_name(const py::handle& value) {

@@ -8,6 +8,8 @@
 SHADER_BEGIN
 
 #define REFRACTED_SHIFT 8u
+#define HITS_BITS 16u
+#define WHOLE_BACKGROUND 32768u  // a background_of that is 1
 #define TOTAL_SHIFT 20u
 
 // One sample of one pixel, 32 bytes.
@@ -15,7 +17,7 @@ struct SampleResult {
   vec3 color;
   uint trail;  // trail of a random walk (integrators/trail.glsl); else 1
   uint rays;
-  uint hits;
+  uint hits;        // with FLAG_BACKGROUND in the lowest HITS_BITS, below background_of
   uint flags;       // with RAY_KINDS below refracted_of
   uint iterations;  // iterations of loops; with RAY_KINDS reflected_of and total_reflections_of instead
 };
@@ -35,6 +37,8 @@ INLINE uint flags_of(SampleResult result) { return result.flags & ((1u << REFRAC
 INLINE uint refracted_of(SampleResult result) { return result.flags >> REFRACTED_SHIFT; }
 INLINE uint reflected_of(SampleResult result) { return result.iterations & ((1u << TOTAL_SHIFT) - 1u); }
 INLINE uint total_reflections_of(SampleResult result) { return result.iterations >> TOTAL_SHIFT; }
+// With FLAG_BACKGROUND: the share of the background's light that comes straight to the eye, in units of 1 / WHOLE_BACKGROUND.
+INLINE uint background_of(SampleResult result) { return result.hits >> HITS_BITS; }
 
 // A denoiser's auxiliary values of one sample of one pixel, 32 bytes.
 struct AuxiliaryResult {
@@ -133,6 +137,7 @@ struct ProbeRecord {
 #define FLAG_ITERATION_LIMIT 8u
 #define FLAG_ENDLESS 16u  // a formula's loops took more than FORMULA_ITERATIONS iterations in one call
 #define FLAG_CUT_OFF 32u  // with RAY_KINDS, and no fault: max_depth ended the path
+#define FLAG_BACKGROUND 128u  // no fault: a transparent picture's camera ray reaches the background in a straight line
 // A loop of a user's shaders was stopped (STOPPED_LOOPS). Its bit among those from REFRACTED_SHIFT on names it, unless RAY_KINDS.
 #define FLAG_ENDLESS_LOOP 64u
 

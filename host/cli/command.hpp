@@ -50,7 +50,7 @@ void add_completion(CLI::App& app, Run& run);
 void add_manual(CLI::App& app, Run& run);
 
 // SCENE and the options of the command line that change it: -D, --allow-path, -s, --spp, --integrator,
-// --seed, --triangle, --max-depth.
+// --seed, --triangle, --max-depth, --transparent.
 class SceneOptions {
  public:
   void add_to(CLI::App& command);
@@ -85,6 +85,7 @@ class SceneOptions {
   std::vector<std::string> defines_;
   loader::Trust trust_;
   std::string look_, camera_, turntable_, point_size_, size_;
+  bool transparent_ = false;
   std::array<std::string, 8> values_;  // the values of the options in options.cpp's table, --spp first
 };
 

@@ -58,6 +58,7 @@ void MergeCommand::check_outputs(const shards::PartHeader& header) {
     outputs.push_back(fs::path(header.scene).filename().replace_extension(".png").string());
   for (const std::string& output : outputs) {
     image::image_format(output);
+    if (header.transparent) image::check_has_alpha(output);
     check_writable(output);
   }
 }
@@ -66,7 +67,7 @@ session::Result MergeCommand::merge(shards::PartSet& set) const {
   const Stopwatch watch;
   const shards::PartHeader& header = *set.header();
   session::PictureFiles files(outputs, header.aovs, half);
-  files.begin(header.area.width, header.area.height, header.tone);
+  files.begin(header.area.width, header.area.height, header.tone, header.channels(0));
   double luminances = 0;
   set.merge([&](size_t plane, const image::Image& rows) {
     files.write(plane, rows);

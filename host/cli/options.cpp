@@ -147,6 +147,11 @@ void SceneOptions::add_to(CLI::App& command) {
   add("--camera", camera_, "NAME", "The camera of a glTF file alone, by its name or its number from 0.");
   add("--point-size", point_size_, "X",
       "The diameter of the spheres that show the points of a scan alone, in the file's units.");
+  command
+      .add_flag("--transparent", transparent_,
+                "Give the picture, a .png or an .exr, an alpha in place of its background. A mesh alone then "
+                "stands on no floor.")
+      ->group(group);
   static_assert(std::tuple_size_v<decltype(values_)> == value_options.size());
   for (size_t i = 0; i < value_options.size(); ++i) {
     const ValueOption& each = value_options[i];
@@ -165,6 +170,7 @@ std::string SceneOptions::as_written() const {
   add("--camera", camera_);
   add("--turntable", turntable_);
   add("--point-size", point_size_);
+  if (transparent_) text += " --transparent";
   for (size_t i = 0; i < value_options.size(); ++i) add(value_options[i].name, values_[i]);
   return text;
 }
@@ -182,6 +188,7 @@ Scene SceneOptions::load() const {
     overrides.push_back({fmt::format("image.width={}", width), "-s " + size_});
     overrides.push_back({fmt::format("image.height={}", height), "-s " + size_});
   }
+  if (transparent_) overrides.push_back({"image.transparent=true", "--transparent"});
   for (size_t i = 0; i < value_options.size(); ++i) {
     const ValueOption& each = value_options[i];
     if (!values_[i].empty())

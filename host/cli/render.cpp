@@ -196,6 +196,8 @@ ExitCode RenderCommand::run_frames() {
     check_video(video);
   }
   const Scene scene = options.scene.load();
+  if (!video.empty() && scene.image.transparent)
+    throw Error(ExitCode::bad_input, "a video has no alpha: leave out --video, or the transparency");
   const Animation& animation = scene.animation;
   if (animation.tracks == 0)
     throw Error(ExitCode::bad_input,

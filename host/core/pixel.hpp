@@ -20,6 +20,12 @@ struct PixelSample {
   uint32_t total_reflections = 0;  // total reflections where a refracted ray would else be followed
   uint32_t trail = 1;              // a fingerprint of a random path's decisions (docs/gates.md); else 1
   bool cut_off = false;            // whether `max_depth` ended its path; for random paths only
+  // The share of the background's light that comes straight to the eye, and is left out of a transparent
+  // picture's `color`. 1 if the camera ray hits nothing; less behind a pane or through a medium.
+  double background = 0;
+
+  // The colour in front of a white background.
+  Vec3 over_white() const { return color + background; }
 };
 
 // A denoiser's auxiliary values of one sample: those of the first vertex of its path that scatters light into

@@ -61,6 +61,7 @@ class Denoising {
       : picture_(picture),
         width_(picture.color.width()),
         height_(picture.color.height()),
+        planes_(picture.coverage.sample_count() > 0 ? 4 : 3),
         valid_(width_, height_, 1) {
     CHECK(picture.samples.width() == width_ && picture.samples.height() == height_);
     for_each_pixel(valid_, [&](int x, int y) { *valid_.at(0, x, y) = usable(x, y) ? 1.0f : 0.0f; });
@@ -69,8 +70,9 @@ class Denoising {
 
   DenoisedPicture run() {
     const Planes features = features_without_noise();
-    Halves colors(width_, height_, 3);
+    Halves colors(width_, height_, planes_);
     split(picture_.color, picture_.half_color, 0, colors);
+    if (planes_ == 4) split(picture_.coverage, picture_.half_coverage, 3, colors);
     Halves variances = variances_of(colors);
     colors.extend();
     Halves lights = colors, light_variances = variances;
@@ -79,7 +81,7 @@ class Denoising {
     light_variances.extend();
     const float least = least_variance(lights.first);
 
-    Halves careful(width_, height_, 3), bold(width_, height_, 3);
+    Halves careful(width_, height_, planes_), bold(width_, height_, planes_);
     for_each_tile(valid_, [&](int x, int y) {
       Distances distances(window_radius);
       const auto fit = [&](const Planes& half, Planes& one, Planes& other) {
@@ -104,6 +106,13 @@ class Denoising {
   }
   bool valid(int x, int y) const { return *valid_.at(0, x, y) != 0; }
 
+  // The pixel's alpha, if it is covered at all; else 1, as for an opaque picture.
+  float alpha(int x, int y) const {
+    const float alpha = planes_ == 4 ? *picture_.coverage.pixel(x, y) : 1;
+    return alpha > 0 ? alpha : 1;
+  }
+  bool covered(int x, int y) const { return planes_ == 3 || *picture_.coverage.pixel(x, y) > 0; }
+
   static float light(const Image& image, int x, int y) {
     const float* const color = image.pixel(x, y);
     return float(luminance(Vec3(color[0], color[1], color[2])));
@@ -112,7 +121,9 @@ class Denoising {
   // Dots that would still be seen if they were spread over a window stay, and do not count. They are much
   // brighter than their surroundings, and uncertain.
   void leave_out_dots() {
-    const auto brightness = [&](int x, int y) { return valid(x, y) ? light(picture_.color, x, y) : 0.0f; };
+    const auto brightness = [&](int x, int y) {
+      return valid(x, y) ? light(picture_.color, x, y) / alpha(x, y) : 0.0f;
+    };
     const float floor =
         0.01f * float(parallel_sum(0, width_ * height_,
                                    [&](int i) { return double(brightness(i % width_, i / width_)); }) /
@@ -124,7 +135,7 @@ class Denoising {
       int count = 0;
       for (int j = std::max(0, y - 2); j <= std::min(height_ - 1, y + 2); ++j)
         for (int i = std::max(0, x - 2); i <= std::min(width_ - 1, x + 2); ++i)
-          around[size_t(count++)] = brightness(i, j);
+          if (covered(i, j)) around[size_t(count++)] = brightness(i, j);
       std::nth_element(around.begin(), around.begin() + count / 2, around.begin() + count);
       const bool bright = here > dot_brightness * (around[size_t(count / 2)] + floor);
       if (bright && std::sqrt(light(picture_.variance, x, y)) > dot_doubt * here) *dots.at(0, x, y) = 1;
@@ -145,7 +156,7 @@ class Denoising {
     for_each_pixel(valid_, [&](int x, int y) {
       if (!valid(x, y)) return;
       const float share = first_share(x, y);
-      for (int c = 0; c < 3; ++c) {
+      for (int c = 0; c < mean.channels(); ++c) {
         const float first = half.pixel(x, y)[c];
         *halves.first.at(plane + c, x, y) = first;
         *halves.second.at(plane + c, x, y) = (mean.pixel(x, y)[c] - share * first) / (1 - share);
@@ -170,33 +181,58 @@ class Denoising {
   // The stated variance is that of independent samples. Samples that are spread evenly have less. So it is
   // scaled to how much the halves differ in a larger window.
   Halves variances_of(const Halves& colors) const {
-    Halves stated(width_, height_, 3);
-    Planes sums(width_, height_, 2);  // the halves' stated variances, and their squared differences
+    Halves stated(width_, height_, planes_);
+    // Pairs of planes: the halves' stated variances, and their squared differences. The pairs are of the
+    // colour, of the colour apart from coverage, and of the alpha.
+    Planes sums(width_, height_, planes_ == 4 ? 6 : 2);
     for_each_pixel(valid_, [&](int x, int y) {
       if (!valid(x, y)) return;
       const float share = first_share(x, y);
-      for (int c = 0; c < 3; ++c) {
-        const float variance = picture_.variance.pixel(x, y)[c];
+      const auto add = [&](int plane, float variance, float apart) {
+        *sums.at(plane, x, y) += variance / share + variance / (1 - share);
+        *sums.at(plane + 1, x, y) += apart * apart;
+      };
+      const float of_alpha = variance_of_alpha(x, y),
+                  alpha = planes_ == 4 ? *picture_.coverage.pixel(x, y) : 1;
+      for (int c = 0; c < planes_; ++c) {
+        const float variance = c == 3 ? of_alpha : picture_.variance.pixel(x, y)[c];
         const float apart = *colors.first.at(c, x, y) - *colors.second.at(c, x, y);
         *stated.first.at(c, x, y) = variance / share;
         *stated.second.at(c, x, y) = variance / (1 - share);
-        *sums.at(0, x, y) += variance / share + variance / (1 - share);
-        *sums.at(1, x, y) += apart * apart;
+        add(c == 3 ? 4 : 0, variance, apart);
+        if (planes_ == 3 || c == 3 || !(alpha > 0)) continue;
+        const float straight = picture_.color.pixel(x, y)[c] / alpha;
+        const float alphas_apart = *colors.first.at(3, x, y) - *colors.second.at(3, x, y);
+        add(2, std::max(0.0f, variance - of_alpha * straight * straight), apart - alphas_apart * straight);
       }
     });
     stated.extend();
     sums.extend();
     const Planes ratio = blurred(sums, scaling_radius);
-    Halves result(width_, height_, 3);
+    Halves result(width_, height_, planes_);
     for_each_pixel(valid_, [&](int x, int y) {
-      const float all = *ratio.at(0, x, y);
-      const float scale = all > 0 ? std::min(1.0f, *ratio.at(1, x, y) / all) : 0.0f;
-      for (int c = 0; c < 3; ++c) {
-        *result.first.at(c, x, y) = likely_variance(stated.first, c, x, y, scale);
-        *result.second.at(c, x, y) = likely_variance(stated.second, c, x, y, scale);
+      const auto scale_by = [&](int plane) {
+        const float all = *ratio.at(plane, x, y);
+        return all > 0 ? std::min(1.0f, *ratio.at(plane + 1, x, y) / all) : 0.0f;
+      };
+      // Outlines have far more variance than their surroundings, and evenly spread samples find them well.
+      // They must not make the variance beside them seem too large.
+      const float scale = planes_ == 4 ? std::max(scale_by(0), scale_by(2)) : scale_by(0);
+      for (int c = 0; c < planes_; ++c) {
+        const float factor = c == 3 ? scale_by(4) : scale;
+        *result.first.at(c, x, y) = likely_variance(stated.first, c, x, y, factor);
+        *result.second.at(c, x, y) = likely_variance(stated.second, c, x, y, factor);
       }
     });
     return result;
+  }
+
+  // The variance of the pixel's alpha if each sample is covered wholly or not at all; 0 for an opaque
+  // picture.
+  float variance_of_alpha(int x, int y) const {
+    if (planes_ == 3) return 0;
+    const float alpha = *picture_.coverage.pixel(x, y);
+    return alpha * (1 - alpha) / *picture_.samples.pixel(x, y);
   }
 
   // Arriving light is smoother than a texture that it falls on.
@@ -247,13 +283,14 @@ class Denoising {
     return float(std::max(1e-8 * mean * mean, 1e-30));
   }
 
-  // The squared error of each fit in a small window, in plane 0: that from the other half, less that half's
-  // variance, which is in plane 1.
-  Planes errors_of(const Halves& colors, const Halves& variances, const Halves& fitted) const {
+  // The squared error of each fit of planes [begin, end) in a small window, in plane 0: that from the other
+  // half, less that half's variance, which is in plane 1.
+  Planes errors_of(const Halves& colors, const Halves& variances, const Halves& fitted, int begin,
+                   int end) const {
     Planes sums(width_, height_, 2);
     for_each_pixel(valid_, [&](int x, int y) {
       if (!valid(x, y)) return;
-      for (int c = 0; c < 3; ++c) {
+      for (int c = begin; c < end; ++c) {
         const float first = *fitted.first.at(c, x, y) - *colors.second.at(c, x, y);
         const float second = *fitted.second.at(c, x, y) - *colors.first.at(c, x, y);
         const float noise = *variances.first.at(c, x, y) + *variances.second.at(c, x, y);
@@ -269,13 +306,21 @@ class Denoising {
   // for an error e² and the variance v of both halves' mean, by e²/(e² + v). The estimate of e² is uncertain
   // by about v, which does not count.
   Halves best_of(const Halves& colors, const Halves& variances, Halves one, const Halves& other) const {
-    const Planes errors = errors_of(colors, variances, one), others = errors_of(colors, variances, other);
+    choose(colors, variances, one, other, 0, 3);
+    if (planes_ == 4) choose(colors, variances, one, other, 3, 4);
+    return one;
+  }
+  // The same for planes [begin, end), in place.
+  void choose(const Halves& colors, const Halves& variances, Halves& one, const Halves& other, int begin,
+              int end) const {
+    const Planes errors = errors_of(colors, variances, one, begin, end),
+                 others = errors_of(colors, variances, other, begin, end);
     for_each_pixel(valid_, [&](int x, int y) {
       const bool better = *others.at(0, x, y) < *errors.at(0, x, y);
       const float noise = 0.5f * *errors.at(1, x, y);
       const float error = std::max(0.0f, std::min(*errors.at(0, x, y), *others.at(0, x, y)) - noise);
       const float share = error > 0 ? error / (error + noise) : 0.0f;
-      for (int c = 0; c < 3; ++c) {
+      for (int c = begin; c < end; ++c) {
         const auto mix = [&](Planes& mixed, const Planes& second, const Planes& noisy) {
           float& value = *mixed.at(c, x, y);
           if (better) value = *second.at(c, x, y);
@@ -285,7 +330,6 @@ class Denoising {
         mix(one.second, other.second, colors.second);
       }
     });
-    return one;
   }
 
   DenoisedPicture result_of(const Halves& fitted) const {
@@ -307,13 +351,44 @@ class Denoising {
       }
     }
     keep_block_means(picture_.color, valid_, result.color);
+    if (planes_ == 4) result.color = with_alpha(result.color, fitted);
     result.error = sum > 0 ? errors / sum : 0;
     return result;
   }
 
+  // The colours with the fitted alpha, where the noisy one is between 0 and 1 at the pixel or beside it.
+  Image with_alpha(const Image& color, const Halves& fitted) const {
+    Image result(width_, height_, 4);
+    for_each_pixel(valid_, [&](int x, int y) {
+      float* const pixel = result.pixel(x, y);
+      std::copy_n(color.pixel(x, y), 3, pixel);
+      pixel[3] = *picture_.coverage.pixel(x, y);
+      if (!valid(x, y)) return;
+      if (!evenly_covered(x, y)) {
+        const float share = first_share(x, y);
+        pixel[3] =
+            std::min(1.0f, share * *fitted.first.at(3, x, y) + (1 - share) * *fitted.second.at(3, x, y));
+      } else if (pixel[3] == 0) {
+        std::copy_n(picture_.color.pixel(x, y), 3, pixel);
+      }
+    });
+    return result;
+  }
+
+  // True if the pixel and those around it are wholly covered, or not at all.
+  bool evenly_covered(int x, int y) const {
+    const float here = *picture_.coverage.pixel(x, y);
+    bool even = here == 0 || here == 1;
+    for (int j = std::max(0, y - 1); j <= std::min(height_ - 1, y + 1); ++j)
+      for (int i = std::max(0, x - 1); i <= std::min(width_ - 1, x + 1); ++i)
+        even = even && *picture_.coverage.pixel(i, j) == here;
+    return even;
+  }
+
   const NoisyPicture& picture_;
   const int width_, height_;
-  Planes valid_;  // 1 for pixels that take part
+  const int planes_;  // 3 for the colour, and one for the alpha of a transparent picture
+  Planes valid_;      // 1 for pixels that take part
 };
 
 }  // namespace

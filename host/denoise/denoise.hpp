@@ -17,10 +17,13 @@ struct NoisyPicture {
   image::Image normal;       // 3 channels
   image::Image half_normal;  // 3 channels
   image::Image samples;      // the number of the pixel's samples, in 1 channel
+  // The alpha by which the colour is multiplied, in 1 channel; empty unless the picture is transparent.
+  image::Image coverage;
+  image::Image half_coverage;
 };
 
 struct DenoisedPicture {
-  image::Image color;  // linear RGB
+  image::Image color;  // linear RGB; of a transparent picture, multiplied by an alpha that follows
   // An estimate of the remaining noise: the mean of the pixels' errors of luminance, relative to the mean
   // luminance. Blurred details do not count.
   double error = 0;
@@ -31,6 +34,9 @@ struct DenoisedPicture {
 // samples is fitted with weights from the other half, so that noise does not choose its own weights. The mean
 // of the two is the result. Stricter and looser weights compete at each pixel: the fit counts that is nearer
 // to the other half.
+//
+// An alpha is fitted as the colour is, with the same weights, so that edges stay consistent. Pixels that are
+// covered wholly, as those around them are, stay so; the same holds for pixels that are not covered.
 //
 // Every block of 64 × 64 pixels keeps its mean brightness. Some pixels stay as they are: those that are not
 // finite, have less than two samples, or are dots far brighter than their surroundings. The result does not

@@ -13,23 +13,23 @@ namespace {
 
 constexpr int unknowns = 1 + feature_count;
 constexpr int products = unknowns * (unknowns + 1) / 2;
-constexpr int colors_count = 3;
-constexpr int lanes = 16;      // pixels at a time
-constexpr double cost = 1e-3;  // the cost of a squared coefficient, relative to the sum of the weights
+constexpr int most_colors = 4;  // with an alpha
+constexpr int lanes = 16;       // pixels at a time
+constexpr double cost = 1e-3;   // the cost of a squared coefficient, relative to the sum of the weights
 
 static_assert(tile_width % lanes == 0);
 
 // The normal equations of `lanes` pixels: the upper triangle of the matrix row by row, and the right sides.
 struct Equations {
   float matrix[products][lanes]{};
-  float sides[unknowns * colors_count][lanes]{};
+  float sides[unknowns * most_colors][lanes]{};
 };
 
 IN_WIDE_VECTORS Equations equations_of(const Planes& colors, const Planes& features,
                                        const Distances& distances, float strictness, int left, int x, int y,
                                        int row) {
   Equations all;
-  const int radius = distances.radius();
+  const int radius = distances.radius(), count = colors.count();
   float terms[unknowns][lanes], weighted[unknowns][lanes];
   for (int dy = -radius; dy <= radius; ++dy) {
     for (int dx = -radius; dx <= radius; ++dx) {
@@ -52,28 +52,27 @@ IN_WIDE_VECTORS Equations equations_of(const Planes& colors, const Planes& featu
       for (int f = 1; f < unknowns; ++f)
         for (int g = f; g < unknowns; ++g, ++at)
           for (int i = 0; i < lanes; ++i) all.matrix[at][i] += weighted[f][i] * terms[g][i];
-      for (int c = 0; c < colors_count; ++c) {
+      for (int c = 0; c < count; ++c) {
         const float* const color = colors.at(c, x + dx, y + dy);
         for (int f = 0; f < unknowns; ++f)
-          for (int i = 0; i < lanes; ++i) all.sides[f * colors_count + c][i] += weighted[f][i] * color[i];
+          for (int i = 0; i < lanes; ++i) all.sides[f * most_colors + c][i] += weighted[f][i] * color[i];
       }
     }
   }
   return all;
 }
 
-// The first unknown of a pixel's equations for each colour, by Cholesky's decomposition.
-std::array<double, colors_count> solve(const Equations& equations, int lane) {
+// The first unknown of a pixel's equations for each of `count` colours, by Cholesky's decomposition.
+std::array<double, most_colors> solve(const Equations& equations, int count, int lane) {
   // The first unknown comes last, for then it is the first that is known.
   double lower[unknowns][unknowns];
-  double sides[unknowns][colors_count];
+  double sides[unknowns][most_colors];
   const auto place = [](int f) { return unknowns - 1 - f; };
   int at = 0;
   for (int f = 0; f < unknowns; ++f)
     for (int g = f; g < unknowns; ++g) lower[place(f)][place(g)] = double(equations.matrix[at++][lane]);
   for (int f = 0; f < unknowns; ++f)
-    for (int c = 0; c < colors_count; ++c)
-      sides[place(f)][c] = double(equations.sides[f * colors_count + c][lane]);
+    for (int c = 0; c < count; ++c) sides[place(f)][c] = double(equations.sides[f * most_colors + c][lane]);
   const double sum = lower[unknowns - 1][unknowns - 1];
   for (int i = 0; i < unknowns - 1; ++i) lower[i][i] += cost * sum;
 
@@ -83,13 +82,13 @@ std::array<double, colors_count> solve(const Equations& equations, int lane) {
       for (int k = 0; k < j; ++k) value -= lower[i][k] * lower[j][k];
       lower[i][j] = i == j ? std::sqrt(std::max(value, 1e-12 * sum)) : value / lower[j][j];
     }
-    for (int c = 0; c < colors_count; ++c) {
+    for (int c = 0; c < count; ++c) {
       for (int k = 0; k < i; ++k) sides[i][c] -= lower[i][k] * sides[k][c];
       sides[i][c] /= lower[i][i];
     }
   }
-  std::array<double, colors_count> first;
-  for (int c = 0; c < colors_count; ++c)
+  std::array<double, most_colors> first{};
+  for (int c = 0; c < count; ++c)
     first[size_t(c)] = sides[unknowns - 1][c] / lower[unknowns - 1][unknowns - 1];
   return first;
 }
@@ -105,8 +104,8 @@ void fit_tile(const Planes& colors, const Planes& features, const Distances& dis
       const Equations equations =
           equations_of(colors, features, distances, strictness, left, x + left, y + row, row);
       for (int i = 0; i < std::min(lanes, columns - left); ++i) {
-        const std::array<double, colors_count> color = solve(equations, i);
-        for (int c = 0; c < colors_count; ++c)
+        const std::array<double, most_colors> color = solve(equations, colors.count(), i);
+        for (int c = 0; c < colors.count(); ++c)
           *fitted.at(c, x + left + i, y + row) = float(std::max(0.0, color[size_t(c)]));
       }
     }

@@ -36,8 +36,9 @@ void Board::put_rows(const Message& message) {
   const int64_t row = number("row"), rows = number("rows"), channels = number("channels");
   if (!image::image_size_allowed(width, height) || stride < 1 || row < 0 || rows < 1) return;
   if (stride > std::max(width, int64_t{64}) || row > height || rows > height) return;
-  if (channels != 1 && channels != 3) return;
   const int64_t shown_as = number("shown_as");
+  const bool has_alpha = channels == 4 && shown_as < 0;
+  if (channels != 1 && channels != 3 && !has_alpha) return;
   if (shown_as > int64_t(image::FalseColor::position)) return;
   const image::Tone tone = tone_of(message.json);
   const int64_t columns = (width + stride - 1) / stride;
@@ -92,6 +93,8 @@ std::optional<Board::Picture> Board::difference() const {
         a[i] = std::numeric_limits<float>::infinity();
     }
   }
+  if (gpu->image.channels() == 4)  // only colours show
+    for (size_t i = 3; i < gpu->image.sample_count(); i += 4) gpu->image.samples()[i] = 1;
   gpu->tone = {};
   return gpu;
 }

@@ -31,18 +31,20 @@ bool for_bands(const ImageSettings& image, int& band, const Work& work) {
   return true;
 }
 
-const image::Image& shown(const View& view, const film::Rows& rows) {
-  return view.aov ? rows[view.aov] : rows.color;
+image::Image shown(const View& view, const film::Rows& rows) {
+  if (view.aov) return rows[view.aov];
+  return rows.channels.empty() ? rows.color : film::with_alpha(rows);
 }
 
-bool paint_coarsely(const View& view, const ImageSettings& image, executors::Executor& executor,
+bool paint_coarsely(const View& view, const Scene& scene, executors::Executor& executor,
                     const RowsSink& sink) {
+  const ImageSettings& image = scene.image;
   const Grid grid({0, 0, image.width, image.height}, coarse_stride);
   std::vector<PixelSample> samples(size_t(grid.pixels()));
   std::vector<AuxiliarySample> auxiliaries(view.needs() == film::Needs::auxiliary ? samples.size() : 0);
   if (!executor.sample(grid, 0, samples, auxiliaries)) return false;
   film::Film film;
-  film.reset(grid.width(), grid.height(), view.film_channels());
+  film.reset(grid.width(), grid.height(), view.film_channels(scene));
   film.add({0, 0, grid.width(), grid.height()}, samples, auxiliaries);
   return sink({shown(view, film.rows(0, grid.height())), 0, coarse_stride});
 }
@@ -50,14 +52,14 @@ bool paint_coarsely(const View& view, const ImageSettings& image, executors::Exe
 std::optional<Painted> paint_samples(const View& view, const Scene& scene, executors::Executor& executor,
                                      const RowsSink& sink) {
   const ImageSettings& image = scene.image;
-  if (!paint_coarsely(view, image, executor, sink)) return std::nullopt;
+  if (!paint_coarsely(view, scene, executor, sink)) return std::nullopt;
   Painted painted;
   session::PictureQuality& quality = painted.quality;
   render::Brightness brightness;
   double luminances = 0;
   std::optional<render::Legibility> legibility = render::legibility_of(scene, scene.image.tone.exposure);
   film::Film film;
-  film.reset(image.width, image.height, view.film_channels());
+  film.reset(image.width, image.height, view.film_channels(scene));
   std::vector<PixelSample> samples;
   std::vector<AuxiliarySample> auxiliaries;
   int band = std::clamp(first_pixels / image.width, 1, image.height);

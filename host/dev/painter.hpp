@@ -16,9 +16,12 @@ struct View {
   executors::Backend backend = executors::Backend::gpu;
   film::Channel aov = nullptr;
 
-  int channels() const { return aov ? aov->components : 3; }
   film::Needs needs() const { return aov ? aov->needs : film::Needs::nothing; }
-  film::Channels film_channels() const { return aov ? film::Channels{aov} : film::Channels(); }
+  // The channels that the view of `scene` shows. Colours of a transparent picture have an alpha.
+  film::Channels film_channels(const Scene& scene) const {
+    if (aov) return {aov};
+    return scene.image.transparent ? film::with({}, {"coverage"}) : film::Channels();
+  }
 };
 
 // The view called `name`: "gpu", "twin", "reference" or an AOV. Error (bad_input) for another name.

@@ -134,7 +134,7 @@ void RenderServer::load(const Json& request) {
 }
 
 executors::ExecutorOptions RenderServer::options_for(const View& view) {
-  executors::ExecutorOptions options = session::counting(options_.executor, view.film_channels());
+  executors::ExecutorOptions options = session::counting(options_.executor, view.film_channels(*scene_));
   options.gpu.constants = options.gpu.constants && own_kernel_;
   options.gpu.formula_numbers = !own_kernel_;
   return options;

@@ -23,6 +23,11 @@ inline PixelSample to_sample(const shader::SampleResult& result, bool ray_kinds)
     sample.cut_off = (sample.flags & FLAG_CUT_OFF) != 0;
     sample.flags &= ~FLAG_CUT_OFF;
   }
+  if (sample.flags & FLAG_BACKGROUND) {
+    sample.flags &= ~FLAG_BACKGROUND;
+    sample.background = double(background_of(result)) / WHOLE_BACKGROUND;
+    sample.hits &= (1u << HITS_BITS) - 1;
+  }
   sample.trail = result.trail;
   check_ended(sample.flags);
   return sample;

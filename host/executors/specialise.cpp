@@ -60,6 +60,7 @@ std::string defines(const records::PackedScene& scene, const Used& used, const S
   define("HAS_LIGHT_DISKS", int(any_light_disk(scene)));
   define("HAS_LIGHT_BVH", int(!scene.light_nodes.empty()));
   define("HAS_ENVIRONMENT_LIGHT", scene.frame.environment_numbers > 0 ? "true" : "false");
+  define("IS_TRANSPARENT", scene.transparent ? "true" : "false");
   define("TRIANGLE_METHOD", fmt::format("{}u", scene.frame.triangle_method));
   define("HAS_COLORS", int(scene.own_colors));
   define("HAS_PIECES", int(scene.pieces));

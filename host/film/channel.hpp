@@ -41,8 +41,8 @@ struct OfSamples {
   void (*mean)(const PixelTotals& totals, const double* sums, float* values) = nullptr;
 };
 
-// Values that executors compute only on request.
-enum class Needs { nothing, ray_kinds, search_cost, auxiliary };
+// Values that executors compute only on request, and coverage, which only a transparent picture has.
+enum class Needs { nothing, ray_kinds, search_cost, auxiliary, coverage };
 
 // The value of pixels that are made from samples at their four corners (render/corners.hpp).
 enum class OfCorners { nothing, mean, any_bit };

@@ -26,6 +26,11 @@ float mean_of(double sum, const PixelTotals& totals) {
   return float(sum / std::max(1u, unsigned{totals.samples}));
 }
 
+// Clamps a share: rounding and the weights of random paths may put it just outside 0 to 1.
+float share(float value) {
+  return std::clamp(value, 0.0f, 1.0f);
+}
+
 void add_reflected_and_refracted(const PixelSample& sample, const AuxiliarySample&, double* sums) {
   sums[0] += sample.reflected;
   sums[1] += sample.refracted;
@@ -222,6 +227,27 @@ constexpr ChannelType types[] = {
                                    double* sums) { add_to_half(auxiliary.normal, sums); },
                          .mean = means_of_half},
      .needs = Needs::auxiliary},
+    {.name = "coverage",
+     .components = 1,
+     .shown_as = image::FalseColor::scalar,
+     .values = OfSamples{.sums = 1,
+                         .add = [](const PixelSample& sample, const AuxiliarySample&,
+                                   double* sums) { *sums += 1 - sample.background; },
+                         .mean = [](const PixelTotals& totals, const double* sums,
+                                    float* values) { *values = share(mean_of(*sums, totals)); }},
+     .needs = Needs::coverage,
+     .of_corners = OfCorners::mean},
+    {.name = "half_coverage",
+     .components = 1,
+     .shown_as = image::FalseColor::scalar,
+     .values = OfSamples{.sums = 4,
+                         .add = [](const PixelSample& sample, const AuxiliarySample&,
+                                   double* sums) { add_to_half(Vec3(1 - sample.background), sums); },
+                         .mean =
+                             [](const PixelTotals&, const double* sums, float* values) {
+                               *values = share(float(sums[0] / std::max(1.0, std::ceil(sums[3] / 2))));
+                             }},
+     .needs = Needs::coverage},
     {.name = "nodes",
      .components = 1,
      .shown_as = image::FalseColor::scalar,
@@ -312,13 +338,17 @@ bool any_needs(const Channels& channels, Needs what) {
 }
 
 Channels channels_of(const Scene& scene, Channels wanted) {
-  if (walks_at_random(scene.render.integrator) || !any_needs(wanted, Needs::auxiliary)) return wanted;
-  if (wanted.size() != std::size(types))
-    throw Error(
-        ExitCode::bad_input,
+  const bool all = wanted.size() == std::size(types);
+  const auto lacks = [&](Needs what, bool has, const char* sentence) {
+    if (has || !any_needs(wanted, what)) return;
+    if (!all) throw Error(ExitCode::bad_input, "{}", sentence);
+    std::erase_if(wanted, [&](Channel each) { return each->needs == what; });
+  };
+  lacks(Needs::auxiliary, walks_at_random(scene.render.integrator),
         "only paths have the AOVs albedo and shading_normal: set integrator = \"path\" in [render], or "
         "request the AOV normal, which every integrator has");
-  std::erase_if(wanted, [](Channel each) { return each->needs == Needs::auxiliary; });
+  lacks(Needs::coverage, scene.image.transparent,
+        "only transparent pictures have the AOV coverage: set transparent = true in [image]");
   return wanted;
 }
 

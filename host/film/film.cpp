@@ -23,6 +23,16 @@ const image::Image& Rows::operator[](Channel channel) const {
   return values[size_t(found - channels.begin())];
 }
 
+image::Image with_alpha(const Rows& rows) {
+  const std::vector<float>& coverage = rows[channel_named("coverage")].samples();
+  image::Image result(rows.color.width(), rows.color.height(), 4);
+  for (size_t i = 0; i < coverage.size(); ++i) {
+    std::copy_n(&rows.color.samples()[3 * i], 3, &result.samples()[4 * i]);
+    result.samples()[4 * i + 3] = coverage[i];
+  }
+  return result;
+}
+
 void Film::reset(int width, int height, const Channels& channels, double shown_as_one) {
   width_ = width;
   height_ = height;

@@ -26,6 +26,10 @@ struct Rows {
   uint32_t flags = 0;
 };
 
+// The colours of the rows in 4 channels: the last is their alpha, the channel `coverage`, which they must
+// have.
+image::Image with_alpha(const Rows& rows);
+
 // Noise is measured in blocks of this many pixels each way, from the top left of the film on.
 constexpr int noise_block = 8;
 

@@ -117,7 +117,9 @@ class ExrEncoder final : public RowEncoder {
 
 std::vector<ExrChannel> exr_channels(int channels, bool half) {
   if (channels == 1) return {{"Y", half}};
-  return {{"R", half}, {"G", half}, {"B", half}};
+  std::vector<ExrChannel> all{{"R", half}, {"G", half}, {"B", half}};
+  if (channels == 4) all.push_back({"A", half});
+  return all;
 }
 
 std::unique_ptr<RowEncoder> exr_encoder(AtomicFile& file, int width, int height,

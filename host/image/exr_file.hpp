@@ -16,7 +16,7 @@ struct ExrChannel {
   bool half = false;
 };
 
-// The channels of a picture without layers: R, G and B, or Y.
+// The channels of a picture without layers: Y of one channel, R, G and B of three, and A, too, of four.
 std::vector<ExrChannel> exr_channels(int channels, bool half);
 
 // Reads the channels of one layer: R, G and B; else X, Y and Z; else Y; else all of them, at most three,

@@ -108,6 +108,19 @@ unsigned char srgb8(float linear) {
                          thresholds.begin() - 1);
 }
 
+unsigned char alpha8(float alpha) {
+  if (!(alpha > 0)) return 0;
+  return (unsigned char)(std::min(alpha, 1.0f) * 255 + 0.5f);
+}
+
+void check_has_alpha(const fs::path& path) {
+  const ImageFormat format = image_format(path);
+  if (format != ImageFormat::png && format != ImageFormat::exr)
+    throw Error(ExitCode::bad_input,
+                "{}: only .png and .exr files have an alpha: write the transparent picture to one of these",
+                path.string());
+}
+
 ImageFormat image_format(const fs::path& path) {
   std::string ending = path.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),

@@ -28,7 +28,8 @@ std::unique_ptr<RowEncoder> make_encoder(ImageFormat format, AtomicFile& file, i
 ImageWriter::ImageWriter(const std::filesystem::path& path, int width, int height, int channels)
     : width_(width), channels_(channels), rows_left_(height) {
   CHECK(image_size_allowed(width, height));
-  CHECK(channels == 1 || channels == 3);
+  CHECK(channels == 1 || channels == 3 || channels == 4);
+  if (channels == 4) check_has_alpha(path);
   const ImageFormat format = image_format(path);
   file_ = std::make_unique<AtomicFile>(path);
   encoder_ = make_encoder(format, *file_, width, height, channels);

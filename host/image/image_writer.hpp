@@ -18,8 +18,9 @@ class RowEncoder;
 class ImageWriter {
  public:
   // Begins a file beside `path`, in the format for its ending (image/image_file.hpp). The size must be one
-  // that image_size_allowed allows, with 1 or 3 channels. Error (bad_input) for an unknown ending. Error
-  // (file_io) here and below if the file cannot be written.
+  // that image_size_allowed allows, with 1 or 3 channels, or 4 with alpha. Error (bad_input) for an unknown
+  // ending, or for alpha in a format without it. Error (file_io) here and below if the file cannot be
+  // written.
   ImageWriter(const std::filesystem::path& path, int width, int height, int channels);
   // Begins an .exr of these channels, of which there must be at least one.
   ImageWriter(const std::filesystem::path& path, int width, int height, std::vector<ExrChannel> channels);

@@ -40,9 +40,8 @@ class PngStream {
     if (setjmp(png_jmpbuf(png_))) return false;
     png_set_filter(png_, PNG_FILTER_TYPE_BASE, filters);
     png_set_compression_strategy(png_, strategy);
-    png_set_IHDR(png_, info_, png_uint_32(width), png_uint_32(height), 8,
-                 channels == 1 ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
-                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(png_, info_, png_uint_32(width), png_uint_32(height), 8, color_type(channels),
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB(png_, info_, PNG_sRGB_INTENT_PERCEPTUAL);
     png_write_info(png_, info_);
     return true;
@@ -61,6 +60,11 @@ class PngStream {
   std::string bytes;  // written and not yet taken
 
  private:
+  static int color_type(int channels) {
+    return channels == 1   ? PNG_COLOR_TYPE_GRAY
+           : channels == 4 ? PNG_COLOR_TYPE_RGB_ALPHA
+                           : PNG_COLOR_TYPE_RGB;
+  }
   static void append(png_structp png, png_bytep data, size_t size) {
     bool done = false;
     try {
@@ -88,7 +92,10 @@ class PngEncoder final : public RowEncoder {
     const size_t row_codes = size_t(rows.width()) * size_t(rows.channels());
     codes_.resize(rows.sample_count());
     parallel_for(0, rows.height(), [&](int y) {
-      std::transform(rows.pixel(0, y), rows.pixel(0, y) + row_codes, &codes_[size_t(y) * row_codes], srgb8);
+      unsigned char* const codes = &codes_[size_t(y) * row_codes];
+      std::transform(rows.pixel(0, y), rows.pixel(0, y) + row_codes, codes, srgb8);
+      if (rows.channels() == 4)  // an alpha is not encoded by a curve
+        for (int x = 0; x < rows.width(); ++x) codes[4 * x + 3] = alpha8(rows.pixel(x, y)[3]);
     });
     for (int y = 0; y < rows.height(); ++y) {
       check(png_.row(&codes_[size_t(y) * row_codes]));

@@ -20,7 +20,8 @@ class RowEncoder {
   virtual void finish() {}
 };
 
-// Each encoder writes a picture of 1 or 3 channels, header included, to `file`, which must outlive it.
+// Each encoder writes a picture of 1 or 3 channels, and .png and .exr also one of 4, header included, to
+// `file`, which must outlive it.
 std::unique_ptr<RowEncoder> png_encoder(AtomicFile& file, int width, int height, int channels);
 std::unique_ptr<RowEncoder> pfm_encoder(AtomicFile& file, int width, int height, int channels);
 std::unique_ptr<RowEncoder> radiance_encoder(AtomicFile& file, int width, int height, int channels);

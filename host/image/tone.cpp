@@ -73,8 +73,10 @@ Image toned(const Image& image, const Tone& tone) {
       tone.white_balance > 0 ? optics::adaptation_to(tone.white_balance) : glm::dmat3(1);
   const double factor = std::exp2(tone.exposure);
   auto& samples = result.samples();
-  for (size_t i = 0; i + 2 < samples.size(); i += 3) {
+  const size_t stride = image.channels() == 4 ? 4 : 3;
+  for (size_t i = 0; i + 2 < samples.size(); i += stride) {
     Vec3 light = factor * Vec3(samples[i], samples[i + 1], samples[i + 2]);
+    if (stride == 4) light = samples[i + 3] > 0 ? light / double(samples[i + 3]) : Vec3(0);
     if (tone.white_balance > 0) light = balance * light;
     const Vec3 shown = curves[size_t(tone.curve)](light);
     for (int c = 0; c < 3; ++c) samples[i + size_t(c)] = float(shown[c]);

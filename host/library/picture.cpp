@@ -59,6 +59,8 @@ std::vector<uint8_t> Picture::tonemapped() const {
     const engine::image::Image shown = engine::image::toned(data_->color, data_->tone);
     std::vector<uint8_t> codes(shown.sample_count());
     std::ranges::transform(shown.samples(), codes.begin(), engine::image::srgb8);
+    if (shown.channels() == 4)
+      for (size_t i = 3; i < codes.size(); i += 4) codes[i] = engine::image::alpha8(shown.samples()[i]);
     return codes;
   });
 }

@@ -236,7 +236,7 @@ bool has_room_for_studio(const importers::ImportedScene& framed) {
 
 toml::table mesh_scene(const std::filesystem::path& file, const importers::ImportedScene& import,
                        const importers::ImportedScene& framed, const MeshView& view) {
-  const auto [around, look, formulas, turntable, point_size] = view;
+  const auto [around, look, formulas, transparent, turntable, point_size] = view;
   const importers::ImportedCamera camera =
       import.cameras.empty() ? framing(framed, turntable > 0) : import.cameras.front();
   const bool own_lights = import.lights.empty() && !around;
@@ -273,7 +273,7 @@ toml::table mesh_scene(const std::filesystem::path& file, const importers::Impor
     if (under_sky) root.insert("environment", studio.sky());
     if (own_lights && !under_sky) lights = studio.area_lights();
     toml::array materials;
-    if (import.lights.empty()) {
+    if (import.lights.empty() && !transparent) {
       materials.push_back(Studio::floor_material(formulas));
       root.insert("disk", toml::array{studio.floor()});
     }

@@ -14,7 +14,8 @@ namespace eyeray::engine::loader {
 struct MeshView {
   bool around;  // there will be an [environment], which replaces background, ambient light and own lights
   MeshLook look;
-  bool formulas;      // the scene may have formulas, as a floor needs to fade
+  bool formulas;             // the scene may have formulas, as a floor needs to fade
+  bool transparent = false;  // the picture has an alpha: it shows no floor
   int turntable = 0;  // the frames in which the model turns once about the vertical; 0: it does not turn
   std::optional<double> point_size = {};  // diameter of points; empty: it follows from their spacing
 };

@@ -189,13 +189,17 @@ Document read_mesh(const fs::path& file, std::vector<Override>& overrides, bool 
   choose_camera(loaded.scene->cameras, overrides, file, log);
   const bool around = std::ranges::any_of(
       overrides, [](const Override& each) { return each.text.starts_with("environment"); });
+  const toml::table image = overridden(overrides, "image.transparent");
+  const bool transparent = image["image"]["transparent"].value_or(false);
   const importers::ImportedScene& framed = rest ? *rest : *loaded.scene;
   if (look != MeshLook::plain && !has_room_for_studio(framed)) {
     look = MeshLook::plain;
     log.warning({},
                 "reaches beyond 1e10, where a floor and lights around it have no room: it is shown plain");
   }
-  return {mesh_scene(file, *loaded.scene, framed, {around, look, formulas, turntable, point_size}), {}};
+  return {
+      mesh_scene(file, *loaded.scene, framed, {around, look, formulas, transparent, turntable, point_size}),
+      {}};
 }
 
 // If the scene moves while its shutter is open, sets the function that makes the scene at another moment. It

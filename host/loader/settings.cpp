@@ -85,6 +85,11 @@ constexpr Key image_table[] = {
      .min = optics::coldest,
      .max = optics::hottest,
      .optional = true},
+    {.name = "transparent",
+     .type = KeyType::boolean,
+     .doc = "Whether the picture has an alpha in place of its background, which then only lights the scene. "
+            "Only .png and .exr files have one.",
+     .fallback = "false"},
 };
 
 constexpr Key render_table[] = {
@@ -220,6 +225,7 @@ ImageSettings read_image(reading::TableReader& table, IntegratorType integrator)
   image.tone.exposure = image.meters ? 0 : table.number("exposure");
   image.tone.curve = static_cast<image::ToneCurve>(table.choice("tone"));
   if (table.has("white_balance")) image.tone.white_balance = table.number("white_balance");
+  image.transparent = table.boolean("transparent");
   if (sample_count_of(image.pattern) == SampleCount::square) check_samples(table, image.samples);
   const int64_t pixels = int64_t{image.width} * image.height;
   if (pixels > most_pixels) {

@@ -127,6 +127,7 @@ records::Packer pack_records(const Scene& scene, const PackOptions& options) {
     }
     pack_bent_normals(*material, packer);
   }
+  packer.scene.transparent = scene.image.transparent;
   packer.scene.interfaces = any_interface(scene);
   packer.scene.panes |= packer.scene.interfaces;
   pack_geometry(scene, options, packer);

@@ -73,6 +73,7 @@ struct PackedScene {
   std::set<uint32_t> lobes;                    // kinds of lobes of the materials' BSDFs
   bool panes = false;                          // whether paths may pass any material straight
   bool interfaces = false;            // whether such a material may be a border between media of one index
+  bool transparent = false;           // whether the picture has an alpha in place of its background
   bool has_conductors = false;        // whether any material mirrors by a metal's index
   std::vector<shader::vec4> albedos;  // as in records.h; empty where no lobe needs them
   shader::Frame frame{};

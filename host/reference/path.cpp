@@ -7,6 +7,7 @@
 #include "host/reference/emitter_sample.hpp"
 #include "host/reference/path_sample.hpp"
 #include "host/reference/phase.hpp"
+#include "host/scene/luminance.hpp"
 
 namespace eyeray::engine::reference {
 
@@ -183,7 +184,10 @@ PixelSample PathSample::follow(Ray ray, MediaStack media, Meet meet) {
       next = (this->*meet)(at, frame, ViewedBsdf(at.bsdf, frame.seen(-at.d)), media, color);
     } else {
       rays_.decided(Event::hit, 0);
-      const Vec3 light = missed(ray.d);
+      const bool straight =
+          scene_.image.transparent && depth_ == 0;  // the background of a transparent picture
+      if (straight) rays_.background = luminance(throughput_);
+      const Vec3 light = straight ? Vec3(0) : missed(ray.d);
       observer_.miss(throughput_, light);
       color += throughput_ * light;
       break;

@@ -21,10 +21,12 @@ PixelSample raycast(const Tracer& tracer, const SampleId& id, const Ray& camera_
   uint32_t flags = 0;
   const auto hit = tracer.trace(ray, flags, displacement.coincident);
   if (!hit) {
-    const Vec3 color =
-        scene.environment ? environment_radiance(*scene.environment, ray.d) : scene.render.background;
+    const bool transparent = scene.image.transparent;
+    const Vec3 color = transparent         ? Vec3(0)
+                       : scene.environment ? environment_radiance(*scene.environment, ray.d)
+                                           : scene.render.background;
     observer.miss(Vec3(1), color);
-    return {.color = color, .rays = 1, .flags = flags};
+    return {.color = color, .rays = 1, .flags = flags, .background = transparent ? 1.0 : 0.0};
   }
 
   const SurfacePoint surface = tracer.surface(ray, *hit);

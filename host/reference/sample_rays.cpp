@@ -208,15 +208,6 @@ Scattering SampleRays::scattering(const Ray& ray, const Hit& hit, const SurfaceP
   return result;
 }
 
-std::optional<Interaction> SampleRays::hit(const Ray& ray, const MediaStack& media, const Vec3& throughput) {
-  const auto hit = trace(ray);
-  if (!hit) {
-    observer_.miss(throughput, surroundings(ray.d));
-    return std::nullopt;
-  }
-  return interaction(ray, *hit, media, throughput, glm::exp(-medium(media).absorption * hit->at.t));
-}
-
 std::optional<Hit> SampleRays::trace(const Ray& ray) {
   stop_if_interrupted();
   ++rays_;
@@ -283,7 +274,7 @@ void SampleRays::decided(Event kind, uint64_t value) {
 }
 
 PixelSample SampleRays::sample(const Vec3& color) const {
-  return {color, rays_, hits_, flags_, reflected, refracted, total_reflections, trail_, cut_off};
+  return {color, rays_, hits_, flags_, reflected, refracted, total_reflections, trail_, cut_off, background};
 }
 
 }  // namespace eyeray::engine::reference

@@ -40,11 +40,10 @@ class SampleRays {
   SampleRays(const Tracer& tracer, const rounding::Displacement& displacement, const Observer& observer)
       : tracer_(tracer), scene_(tracer.scene()), displacement_(displacement), observer_(observer) {}
 
-  // The interaction at the hit of the ray, which is in `media`; empty if it hits nothing. `throughput`: the
-  // share of its light that arrives in the pixel.
-  std::optional<Interaction> hit(const Ray& ray, const MediaStack& media, const Vec3& throughput);
-  // The function hit() in two steps. `dimming`: the share of light that the medium leaves on the way.
+  // The first hit of the ray; empty if it hits nothing.
   std::optional<Hit> trace(const Ray& ray);
+  // The interaction at that hit. `media`: those that the ray is in. `throughput`: the share of its light that
+  // arrives in the pixel. `dimming`: the share of light that the medium leaves on the way.
   Interaction interaction(const Ray& ray, const Hit& hit, const MediaStack& media, const Vec3& throughput,
                           const Vec3& dimming);
   // The innermost of `media`; the scene's own medium if `media` is empty.
@@ -86,7 +85,8 @@ class SampleRays {
   uint32_t reflected = 0;
   uint32_t refracted = 0;
   uint32_t total_reflections = 0;
-  bool cut_off = false;  // true if max_depth ended the path
+  bool cut_off = false;   // true if max_depth ended the path
+  double background = 0;  // PixelSample::background
 
  private:
   Bsdf bsdf(const Material& material, const ScatteringContext& context, const Scattering& scattering) const;

@@ -36,6 +36,7 @@ class Recursion {
   SampleRays rays;
 
  private:
+  Vec3 missed(const Path& path);
   Vec3 direct(const Interaction& at, int depth);
   Vec3 child(RayKind kind, const Path& path, const Interaction& at, const Vec3& d, const MediaStack& media,
              const Vec3& share);
@@ -53,22 +54,32 @@ class Recursion {
 Vec3 Recursion::radiance(const Path& path) {
   Ray ray = path.ray;
   ray.alpha_key = key(path.depth, 0);
-  const auto at = rays.hit(ray, path.media, path.throughput);
-  if (!at) return rays.surroundings(ray.d);
+  const auto hit = rays.trace(ray);
+  if (!hit) return missed(path);
+  const Vec3 dimming = glm::exp(-rays.medium(path.media).absorption * hit->at.t);
+  const Interaction at = rays.interaction(ray, *hit, path.media, path.throughput, dimming);
 
   // Add up the light that the point scatters, mirrors and lets through, and dim it on its way here.
-  const Scattering& scattering = at->scattering;
+  const Scattering& scattering = at.scattering;
   Path arrived = path;
-  arrived.throughput *= at->dimming;
-  Vec3 color = direct(*at, path.depth);
+  arrived.throughput *= at.dimming;
+  Vec3 color = direct(at, path.depth);
   observer_.value("light", color);
-  color += child(RayKind::reflected, arrived, *at, at->mirrored(), path.media, scattering.reflected);
+  color += child(RayKind::reflected, arrived, at, at.mirrored(), path.media, scattering.reflected);
   if (scattering.transmitted != Vec3(0))
-    color +=
-        child(RayKind::refracted, arrived, *at, at->refracted(), at->media_beyond, scattering.transmitted);
-  else if (at->has_medium && path.depth < scene_.render.max_depth)
+    color += child(RayKind::refracted, arrived, at, at.refracted(), at.media_beyond, scattering.transmitted);
+  else if (at.has_medium && path.depth < scene_.render.max_depth)
     ++rays.total_reflections;
-  return at->dimming * color;
+  return at.dimming * color;
+}
+
+// The light of a ray that hits nothing. A transparent picture leaves out that of a camera ray.
+Vec3 Recursion::missed(const Path& path) {
+  const bool straight = scene_.image.transparent && path.depth == 0;
+  if (straight) rays.background = 1;
+  const Vec3 light = straight ? Vec3(0) : rays.surroundings(path.ray.d);
+  observer_.miss(path.throughput, light);
+  return light;
 }
 
 // The part of a surface's colour that a child ray in direction d brings; black if that ray is cut off.

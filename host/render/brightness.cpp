@@ -32,7 +32,7 @@ uint64_t Brightness::above(double luminance) const {
 
 double sum_of_luminances(const image::Image& rows) {
   double sum = 0;
-  for (size_t i = 0; i < rows.sample_count(); i += 3) {
+  for (size_t i = 0; i < rows.sample_count(); i += size_t(rows.channels())) {
     const float* const color = &rows.samples()[i];
     sum += luminance(Vec3(color[0], color[1], color[2]));
   }

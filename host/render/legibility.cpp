@@ -51,7 +51,7 @@ std::string Legibility::warning() const {
 }
 
 std::optional<Legibility> legibility_of(const Scene& scene, double exposure) {
-  if (!scene.is_mesh_alone || scene.environment) return std::nullopt;
+  if (!scene.is_mesh_alone || scene.environment || scene.image.transparent) return std::nullopt;
   return Legibility(scene.render.background, exposure);
 }
 

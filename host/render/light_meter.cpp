@@ -23,14 +23,14 @@ double exposure_for(const image::Image& picture) {
   std::vector<double> logarithms;
   for (int y = 0; y < picture.height(); y += square)
     for (int x = 0; x < picture.width(); x += square) {
-      double sum = 0;
-      int pixels = 0;
+      double sum = 0, pixels = 0;
       for (int j = y; j < std::min(y + square, picture.height()); ++j)
-        for (int i = x; i < std::min(x + square, picture.width()); ++i, ++pixels) {
+        for (int i = x; i < std::min(x + square, picture.width()); ++i) {
           const float* const pixel = picture.pixel(i, j);
           sum += luminance({pixel[0], pixel[1], pixel[2]});
+          pixels += picture.channels() == 4 ? double(pixel[3]) : 1;
         }
-      if (sum > 0 && std::isfinite(sum)) logarithms.push_back(std::log2(sum / pixels));
+      if (sum > 0 && std::isfinite(sum) && pixels > 0) logarithms.push_back(std::log2(sum / pixels));
     }
   if (logarithms.empty()) return 0;
   std::ranges::sort(logarithms);
@@ -48,10 +48,12 @@ double metered_exposure(const Scene& scene, executors::Executor& executor) {
   const Grid grid(whole, std::max(1, std::max(whole.width, whole.height) / pixels_across));
   std::vector<PixelSample> samples(size_t(grid.pixels()));
   if (!executor.sample(grid, 0, samples)) return 0;
-  image::Image picture(grid.width(), grid.height(), 3);
-  for (size_t i = 0; i < samples.size(); ++i)
-    for (int channel = 0; channel < 3; ++channel)
-      picture.samples()[3 * i + size_t(channel)] = float(samples[i].color[channel]);
+  image::Image picture(grid.width(), grid.height(), 4);
+  for (size_t i = 0; i < samples.size(); ++i) {
+    float* const pixel = &picture.samples()[4 * i];
+    for (int channel = 0; channel < 3; ++channel) pixel[channel] = float(samples[i].color[channel]);
+    pixel[3] = float(1 - samples[i].background);
+  }
   return exposure_for(picture);
 }
 

@@ -194,6 +194,8 @@ class Driver {
         const std::span<PixelSample> out = left.first(size_t(part.pixels()));
         const std::span<AuxiliarySample> beside = auxiliaries.first(has_auxiliaries_ ? out.size() : 0);
         if (!executor_.sample(tile, uint32_t(position_.samples), out, beside)) return false;
+        if (options_.over_white)
+          for (PixelSample& each : out) each.color = each.over_white();
         left = left.subspan(out.size());
         auxiliaries = auxiliaries.subspan(beside.size());
         if (options_.witness) options_.witness(tile, uint32_t(position_.samples), out);

@@ -44,6 +44,8 @@ struct RenderOptions {
   std::optional<double> exposure = {};  // exposure of the shown picture, in stops; absent: the scene's
   // If above 0, samples are clamped to at most this in every channel, which makes means too dark.
   double clamp = 0;
+  bool over_white =
+      false;  // put the samples of a transparent picture in front of white, to compare both at once
   // Called with sample number `index` of the pixels of a tile, once it is taken; the tile is in pixels of the
   // whole picture. May be empty.
   std::function<void(const Rect& tile, uint32_t index, std::span<const PixelSample>)> witness = {};

@@ -41,6 +41,7 @@ struct ImageSettings {
   double filter_width = 1;  // in pixels, from end to end; 1 for a box
   image::Tone tone = {};    // tone of .png pictures
   bool meters = false;  // the exposure is measured before the picture is rendered (render/light_meter.hpp)
+  bool transparent = false;  // the picture has an alpha in place of its background
 
   Vec2 size() const { return {width, height}; }  // in pixels
   int64_t all_samples() const { return int64_t{width} * height * samples; }

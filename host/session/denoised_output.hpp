@@ -10,8 +10,9 @@ namespace eyeray::engine::session {
 // that `output` shows are passed on at once; if it is layered, it shows all.
 class DenoisedOutput final : public Output {
  public:
-  // `shown`: the channels that `output` gets. `output` must outlive this object.
-  DenoisedOutput(Output& output, const film::Channels& shown);
+  // `shown`: the channels that `output` gets. `output` must outlive this object. `transparent`: whether the
+  // picture has an alpha.
+  DenoisedOutput(Output& output, const film::Channels& shown, bool transparent);
 
   // All channels that the picture must be rendered with.
   const film::Channels& channels() const { return channels_; }
@@ -26,6 +27,7 @@ class DenoisedOutput final : public Output {
  private:
   Output& output_;
   film::Channels channels_;
+  bool transparent_;
   film::Channels shown_;
   denoise::NoisyPicture picture_;
   std::vector<int> rows_;  // the number of rows that each plane has so far

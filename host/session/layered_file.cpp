@@ -14,9 +14,10 @@ constexpr int assembled_samples = 1 << 22;
 
 }  // namespace
 
-LayeredFile::LayeredFile(fs::path path, const film::Channels& aovs, int width, int height, bool half)
+LayeredFile::LayeredFile(fs::path path, const film::Channels& aovs, int width, int height,
+                         std::vector<image::ExrChannel> color)
     : path_(std::move(path)), width_(width), height_(height), waiting_(path_) {
-  add(image::exr_channels(3, half));
+  add(std::move(color));
   for (const film::Channel aov : aovs) {
     std::vector<image::ExrChannel> channels;
     for (std::string& name : film::layer_components(aov)) channels.push_back({std::move(name)});

@@ -15,8 +15,9 @@ namespace eyeray::engine::session {
 // arrived they wait in a hidden file beside the .exr.
 class LayeredFile {
  public:
-  // `half`: whether the picture is written as half floats; AOVs never are.
-  LayeredFile(std::filesystem::path path, const film::Channels& aovs, int width, int height, bool half);
+  // `color`: the channels of the picture. AOVs are never half floats.
+  LayeredFile(std::filesystem::path path, const film::Channels& aovs, int width, int height,
+              std::vector<image::ExrChannel> color);
 
   // The next rows, from the top down, of the picture (plane 0) or of an AOV (1 + its index).
   void write(size_t plane, const image::Image& rows) { write(layers_[plane], rows); }

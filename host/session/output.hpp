@@ -23,6 +23,10 @@ struct Plan {
   image::Tone tone;                 // tone of each .png: the scene's, with the metered exposure
   bool fast_math;                   // ExecutorOptions::fast_math
   const render::ShardTiles* tiles;  // the tiles of the share; null if the whole crop is rendered
+
+  bool transparent() const { return scene.image.transparent; }
+  // The channels of the colour: linear RGB; of a transparent picture, multiplied by an alpha that follows.
+  int color_channels() const { return transparent() ? 4 : 3; }
 };
 
 class Output {
@@ -36,8 +40,9 @@ class Output {
   virtual bool layered() const { return false; }
   // Called before the first sample.
   virtual void begin(const Plan& plan) = 0;
-  // The next rows, from the top down, of the colour (plane 0) or of a channel (1 + its index). For a share,
-  // rows are those of the stack of its tiles, but channels of first hits come tile by tile.
+  // The next rows, from the top down, of the colour (plane 0, Plan::color_channels) or of a channel (1 + its
+  // index). For a share, rows are those of the stack of its tiles, but channels of first hits come tile by
+  // tile.
   virtual void write(size_t plane, const image::Image& rows) = 0;
   // Called once all of the colour is written, before the channels of first hits.
   virtual void finish_color() = 0;

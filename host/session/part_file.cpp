@@ -14,6 +14,7 @@ shards::PartHeader header_of(const Plan& plan, const std::string& scene) {
   header.area = plan.crop;
   header.samples = plan.scene.image.samples;
   header.tone = plan.tone;
+  header.transparent = plan.transparent();
   header.clamp = plan.request.clamp;
   header.random_paths = walks_at_random(plan.scene.render.integrator);
   header.device = plan.executor.facts().description;

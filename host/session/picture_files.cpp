@@ -75,10 +75,12 @@ bool PictureFiles::layered() const {
 
 void PictureFiles::begin(const Plan& plan) {
   aovs_ = plan.channels;
-  begin(plan.crop.width, plan.crop.height, plan.tone);
+  begin(plan.crop.width, plan.crop.height, plan.tone, plan.color_channels());
 }
 
-void PictureFiles::begin(int width, int height, const image::Tone& tone) {
+void PictureFiles::begin(int width, int height, const image::Tone& tone, int channels) {
+  if (channels == 4) std::ranges::for_each(outputs_, image::check_has_alpha);
+  channels_ = channels;
   width_ = width;
   height_ = height;
   tone_ = tone;
@@ -89,12 +91,12 @@ void PictureFiles::open() {
   for (const std::string& output : outputs_) {
     const bool exr = is_exr(output);
     if (exr && &output == &outputs_[0] && !aovs_.empty())
-      layered_.emplace(output, aovs_, width_, height_, half_);
+      layered_.emplace(output, aovs_, width_, height_, image::exr_channels(channels_, half_));
     else if (exr)
-      writers_.emplace_back(output,
-                            image::ImageWriter(output, width_, height_, image::exr_channels(3, half_)));
+      writers_.emplace_back(
+          output, image::ImageWriter(output, width_, height_, image::exr_channels(channels_, half_)));
     else
-      writers_.emplace_back(output, image::ImageWriter(output, width_, height_, 3));
+      writers_.emplace_back(output, image::ImageWriter(output, width_, height_, channels_));
   }
   if (layered_) return;
   for (const film::Channel aov : aovs_) aov_files_.emplace_back(aov, outputs_[0], width_, height_);

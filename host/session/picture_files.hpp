@@ -55,8 +55,9 @@ class PictureFiles final : public Output {
   std::vector<std::filesystem::path> files() const override;
   bool layered() const override;
   void begin(const Plan& plan) override;
-  // Begins a picture that is not rendered now. `tone`: the tone curve of each .png.
-  void begin(int width, int height, const image::Tone& tone);
+  // Begins a picture that is not rendered now. `tone`: the tone curve of each .png. `channels`: those of its
+  // colour (Plan::color_channels). Error (bad_input) if an output cannot have them.
+  void begin(int width, int height, const image::Tone& tone, int channels);
   // Opens the files only when the first rows arrive, which for a picture of one band is when it is done.
   void write(size_t plane, const image::Image& rows) override;
   void finish_color() override;
@@ -71,7 +72,7 @@ class PictureFiles final : public Output {
   std::vector<std::string> outputs_;
   film::Channels aovs_;
   bool half_;
-  int width_ = 0, height_ = 0;
+  int width_ = 0, height_ = 0, channels_ = 3;
   image::Tone tone_;
   bool opened_ = false;
   std::vector<std::pair<std::string, image::ImageWriter>> writers_;  // one for each output except layered_

@@ -79,6 +79,7 @@ class Rendering {
     options.tiles = plan_.tiles;
     options.ray_kinds = request_.ray_kinds;
     options.channels = plan_.channels;
+    if (plan_.transparent()) options.channels = film::with(options.channels, {"coverage"});
     options.noise = request_.noise;
     options.clamp = request_.clamp;
     options.exposure = plan_.tone.exposure;
@@ -108,7 +109,7 @@ class Rendering {
   }
 
   void write(const film::Rows& rows) {
-    output_.write(0, rows.color);
+    output_.write(0, plan_.transparent() ? film::with_alpha(rows) : rows.color);
     if (legibility_) legibility_->see(rows.color);
     values_.give(rows, [&](size_t channel, const image::Image& image) { output_.write(1 + channel, image); });
   }
@@ -196,7 +197,8 @@ Result Session::render(const Scene& scene, const Request& request, Output& outpu
   film::Channels channels = check(request, scene);
   spare_sources(output.files(), scene);
   std::optional<DenoisedOutput> denoised;
-  if (denoises(request, scene)) channels = denoised.emplace(output, channels).channels();
+  if (denoises(request, scene))
+    channels = denoised.emplace(output, channels, scene.image.transparent).channels();
   std::optional<render::ShardTiles> tiles;
   const Rect crop = crop_within(request.crop, scene.image);
   if (request.shard) tiles.emplace(crop, *request.shard);

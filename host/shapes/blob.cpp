@@ -68,7 +68,7 @@ constexpr size_t most_parts = 32;
 struct Part {
   Vec3 from, to;
   double radius, strength;
-  // Where s(1 − d²/r²)² is steepest, at d = r/√3.
+  // The greatest slope of s(1 − d²/r²)², which it has at d = r/√3.
   double slope() const { return 8 / (3 * std::sqrt(3.0)) * std::fabs(strength) / radius; }
   Bounds bounds() const { return {glm::min(from, to) - Vec3(radius), glm::max(from, to) + Vec3(radius)}; }
 };

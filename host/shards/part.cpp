@@ -89,6 +89,7 @@ std::string to_text(const PartHeader& header) {
                         {"exposure", header.tone.exposure},
                         {"curve", int(header.tone.curve)},
                         {"white_balance", header.tone.white_balance},
+                        {"transparent", header.transparent},
                         {"clamp", header.clamp},
                         {"random_paths", header.random_paths},
                         {"device", header.device},
@@ -113,6 +114,7 @@ PartHeader header_of(const std::string& text) {
     header.tone.curve =
         image::ToneCurve(whole_number<int>(json.at("curve"), 0, int(std::size(image::tone_curves)) - 1));
     header.tone.white_balance = json.at("white_balance").get<double>();
+    header.transparent = json.at("transparent").get<bool>();
     header.clamp = json.at("clamp").get<double>();
     header.random_paths = json.at("random_paths").get<bool>();
     header.device = json.at("device").get<std::string>();

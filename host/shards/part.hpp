@@ -4,7 +4,7 @@
 //
 //   offset   bytes
 //   0        8       "EYERAYPT"
-//   8        4       version of this layout: 1
+//   8        4       version of this layout: 2
 //   12       4       n
 //   16       4       CRC-32 of all above
 //   20       n       PartHeader as JSON
@@ -45,6 +45,7 @@ struct PartHeader {
   Rect area;          // the area of the picture that all parts together cover
   int samples = 1;    // per pixel
   image::Tone tone;
+  bool transparent = false;   // whether the picture has an alpha
   double clamp = 0;           // RenderOptions::clamp
   bool random_paths = false;  // whether bright samples may be fireflies
   std::string device;         // for people
@@ -54,7 +55,9 @@ struct PartHeader {
   std::vector<render::IdentityPart> identity;
 
   size_t planes() const { return 1 + aovs.size(); }
-  int channels(size_t plane) const { return plane == 0 ? 3 : aovs[plane - 1]->components; }
+  int channels(size_t plane) const {
+    return plane == 0 ? (transparent ? 4 : 3) : aovs[plane - 1]->components;
+  }
 };
 
 // The facts of a part that are known after its last sample.
@@ -82,7 +85,7 @@ std::string to_text(const PartTotals& totals);
 PartTotals totals_of(const std::string& text);
 
 inline constexpr std::string_view part_magic = "EYERAYPT";
-inline constexpr uint32_t part_version = 1;
+inline constexpr uint32_t part_version = 2;
 inline constexpr uint32_t part_prefix_bytes = 20;
 inline constexpr uint32_t longest_part_header = 1 << 24;
 

@@ -78,6 +78,7 @@ SceneView view_of(const records::PackedScene& scene) {
           .quantised_nodes = scene.quantised_nodes,
           .panes = scene.panes,
           .interfaces = scene.interfaces,
+          .transparent = scene.transparent,
           .photon_pass = nullptr,
           .photons = nullptr,
           .photon_cells = nullptr,

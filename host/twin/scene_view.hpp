@@ -51,7 +51,7 @@ struct SceneView {
   const uint32_t* emitter_media;
   const shader::vec4* albedos;
   uint32_t albedo_count;  // albedos of lobes that the scene lacks are left out
-  bool has_bvh, quantised_nodes, panes, interfaces;
+  bool has_bvh, quantised_nodes, panes, interfaces, transparent;
   // The photons of the current sample, set by the code that traces them.
   const shader::PhotonPass* photon_pass;
   const shader::Photon* photons;

@@ -141,6 +141,7 @@ void show(const char* name, uint line, const T& shown) {
 #define EMITTER_COUNT bound_scene->frame->emitter_count
 #define ANY_PANE bound_scene->panes
 #define ANY_INTERFACE bound_scene->interfaces
+#define IS_TRANSPARENT bound_scene->transparent
 #define HAS_ENVIRONMENT_LIGHT (bound_scene->frame->environment_numbers > 0u)
 #define TRIANGLE_METHOD bound_scene->frame->triangle_method
 #define HAS_BVH bound_scene->has_bvh

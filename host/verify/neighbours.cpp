@@ -24,7 +24,7 @@ void add_first_hit(compare::Neighbour& neighbour, const Scene& scene, const Firs
 }
 
 compare::Neighbour::Sample of(const PixelSample& sample) {
-  return {sample.color, {double(sample.hits), double(sample.rays)}};
+  return {sample.over_white(), {double(sample.hits), double(sample.rays)}};
 }
 
 uint32_t seed_of(const Vec2& shift) {

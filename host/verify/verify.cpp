@@ -42,6 +42,7 @@ compare::Frame render_frame(executors::Backend backend, executors::Executor& exe
   render::RenderOptions how;
   how.crop = options.crop;
   how.first_hits = true;
+  how.over_white = true;
   how.progress = std::move(progress);
   std::vector<compare::TracedSample> samples;
   if (walks_at_random(scene.render.integrator))

@@ -213,14 +213,15 @@ struct Rect {
 struct [[nodiscard]] Plane {
   std::span<const float> values;
   int width = 0, height = 0;
-  int channels = 0;  // 1 or 3
+  int channels = 0;  // 1 or 3, or 4 with an alpha
 };
 
 // The pixels never change, and copies share them. A span is valid as long as a copy of the picture lives.
 class [[nodiscard]] EYERAY_API Picture {
  public:
   // Linear RGB, unclipped: the mean of a pixel's samples. It is empty if the render was cancelled before
-  // every pixel had a sample.
+  // every pixel had a sample. If the scene is transparent, an alpha from 0 to 1 follows, by which the colours
+  // are multiplied.
   Plane color() const;
   // The names of the AOVs that RenderOptions::aovs requested, and the values of one. `depth` is the distance
   // along the ray in units of the scene, infinity without a hit. `position` and normals are in the world's
@@ -240,12 +241,12 @@ class [[nodiscard]] EYERAY_API Picture {
   const std::vector<Diagnostic>& warnings() const noexcept;
 
   // The colours for a screen: sRGB, 8 bits a channel, with the scene's exposure and tone curve. Rows, pixels
-  // and channels lie as in color().
+  // and channels lie as in color(). With an alpha, colours are not multiplied by it.
   [[nodiscard]] std::vector<uint8_t> tonemapped() const;
   // The bytes of a .png of these colours. Error (bad_input) for an empty picture.
   [[nodiscard]] std::string png() const;
-  // Writes that .png, or the linear colours as .pfm, .hdr or .exr. Error: bad_input for another ending or an
-  // empty picture, or file_io. A file under that name is always whole.
+  // Writes that .png, or the linear colours as .pfm, .hdr or .exr. Error: bad_input for another ending, for
+  // an empty picture, or for an alpha in a .pfm or .hdr; or file_io. A file under that name is always whole.
   void write(const std::filesystem::path& file) const;
 
   struct Data;  // the engine's

@@ -67,6 +67,13 @@ vec3 through_panes(Frame frame, Ray ray, float distance, uint light, uint media,
 }
 #endif
 
+// The counts of a sample whose path reaches the background of a transparent picture, straight from the eye. Its hits are few: panes.
+uvec4 counts_with_background(uvec4 counts, vec3 throughput) {
+  float share = dot3(throughput, vec3(0.2126f, 0.7152f, 0.0722f));
+  uint whole = uint(minimum(share, 1.99f) * float(WHOLE_BACKGROUND) + 0.5f);
+  return uvec4(counts.x, counts.y | whole << HITS_BITS, counts.z | FLAG_BACKGROUND, counts.w);
+}
+
 // Adds the path's gain at the hit of `ray`, and finds how it goes on. `counts`: rays, hits, flags, loop iterations; `trail`: its decisions
 // (integrators/trail.glsl).
 Continuations shade(Frame frame, Path path, Ray ray, Hit hit, INOUT(vec3) color, INOUT(uvec4) counts, INOUT(uint) trail) {
@@ -81,9 +88,14 @@ Continuations shade(Frame frame, Path path, Ray ray, Hit hit, INOUT(vec3) color,
   PROBE(primitive, on_surface ? int(hit.id) : -1);
   DECIDED(EVENT_HIT, flight.scattered ? EVENT_IN_MEDIUM : on_surface ? hit.id + 1u : 0u);
   if (!on_surface && !flight.scattered) {
+    vec3 light = missed(frame, path);
+    if (IS_TRANSPARENT && path.depth == 0u) {
+      light = vec3(0.0f, 0.0f, 0.0f);
+      counts = counts_with_background(counts, path.throughput);
+    }
     PROBE(throughput, path.throughput);
-    PROBE(light, missed(frame, path));
-    color = color + path.throughput * missed(frame, path);
+    PROBE(light, light);
+    color = color + path.throughput * light;
   } else {
     Interaction at = first_interaction(path, ray, hit, flight, counts.z);
     PROBE(throughput, path.throughput);

@@ -136,6 +136,7 @@
 //   ANY_PANE           true or false: whether paths may pass a surface straight
 //   ANY_INTERFACE      true or false: whether one of these may be a border between media of one index.
 //   HAS_ENVIRONMENT_LIGHT  true or false: whether one is chosen from the environment.
+//   IS_TRANSPARENT     true or false: whether the picture leaves out the background that the eye sees straight.
 //   INSTANCE_COUNT     how many instances
 //   TRIANGLE_METHOD    TRIANGLE_WOOP or TRIANGLE_MOLLER_TRUMBORE
 //   HAS_BVH            true or false: whether there is a BVH of the world

@@ -154,6 +154,12 @@ echo video > "$last"
   const std::string list = read_text(folder / "list");
   CHECK(list.find("it'\\''s 02.png'\nduration 0.04\nfile '") != std::string::npos);
 
+  std::vector<std::string> transparent = command;
+  transparent.emplace_back("--transparent");
+  const ProcessResult refused = run_process(transparent, environment);
+  CHECK(refused.code == 2);
+  CHECK(refused.err == "eyeray: error: a video has no alpha: leave out --video, or the transparency\n");
+
   const ProcessResult none = run_process(command, {{"PATH", "/nowhere"}});
   CHECK(none.code == 4);
   CHECK(none.err.find("Debian: ffmpeg") != std::string::npos);

@@ -87,7 +87,8 @@ TEST_CASE("a wrong command line gives one line with a suggestion, and code 2") {
       {{"render", scene, "--aov", "dept"},
        "no AOV 'dept'; did you mean 'depth'? There are depth, position, normal, normal_geometric, front, "
        "uv, shape, primitive, material, hits, bounces, rays, ray_kinds, samples, noise, brightest, noisy, "
-       "variance, half, albedo, shading_normal, half_albedo, half_normal, nodes, tests, flags "
+       "variance, half, albedo, shading_normal, half_albedo, half_normal, coverage, half_coverage, nodes, "
+       "tests, flags "
        "and all"},
       {{"render", scene, "-o", folder / "x.gif"},
        folder / "x.gif" + ": a picture's name must end in .png, .pfm, .hdr or .exr"},

@@ -107,6 +107,78 @@ TEST_CASE("noise goes, textures and lighting stay") {
   CHECK(error_of(denoise::denoise(noisy).color, textured) < error_of(noisy.color, textured) / 3);
 }
 
+namespace {
+
+// The alpha from left to right: nothing, a soft edge, a solid object.
+double soft_edge(int x) {
+  return std::clamp((x - 30) / 30.0, 0.0, 1.0);
+}
+double hard_edge(int x) {
+  return std::clamp(x - 49.5, 0.0, 1.0);
+}
+
+// A noisy white surface with that alpha. A sample is covered wholly or not at all.
+NoisyPicture picture_with(double (*alpha_at)(int x), int samples) {
+  NoisyPicture picture = noisy_picture(plain, samples, 0);
+  picture.coverage = picture.half_coverage = Image(width, height, 1);
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> chance(0, 1);
+  std::exponential_distribution<double> light(1);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      double sum = 0, squares = 0, half = 0, covered = 0, half_covered = 0;
+      for (int i = 0; i < samples; ++i) {
+        const bool hit = chance(random) < alpha_at(x);
+        const double value = hit ? 1 + 0.5 * (light(random) - 1) : 0;
+        sum += value;
+        squares += value * value;
+        covered += hit;
+        if (i % 2 == 0) half += value, half_covered += hit;
+      }
+      const double n = samples, n_half = (samples + 1) / 2;
+      for (int c = 0; c < 3; ++c) {
+        picture.color.pixel(x, y)[c] = float(sum / n);
+        picture.half_color.pixel(x, y)[c] = float(half / n_half);
+        picture.variance.pixel(x, y)[c] = float((squares - sum * sum / n) / (n * (n - 1)));
+      }
+      *picture.coverage.pixel(x, y) = float(covered / n);
+      *picture.half_coverage.pixel(x, y) = float(half_covered / n_half);
+    }
+  return picture;
+}
+
+}  // namespace
+
+TEST_CASE("objects stay solid, and nothing is beside them") {
+  for (const auto edge : {soft_edge, hard_edge}) {
+    const Image denoised = denoise::denoise(picture_with(edge, 16)).color;
+    for (int y = 0; y < height; ++y)
+      for (int x = 1; x < width - 1; ++x) {
+        const float* const pixel = denoised.pixel(x, y);
+        if (edge(x + 1) == 0) CHECK((pixel[0] == 0 && pixel[3] == 0));
+        if (edge(x - 1) == 1) CHECK(pixel[3] == 1);
+      }
+  }
+}
+
+TEST_CASE("an alpha loses its noise") {
+  const NoisyPicture noisy = picture_with(soft_edge, 16);
+  const Image denoised = denoise::denoise(noisy).color;
+  REQUIRE(denoised.channels() == 4);
+  double before = 0, after = 0, colors = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const float* const pixel = denoised.pixel(x, y);
+      const double truth = soft_edge(x);
+      before += std::pow(double(*noisy.coverage.pixel(x, y)) - truth, 2);
+      after += std::pow(double(pixel[3]) - truth, 2);
+      colors += std::pow(double(pixel[0]) - truth, 2);
+    }
+  CHECK(after < before / 4);
+  CHECK(colors <
+        error_of(noisy.color, [](int x, int) { return Truth{.color = soft_edge(x)}; }) * width * height / 4);
+}
+
 TEST_CASE("a shadow's edge stays sharp") {
   const NoisyPicture noisy = noisy_picture(shadowed, 16, 0.5);
   const Image denoised = denoise::denoise(noisy).color;

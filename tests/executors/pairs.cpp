@@ -304,6 +304,7 @@ void check_verified(uint64_t seed) {
   scene.image.width = 24;
   scene.image.height = 18;
   scene.image.samples = 4;
+  scene.image.transparent = seed % 2 == 0;
   scene.render.seed = uint32_t(seed);
   if (scene.render.integrator == IntegratorType::sppm) {
     scene.render.photons = 2048;

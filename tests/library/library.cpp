@@ -165,6 +165,24 @@ TEST_CASE("a picture's planes have the shapes that the header documents") {
   CHECK(std::memcmp(pixels.values.data(), &color.values[3 * middle], 12 * sizeof(float)) == 0);
 }
 
+TEST_CASE("a transparent picture has an alpha as a fourth channel") {
+  const Picture picture = renderer().render(with({"image.transparent=true"}), {.aovs = {"coverage"}});
+  const Plane color = picture.color(), coverage = picture.aov("coverage");
+  REQUIRE((color.channels == 4 && color.values.size() == 64 * 48 * 4));
+  const std::vector<uint8_t> shown = picture.tonemapped();
+  REQUIRE(shown.size() == color.values.size());
+  for (size_t i = 0; i < coverage.values.size(); ++i) {
+    CHECK(color.values[4 * i + 3] == coverage.values[i]);
+    CHECK(shown[4 * i + 3] == (coverage.values[i] == 1 ? 255 : 0));
+    if (coverage.values[i] == 0) CHECK((color.values[4 * i] == 0 && shown[4 * i] == 0));
+  }
+  CHECK((coverage.values[24 * 64 + 32] == 1 && coverage.values[0] == 0));
+  CHECK(picture.png().size() > 100);
+  CHECK(thrown_by([&] { picture.write("/tmp/no.pfm"); }).kind() == ErrorKind::bad_input);
+  CHECK(thrown_by([] { return renderer().render(Scene::read(small), {.aovs = {"coverage"}}); }).kind() ==
+        ErrorKind::bad_input);
+}
+
 TEST_CASE("GPU and twin render the same bits, from several threads at once too") {
   const Scene scene = Scene::read(small);
   const Picture alone = renderer().render(scene);

@@ -26,6 +26,13 @@ def test_shapes_and_values():
         picture.aov("uv")
 
 
+def test_transparent_pictures_have_an_alpha():
+    picture = eyeray.render(eyeray.Scene.read(SMALL, defines=["image.transparent=true"]))
+    assert picture.color.shape == (48, 64, 4) and picture.tonemapped().shape == (48, 64, 4)
+    assert picture.color[0, 0].tolist() == [0, 0, 0, 0] and picture.color[24, 32, 3] == 1
+    assert picture.tonemapped()[0, 0, 3] == 0 and picture.tonemapped()[24, 32, 3] == 255
+
+
 def test_arrays_are_not_copied_and_outlive_the_picture():
     picture = eyeray.render(eyeray.Scene.read(SMALL))
     first, second = picture.color, picture.color

@@ -5,6 +5,7 @@
 #define HAS_LIGHT_DISKS 0
 #define HAS_LIGHT_BVH 0
 #define HAS_ENVIRONMENT_LIGHT false
+#define IS_TRANSPARENT false
 #define TRIANGLE_METHOD 0u
 #define HAS_COLORS 0
 #define HAS_PIECES 0
