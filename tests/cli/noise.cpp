@@ -60,6 +60,6 @@ TEST_CASE("--noise that cannot be reached is reported, and options without noise
   refusal({"--noise", "0.1", "--classic"});
   CHECK(refusal({"--classic", "--aov", "noise"}) ==
         "eyeray: error: --classic samples pixel corners, so it lacks the AOVs noise; it has hits, bounces, "
-        "rays, ray_kinds, samples, flags\n");
+        "rays, ray_kinds, samples, coverage, flags\n");
   CHECK(folder.names() == std::set<std::string>{"a.png", "scene.toml"});
 }
