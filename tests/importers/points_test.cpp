@@ -27,10 +27,10 @@ glm::vec3 linear(int red, int green, int blue) {
 }
 
 using Positions = std::vector<Vec3>;
-using Colors = std::vector<glm::vec3>;
+using PointColors = std::vector<glm::vec3>;
 
 const Positions three_points{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}};
-const Colors three_colors{linear(255, 0, 128), linear(0, 255, 1), linear(7, 8, 9)};
+const PointColors three_colors{linear(255, 0, 128), linear(0, 255, 1), linear(7, 8, 9)};
 const std::string colored_lines = "0 0 0 255 0 128\n1 0 0 0 255 1\n0 2 0 7 8 9\n";
 
 std::string pcd_header(const std::string& fields, const std::string& sizes, const std::string& types,
