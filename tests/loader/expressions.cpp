@@ -78,9 +78,9 @@ TEST_CASE("functions return what the C library does") {
       {"= clamp(5, 0, 1) + clamp(-5, 0, 1)", 1},
       {"= mix(2, 4, 0.25) + mod(-1, 4)", 5.5},
   };
-  for (const auto& [text, value] : values) {
-    CAPTURE(text);
-    CHECK(value_of(text) == doctest::Approx(value).epsilon(1e-14));
+  for (const auto& each : values) {
+    CAPTURE(each.first);
+    CHECK(value_of(each.first) == doctest::Approx(each.second).epsilon(1e-14));
   }
 }
 
