@@ -25,7 +25,7 @@ struct Tone {
 };
 
 // Maps a picture of 3 channels to the colours that a .png shows; the result is still linear: first white
-// balance and exposure, then the curve. Of 4 channels, the last is alpha: colours are multiplied by it in
+// balance and exposure, then the curve. With 4 channels the last is alpha: colours are multiplied by it in
 // `image`, but not in the result. Where it is 0 they are black.
 Image toned(const Image& image, const Tone& tone);
 

@@ -22,15 +22,8 @@ bool points_reject(Primitive s, Ray ray) { return sphere_reject(s, ray); }
 void points_box(Primitive s, OUT(vec3) lower, OUT(vec3) upper) { sphere_box(s, lower, upper); }
 
 Surface points_surface(Primitive s, Ray ray, Hit hit) {
-  vec3 n = sphere_normal(s, ray, hit);
-
-  Surface surface;
-  surface.p = sphere_center(s) + n * sphere_radius(s);
-  surface.normal_geometric = n;
-  surface.normal = n;
-  surface.uv = vec2(0.0f, 0.0f);
+  Surface surface = sphere_surface_at(s, sphere_normal(s, ray, hit));
   set_gradients(surface, vec3(0.0f, 0.0f, 0.0f), vec3(0.0f, 0.0f, 0.0f));
-  surface.offset = sphere_offset(s, n);
   return surface;
 }
 

@@ -81,20 +81,22 @@ vec3 sphere_normal(Primitive s, Ray ray, Hit hit) {
   return dot3(from_centre, from_centre) > 0.0f ? normalize3(from_centre) : -ray.d;
 }
 
-// Surface::offset where the normal is n.
-float sphere_offset(Primitive s, vec3 n) { return 4.0f * EPSILON * (dot3(abs3(n), abs3(sphere_center(s))) + sphere_radius(s)); }
-
-Surface sphere_surface(Primitive s, Ray ray, Hit hit) {
-  vec3 n = sphere_normal(s, ray, hit);
-
+// The surface at a hit with the normal n, with uv 0 and without their gradients.
+Surface sphere_surface_at(Primitive s, vec3 n) {
   Surface surface;
   surface.p = sphere_center(s) + n * sphere_radius(s);
   surface.normal_geometric = n;
   surface.normal = n;
   surface.uv = vec2(0.0f, 0.0f);
+  surface.offset = 4.0f * EPSILON * (dot3(abs3(n), abs3(sphere_center(s))) + sphere_radius(s));
+  return surface;
+}
+
+Surface sphere_surface(Primitive s, Ray ray, Hit hit) {
+  vec3 n = sphere_normal(s, ray, hit);
+  Surface surface = sphere_surface_at(s, n);
   if (UV_OF(sphere)) surface.uv = sphere_uv(s, n);
   set_sphere_gradients(s, n, surface);
-  surface.offset = sphere_offset(s, n);
   return surface;
 }
 
