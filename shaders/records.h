@@ -136,7 +136,7 @@ INLINE uint mesh_optical_depth(Instance instance) { return of_group(instance) ? 
 INLINE uint first_triangle_of(Instance instance) { return instance.depth_or_triangle; }
 #define ID_OF_TRIANGLE 0x80000000u
 
-// ---- Material: 160 bytes --------------------------------------------------------------------------------------------
+// ---- Material: 208 bytes --------------------------------------------------------------------------------------------
 struct Material {
   uint kind;
   uint flags;
@@ -170,6 +170,17 @@ struct Material {
   float bump_width;
   uint coat_normal;  // or NONE: as normal_map, of the coat alone
   float coat_normal_scale;
+  uint diffuse_transmission;  // the red channel counts
+  uint diffuse_transmission_color;
+  uint anisotropy;            // the blue channel counts; only of a MATERIAL_ANISOTROPIC
+  uint anisotropy_direction;  // or NONE: a map as normal_map
+  vec2 anisotropy_turn;       // cosine and sine of the angle by which the map's direction, or u's, is turned
+  uint iridescence;           // the red channel counts
+  uint iridescence_thickness;  // the green channel counts: the share of the way …
+  float iridescence_least;     // … from this thickness, in nanometres, …
+  float iridescence_most;      // … to this one
+  float iridescence_ior;
+  uint unused;
 };
 #define MATERIAL_BLINN 1u
 #define MATERIAL_PANE 2u   // it has no inside: paths may pass it straight
@@ -179,6 +190,7 @@ struct Material {
 #define MATERIAL_EMITS_IN_FRONT 8u  // its own light goes only where normals point
 #define MATERIAL_FRONT_ONLY 32u  // rays that come from behind a triangle do not hit it
 #define MATERIAL_BLENDS 64u  // rays hit it with a probability of its alpha, for any alpha_cutoff
+#define MATERIAL_ANISOTROPIC 128u  // its microfacets are wider along one direction
 #define MATERIAL_BUMP_IN_SPACE 16u  // bump_width is a length in the world, else in uv
 // Optical depth: the loss at each primitive that a shadow ray hits, in −log2(transmittance) · OPTICAL_DEPTH_SCALE.
 #define OPTICAL_DEPTH_OPAQUE 0x10000000u
@@ -196,13 +208,17 @@ struct Material {
 #define FIRST_GLASS_ALBEDO 5120u
 #define END_OF_ALBEDOS 29696u
 
-// ---- Medium: 32 bytes -----------------------------------------------------------------------------------------------
+// ---- Medium: 48 bytes -----------------------------------------------------------------------------------------------
 // Number 0 is around all: the scene's own, or the vacuum.
 struct Medium {
   vec3 absorption;  // per unit of length, as …
   float ior;
   vec3 scattering;  // … this is, which is 0 where paths do not walk at random
   float anisotropy;
+  float spread;  // by which the index at blue exceeds `ior`, and that at red is below
+  float unused_0;
+  float unused_1;
+  float unused_2;
 };
 
 // ---- Texture: 64 bytes ----------------------------------------------------------------------------------------------
@@ -340,8 +356,8 @@ SHADER_END
 static_assert(sizeof(eyeray::engine::shader::Primitive) == 64);
 static_assert(sizeof(eyeray::engine::shader::Bvh) == 64);
 static_assert(sizeof(eyeray::engine::shader::Instance) == 112);
-static_assert(sizeof(eyeray::engine::shader::Material) == 160);
-static_assert(sizeof(eyeray::engine::shader::Medium) == 32);
+static_assert(sizeof(eyeray::engine::shader::Material) == 208);
+static_assert(sizeof(eyeray::engine::shader::Medium) == 48);
 static_assert(sizeof(eyeray::engine::shader::Texture) == 64);
 static_assert(sizeof(eyeray::engine::shader::Light) == 48);
 static_assert(sizeof(eyeray::engine::shader::Emitter) == 96);

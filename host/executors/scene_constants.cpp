@@ -31,6 +31,9 @@ std::string literal(std::string_view text) {
 std::string literal(const shader::vec4& v) {
   return fmt::format("vec4({}, {}, {}, {})", literal(v.x), literal(v.y), literal(v.z), literal(v.w));
 }
+std::string literal(const shader::vec2& v) {
+  return fmt::format("vec2({}, {})", literal(v.x), literal(v.y));
+}
 std::string literal(const shader::vec3& v) {
   return fmt::format("vec3({}, {}, {})", literal(v.x), literal(v.y), literal(v.z));
 }
@@ -50,13 +53,17 @@ std::string literal(const shader::Material& m) {
       "Material", m.kind, m.flags, m.medium, m.optical_depth, m.base, m.specular, m.reflected, m.ambient,
       m.emission, m.alpha, m.alpha_cutoff, m.shininess, m.a, m.color, m.roughness, m.metallic, m.coat, m.b,
       m.c, m.coat_roughness, m.specular_level, m.transmission, m.specular_color, m.sheen, m.sheen_roughness,
-      m.normal_map, m.normal_scale, m.bump, m.bump_height, m.bump_width, m.coat_normal, m.coat_normal_scale);
+      m.normal_map, m.normal_scale, m.bump, m.bump_height, m.bump_width, m.coat_normal, m.coat_normal_scale,
+      m.diffuse_transmission, m.diffuse_transmission_color, m.anisotropy, m.anisotropy_direction,
+      m.anisotropy_turn, m.iridescence, m.iridescence_thickness, m.iridescence_least, m.iridescence_most,
+      m.iridescence_ior, m.unused);
 }
 std::string literal(const shader::Texture& t) {
   return record_literal("Texture", t.color, t.kind, t.a, t.b, t.c);
 }
 std::string literal(const shader::Medium& m) {
-  return record_literal("Medium", m.absorption, m.ior, m.scattering, m.anisotropy);
+  return record_literal("Medium", m.absorption, m.ior, m.scattering, m.anisotropy, m.spread, 0.0f, 0.0f,
+                        0.0f);
 }
 std::string literal(const shader::Light& l) {
   return record_literal("Light", l.intensity, l.kind, l.a, l.b);

@@ -37,8 +37,8 @@ bool any_reflects(const records::PackedScene& scene) {
 }  // namespace
 
 bool varies(const records::PackedScene& scene, const shader::Material& material) {
-  // Materials that bend normals need at least the gradients of uv.
-  return bends(material) ||
+  // Materials that bend normals, or have a direction along uv, need at least the gradients of uv.
+  return bends(material) || (material.flags & MATERIAL_ANISOTROPIC) != 0 ||
          std::ranges::any_of(rows::material_textures, [&](const rows::MaterialTexture& one) {
            const uint32_t index = material.*one.texture;
            return index != NONE && texture_varies(scene.textures[index]);
@@ -81,6 +81,10 @@ bool any_bent_coat(const records::PackedScene& scene) {
   });
 }
 
+bool any_anisotropic(const records::PackedScene& scene) {
+  return walks_at_random(scene) && any_flag(scene, MATERIAL_ANISOTROPIC);
+}
+
 bool any_rough_diffuse(const records::PackedScene& scene) {
   return std::ranges::any_of(scene.materials, [&](const shader::Material& material) {
     return material.kind == shader::MATERIAL_diffuse && !is_black(scene.textures[material.roughness]);
@@ -109,6 +113,10 @@ bool transmits(const records::PackedScene& scene) {
 bool any_scatters(const records::PackedScene& scene) {
   return std::ranges::any_of(
       scene.media, [](const shader::Medium& medium) { return medium.scattering != shader::vec3(0); });
+}
+
+bool any_disperses(const records::PackedScene& scene) {
+  return std::ranges::any_of(scene.media, [](const shader::Medium& medium) { return medium.spread != 0; });
 }
 
 bool any_dims(const records::PackedScene& scene) {

@@ -19,6 +19,8 @@ bool any_blends(const records::PackedScene& scene);
 bool any_front_only(const records::PackedScene& scene);
 // True if a coat's normal may be another than its surface's.
 bool any_bent_coat(const records::PackedScene& scene);
+// True if any material's microfacets are wider along one direction.
+bool any_anisotropic(const records::PackedScene& scene);
 // True if any diffuse material is not Lambert's.
 bool any_rough_diffuse(const records::PackedScene& scene);
 // True if light passes through any principled material, and for `transmits`, through any material.
@@ -26,6 +28,7 @@ bool any_principled_transmits(const records::PackedScene& scene);
 bool transmits(const records::PackedScene& scene);
 // True if `specular` or `specular_color` of any principled material is not the same everywhere.
 bool any_specular_varies(const records::PackedScene& scene);
+bool any_disperses(const records::PackedScene& scene);
 bool any_dims(const records::PackedScene& scene);
 bool any_scatters(const records::PackedScene& scene);
 // True if any light has an angular size.

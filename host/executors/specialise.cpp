@@ -83,11 +83,15 @@ std::string defines(const records::PackedScene& scene, const Used& used, const S
   define("HAS_FRONT_ONLY", int(any_front_only(scene)));
   define("HAS_SHEEN", int(scene.lobes.contains(shader::LOBE_sheen)));
   define("HAS_THIN", int(scene.lobes.contains(shader::LOBE_thin)));
+  define("HAS_TRANSLUCENT", int(scene.lobes.contains(shader::LOBE_translucent)));
+  define("HAS_ANISOTROPY", int(any_anisotropic(scene)));
+  define("HAS_FILM", int(scene.has_films));
   define("HAS_TRANSMISSION", int(any_principled_transmits(scene)));
   define("HAS_PANES", int(scene.panes));
   define("ANY_PANE", scene.panes ? "true" : "false");
   define("ANY_INTERFACE", scene.interfaces ? "true" : "false");
   define("HAS_MEDIA", int(transmits(scene)));
+  define("HAS_DISPERSION", int(any_disperses(scene)));
   define("HAS_ABSORPTION", int(any_dims(scene)));
   define("HAS_SCATTERING", int(any_scatters(scene)));
   define("HAS_MEDIUM_EXTENT", int(scene.frame.has_medium_extent));

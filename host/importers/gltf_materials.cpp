@@ -10,7 +10,6 @@
 
 #include "host/core/diagnostic_log.hpp"
 #include "host/core/error.hpp"
-#include "host/materials/make.hpp"
 #include "host/scene/image_texture_file.hpp"
 
 namespace eyeray::engine::importers {
@@ -34,9 +33,11 @@ constexpr double most_emission = 1e6;
 constexpr const char* specular_glossiness = "KHR_materials_pbrSpecularGlossiness";
 
 // The extensions that an unlit material, or one with specular_glossiness, cannot have.
-constexpr const char* lit_extensions[] = {"KHR_materials_ior",       "KHR_materials_transmission",
-                                          "KHR_materials_volume",    "KHR_materials_specular",
-                                          "KHR_materials_clearcoat", "KHR_materials_sheen"};
+constexpr const char* lit_extensions[] = {"KHR_materials_ior",         "KHR_materials_transmission",
+                                          "KHR_materials_volume",      "KHR_materials_specular",
+                                          "KHR_materials_clearcoat",   "KHR_materials_sheen",
+                                          "KHR_materials_iridescence", "KHR_materials_dispersion",
+                                          "KHR_materials_anisotropy",  "KHR_materials_diffuse_transmission"};
 
 // The linear means of the green and blue channels, which are roughness and metalness.
 Vec2 mean_green_blue(const ImageTexture& image) {
@@ -330,7 +331,11 @@ std::vector<GltfUv> GltfMaterials::uv_of_material(const GltfObject& material) {
 GltfUvUse GltfMaterials::uv_use(size_t index) const {
   const GltfObject material = document_.element("materials", index);
   GltfUvUse use{uv_of_material(material)};
-  const auto normal = material.object("normalTexture");
+  auto normal = material.object("normalTexture");
+  if (const auto anisotropy = material.extension("KHR_materials_anisotropy")) {
+    if (!normal) normal = anisotropy->object("anisotropyTexture");
+    if (use.uv.empty()) use.uv.emplace_back();
+  }
   use.second_tangents = normal && use.uv.size() == 2 && uv_of(*normal) == use.uv[1];
   return use;
 }
@@ -372,7 +377,10 @@ void GltfMaterials::note_rest(const GltfObject& material) {
   if (material.has("alphaCutoff") && alpha != "MASK")
     breaches_.add("alpha cutoffs of materials whose alphaMode is not MASK, left out", material.location());
   const auto volume = material.extension("KHR_materials_volume");
-  if (volume && !material.extension("KHR_materials_transmission"))
+  const bool evenly = material.extension("KHR_materials_diffuse_transmission").has_value();
+  if (volume && evenly && !material.extension("KHR_materials_transmission"))
+    left_out_.add("volumes of materials that transmit light evenly");
+  else if (volume && !material.extension("KHR_materials_transmission"))
     breaches_.add("volumes of materials that transmit no light, left out", volume->location());
 }
 

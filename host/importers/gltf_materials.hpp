@@ -9,6 +9,7 @@
 
 #include "host/importers/gltf_buffers.hpp"
 #include "host/importers/texture_files.hpp"
+#include "host/materials/make.hpp"
 #include "host/scene/material.hpp"
 #include "host/textures/make.hpp"
 
@@ -37,8 +38,10 @@ struct GltfUv {
 
 // The uv of a mesh that a material's pictures use.
 struct GltfUvUse {
-  std::vector<GltfUv> uv;        // at most two, which is all that a vertex has
-  bool second_tangents = false;  // true: the normalTexture takes the second uv, so TANGENT is along their u
+  std::vector<GltfUv> uv;  // at most two, which is all that a vertex has
+  // True if the normalTexture, or without one the anisotropyTexture, takes the second uv: TANGENT is along
+  // their u.
+  bool second_tangents = false;
 };
 
 class GltfMaterials {
@@ -75,7 +78,12 @@ class GltfMaterials {
   // The stand-in of a transmissive material in Whitted's pictures.
   std::unique_ptr<Material> glass(const GltfObject& material, const Surface& surface);
   double ior(const GltfObject& material);
+  double index_of(const GltfObject& owner, const char* key, double fallback);
   Vec3 absorption(const GltfObject& material);
+  double dispersion(const GltfObject& material);
+  std::optional<RoughAxis> anisotropy(const GltfObject& material, materials::PrincipledValues& values);
+  void iridescence(const GltfObject& material, materials::PrincipledValues& values);
+  void diffuse_transmission(const GltfObject& material, materials::PrincipledValues& values);
   std::optional<AlphaMask> mask(const GltfObject& material, bool blends);
   std::optional<NormalMap> normal_map(const GltfObject& material, const std::optional<GltfObject>& reference);
   // The content to take from a picture: its sRGB colours, its numbers, or its alpha in place of each channel.

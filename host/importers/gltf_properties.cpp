@@ -10,78 +10,14 @@
 #include <vector>
 
 #include "host/core/diagnostic.hpp"
+#include "host/importers/gltf_property.hpp"
 
 namespace eyeray::engine::importers {
 
 namespace {
 
+using namespace gltf;
 using Json = nlohmann::json;
-
-enum class Type { object, index, count, number, flag, text, word };
-
-// A row of the table: a property of an object.
-struct Property {
-  std::string_view name;  // "*": any name that no other row has
-  Type type;
-  std::string_view of = {};           // the list that an index refers to, or the allowed words
-  const Property* members = nullptr;  // the members of an object
-  size_t member_count = 0;
-  bool list = false;  // true: the property is a list of such values
-  double least = 0;   // least and most: the limits of a count, or of a list's length
-  double most = std::numeric_limits<double>::infinity();
-  bool required = false;
-  bool extension = false;  // true: the property stands in the object's `extensions`
-
-  constexpr Property must() const {
-    Property changed = *this;
-    changed.required = true;
-    return changed;
-  }
-  constexpr Property of_length(double shortest, double longest) const {
-    Property changed = *this;
-    changed.list = true;
-    changed.least = shortest;
-    changed.most = longest;
-    return changed;
-  }
-  constexpr Property of_length(double length) const { return of_length(length, length); }
-  constexpr Property listed() const { return of_length(1, std::numeric_limits<double>::infinity()); }
-};
-using Members = std::span<const Property>;
-
-constexpr Property index(std::string_view name, std::string_view list) {
-  return {.name = name, .type = Type::index, .of = list};
-}
-constexpr Property count(std::string_view name, double least = 0) {
-  return {.name = name, .type = Type::count, .least = least};
-}
-constexpr Property number(std::string_view name) {
-  return {.name = name, .type = Type::number};
-}
-constexpr Property flag(std::string_view name) {
-  return {.name = name, .type = Type::flag};
-}
-constexpr Property text(std::string_view name) {
-  return {.name = name, .type = Type::text};
-}
-// A property whose value, a text or an integer, must be one of `words`.
-constexpr Property one_of(std::string_view name, std::string_view words) {
-  return {.name = name, .type = Type::word, .of = words};
-}
-template <size_t N>
-constexpr Property object(std::string_view name, const Property (&members)[N]) {
-  return {.name = name, .type = Type::object, .members = members, .member_count = N};
-}
-template <size_t N>
-constexpr Property objects(std::string_view name, const Property (&members)[N]) {
-  return object(name, members).listed();
-}
-template <size_t N>
-constexpr Property extension(std::string_view name, const Property (&members)[N]) {
-  Property property = object(name, members);
-  property.extension = true;
-  return property;
-}
 
 namespace shapes {
 
@@ -161,6 +97,18 @@ constexpr Property clearcoat[] = {
     object("clearcoatRoughnessTexture", map), object("clearcoatNormalTexture", normal_map)};
 constexpr Property sheen[] = {number("sheenColorFactor").of_length(3), object("sheenColorTexture", map),
                               number("sheenRoughnessFactor"), object("sheenRoughnessTexture", map)};
+constexpr Property diffuse_transmission[] = {
+    number("diffuseTransmissionFactor"), object("diffuseTransmissionTexture", map),
+    number("diffuseTransmissionColorFactor").of_length(3), object("diffuseTransmissionColorTexture", map)};
+constexpr Property anisotropy[] = {number("anisotropyStrength"), number("anisotropyRotation"),
+                                   object("anisotropyTexture", map)};
+constexpr Property iridescence[] = {number("iridescenceFactor"),
+                                    object("iridescenceTexture", map),
+                                    number("iridescenceIor"),
+                                    number("iridescenceThicknessMinimum"),
+                                    number("iridescenceThicknessMaximum"),
+                                    object("iridescenceThicknessTexture", map)};
+constexpr Property dispersion[] = {number("dispersion")};
 constexpr Property specular_glossiness[] = {number("diffuseFactor").of_length(4),
                                             object("diffuseTexture", map),
                                             number("specularFactor").of_length(3), number("glossinessFactor"),
@@ -181,6 +129,10 @@ constexpr Property material[] = {object("pbrMetallicRoughness", metallic_roughne
                                  extension("KHR_materials_specular", specular),
                                  extension("KHR_materials_clearcoat", clearcoat),
                                  extension("KHR_materials_sheen", sheen),
+                                 extension("KHR_materials_diffuse_transmission", diffuse_transmission),
+                                 extension("KHR_materials_anisotropy", anisotropy),
+                                 extension("KHR_materials_iridescence", iridescence),
+                                 extension("KHR_materials_dispersion", dispersion),
                                  extension("KHR_materials_pbrSpecularGlossiness", specular_glossiness)};
 constexpr Property texture[] = {index("sampler", "samplers"), index("source", "images")};
 constexpr Property sampler[] = {one_of("magFilter", "9728 9729"),
@@ -247,15 +199,12 @@ constexpr Property document[] = {object("asset", asset).must(),
 
 }  // namespace shapes
 
-// The extensions that are read, and those that do not change the parts that are read.
-constexpr std::string_view known_extensions[] = {
-    "KHR_lights_punctual",     "KHR_materials_ior",       "KHR_materials_transmission",
-    "KHR_materials_volume",    "KHR_materials_unlit",     "KHR_materials_emissive_strength",
-    "KHR_materials_specular",  "KHR_materials_clearcoat", "KHR_materials_sheen",
-    "KHR_mesh_quantization",   "KHR_texture_transform",   "KHR_materials_pbrSpecularGlossiness",
-    "EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_draco_mesh_compression",
-    "KHR_node_visibility",     "EXT_mesh_gpu_instancing",
-};
+// The extensions that are read, except those of materials, and those that do not change the parts that are
+// read.
+constexpr std::string_view known_extensions[] = {"KHR_lights_punctual",     "KHR_mesh_quantization",
+                                                 "KHR_texture_transform",   "EXT_meshopt_compression",
+                                                 "KHR_meshopt_compression", "KHR_draco_mesh_compression",
+                                                 "KHR_node_visibility",     "EXT_mesh_gpu_instancing"};
 
 constexpr Property name_of_object = text("name");
 
@@ -386,7 +335,8 @@ class PropertyCheck {
 }  // namespace
 
 bool is_known_extension(std::string_view name) {
-  return std::ranges::find(known_extensions, name) != std::end(known_extensions);
+  return find(shapes::material, name, true) ||
+         std::ranges::find(known_extensions, name) != std::end(known_extensions);
 }
 
 void check_properties(const Json& document, GltfBreaches& breaches) {

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <numbers>
 #include <optional>
 #include <sstream>
 
@@ -89,13 +90,16 @@ std::unique_ptr<Material> convert(const tinyobj::material_t& source, const Maps&
     const auto scaled = [](double value, const std::shared_ptr<const ImageTexture>& map) {
       return textured(Vec3(map && !(value > 0) ? 1 : share(value)), map);
     };
-    return materials::make_principled({.color = diffuse,
-                                       .metallic = scaled(source.metallic, maps.metallic),
-                                       .roughness = scaled(source.roughness, maps.roughness),
-                                       .sheen = scaled(source.sheen, maps.sheen),
-                                       .coat = constant(source.clearcoat_thickness),
-                                       .coat_roughness = constant(source.clearcoat_roughness),
-                                       .emission = emitted});
+    auto made = materials::make_principled({.color = diffuse,
+                                            .metallic = scaled(source.metallic, maps.metallic),
+                                            .roughness = scaled(source.roughness, maps.roughness),
+                                            .anisotropy = constant(source.anisotropy),
+                                            .sheen = scaled(source.sheen, maps.sheen),
+                                            .coat = constant(source.clearcoat_thickness),
+                                            .coat_roughness = constant(source.clearcoat_roughness),
+                                            .emission = emitted});
+    if (made->rough_axis) made->rough_axis->turn = 2 * std::numbers::pi * double(source.anisotropy_rotation);
+    return made;
   }
   if (!mirrors(source.illum))
     return materials::make_phong({.diffuse = diffuse, .emission = emitted, .highlight = highlight(source)});
@@ -161,7 +165,9 @@ std::vector<std::string> left_out(const tinyobj::material_t& source, const Maps&
   add(!source.specular_texname.empty() || !source.specular_highlight_texname.empty(),
       "maps of highlights (map_Ks, map_Ns)");
   add(!source.reflection_texname.empty(), "reflection maps (refl)");
-  add(source.anisotropy != 0 || source.anisotropy_rotation != 0, "anisotropy (aniso, anisor)");
+  const bool turned = source.anisotropy != 0 || source.anisotropy_rotation != 0;
+  add(turned && (glass || !is_principled(source, maps)),
+      "anisotropy (aniso, anisor) without Pr, Pm, Pc or Ps");
   // Many programs repeat the colour's picture as map_Ka.
   add(source.ambient_texname != source.diffuse_texname && !source.ambient_texname.empty(),
       "maps of ambient light (map_Ka)");

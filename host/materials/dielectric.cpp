@@ -33,6 +33,10 @@ that reaches 1, all light is reflected and no root is taken. The reflected share
 (n₁cosθ₁ − n₂cosθ₂) / (n₁cosθ₁ + n₂cosθ₂) and rₚ = (n₁cosθ₂ − n₂cosθ₁) / (n₁cosθ₂ + n₂cosθ₁). Two equal media
 do not reflect at all.
 
+With `dispersion`, a path that hits the glass continues with the light of one colour channel, chosen at random:
+red is refracted by the index of the C line, `ior` − (`ior` − 1) · `dispersion` / 40, green by `ior`, and blue by that
+of the F line, as far above `ior`.
+
 With `thin` the surface is a pane, which has no inside. The reflections between its two faces add up to R' =
 2R / (1 + R). The rest of the light continues straight. Under `path`, lights shine through panes. The light of
 directional, point and spot lights without a size passes any number of them. The light of those with a size
@@ -66,6 +70,7 @@ constexpr Key keys[] = {
     absorption_key,
     scattering_key,
     anisotropy_key,
+    dispersion_key,
     {.name = "shadow",
      .type = KeyType::number,
      .doc = "Factor for the light of a shadow ray, once for each shape that it hits. When absent, it follows "
@@ -116,7 +121,8 @@ class Dielectric final : public Material {
 
   std::optional<Medium> medium() const override {
     if (values_.thin) return std::nullopt;
-    return Medium{values_.ior, values_.absorption, values_.scattering, values_.anisotropy};
+    return Medium{values_.ior, values_.absorption, values_.scattering, values_.anisotropy,
+                  values_.dispersion};
   }
   bool thin() const override { return values_.thin; }
 
@@ -158,6 +164,9 @@ std::unique_ptr<Material> parse(TableReader& table) {
     for (const char* inside : {"absorption", "scattering"})
       if (table.has(inside))
         table.error(inside, "a thin pane has no inside that absorbs; use `principled` for coloured panes");
+  if (table.boolean("thin") && table.has("dispersion"))
+    table.error("dispersion",
+                "a thin pane bends no light, so it has no dispersion; remove one of the two keys");
   const Medium medium = read_medium(table, table.number("ior"));
   DielectricValues values{.ior = medium.ior,
                           .thin = table.boolean("thin"),
@@ -165,6 +174,7 @@ std::unique_ptr<Material> parse(TableReader& table) {
                           .absorption = medium.absorption,
                           .scattering = medium.scattering,
                           .anisotropy = medium.anisotropy,
+                          .dispersion = table.number("dispersion"),
                           .highlight = read_highlight(table)};
   if (table.has("shadow")) values.shadow = table.number("shadow");
   if (table.failed()) return nullptr;

@@ -57,7 +57,18 @@ shader::Material make_record(uint32_t kind, const Highlight& highlight, double s
           .bump_height = 0,
           .bump_width = 0,
           .coat_normal = NONE,
-          .coat_normal_scale = 0};
+          .coat_normal_scale = 0,
+          .diffuse_transmission = black,
+          .diffuse_transmission_color = black,
+          .anisotropy = black,
+          .anisotropy_direction = NONE,
+          .anisotropy_turn = shader::vec2(1, 0),
+          .iridescence = black,
+          .iridescence_thickness = black,
+          .iridescence_least = 0,
+          .iridescence_most = 0,
+          .iridescence_ior = 1,
+          .unused = 0};
 }
 
 }  // namespace eyeray::engine::materials

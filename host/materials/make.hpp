@@ -33,6 +33,7 @@ struct DielectricValues {
   Vec3 absorption{0.0};
   Vec3 scattering{0.0};
   double anisotropy = 0;
+  double dispersion = 0;
   std::optional<double> shadow = {};  // absent: Fresnel's transmittance at normal incidence
   Highlight highlight = {};
 };
@@ -62,6 +63,15 @@ struct PrincipledValues {
   TexturePtr transmission = textures::make_constant(Vec3(0));
   bool thin = false;
   Vec3 absorption{0.0};
+  double dispersion = 0;
+  TexturePtr diffuse_transmission = textures::make_constant(Vec3(0));
+  TexturePtr diffuse_transmission_color = textures::make_constant(Vec3(1));
+  TexturePtr anisotropy = textures::make_constant(Vec3(0));  // along Material::rough_axis
+  TexturePtr iridescence = textures::make_constant(Vec3(0));
+  double iridescence_ior = 1.3;
+  // The film's thickness in nanometres: from the first to the second one as the texture goes from 0 to 1.
+  double iridescence_least = 100, iridescence_most = 400;
+  TexturePtr iridescence_thickness = textures::make_constant(Vec3(1));
   TexturePtr sheen = textures::make_constant(Vec3(0));
   TexturePtr sheen_roughness = textures::make_constant(Vec3(0.5));
   TexturePtr coat = textures::make_constant(Vec3(0));

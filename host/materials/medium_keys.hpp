@@ -25,6 +25,17 @@ inline constexpr Key anisotropy_key = {
     .min = -most_anisotropy,
     .max = most_anisotropy};
 
+// Of a shape's medium alone.
+inline constexpr Key dispersion_key = {
+    .name = "dispersion",
+    .type = KeyType::number,
+    .doc =
+        "Strength of the dispersion under `path`: 20 divided by the Abbe number, 0.33 for crown glass. `ior` "
+        "is then the index for green light.",
+    .fallback = "0",
+    .min = 0,
+    .max = 10};
+
 inline Medium read_medium(const TableReader& table, double ior) {
   return {ior, table.color("absorption"), table.color("scattering"), table.number("anisotropy")};
 }

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <set>
 
 #include "host/materials/normal_map.hpp"
 #include "host/materials/physical.hpp"
+#include "host/materials/principled_keys.hpp"
 #include "host/materials/registry.hpp"
 
 namespace eyeray::engine::materials {
@@ -14,134 +16,6 @@ extern const MaterialType principled_type;
 extern const MaterialType plastic_type;
 
 namespace {
-
-constexpr std::string_view principled_manual =
-    R"(The metallic-roughness model of glTF 2.0, which models come with. It is a coloured body under a clear, glossy
-surface, a metal of that colour, or a blend of both. It may transmit light, and cloth and lacquer may lie on
-top.
-
-```toml
-[[material]]
-name = "car"
-type = "principled"
-color = [0.6, 0.02, 0.03]
-metallic = 0.6
-roughness = 0.4
-coat = 1
-```
-
-The non-metal part reflects F0 = ((ior − 1) / (ior + 1))² · specular_color · specular at perpendicular
-incidence, and `specular` at grazing incidence. A metal reflects `color` at perpendicular incidence, and white
-at grazing incidence (Schlick). Microfacets are as in `conductor`.
-
-Light that enters the non-metal part hits a Lambert body of `color`, and leaves through the surface again. The
-share `transmission` of it passes through instead, tinted by `color`. It is refracted as in `dielectric` and
-fills the shape. The surface of that share reflects by `ior` alone. Where the index is the same on both
-sides, it continues straight, as in `dielectric`. Rough glass of a high `ior` is noisy, since it reflects most
-light inside many times. With `thin` the light passes straight through, blurred by `roughness`. A coat has
-index 1.5. Sheen is a layer of fibres of `sheen_color` above the body, as cloth has them. `whitted` and
-`raycast` show an approximation: glass where `transmission` is 0.5 or more.
-
-**Source.** Khronos: glTF 2.0 Specification, appendix B; KHR_materials_ior, _specular, _clearcoat, _sheen, _transmission, _volume. Kelemen,
-Szirmay-Kalos: A Microfacet Based Coupled Specular-Matte BRDF Model, Eurographics 2001. Estevez, Kulla: Production Friendly Microfacet
-Sheen BRDF, SIGGRAPH 2017.
-)";
-
-constexpr std::string_view plastic_manual =
-    R"(A coloured body under a clear surface, rough or polished: plastic, lacquer, glazed clay. It is `principled`
-without a metal part.
-
-```toml
-[[material]]
-name = "bowl"
-type = "plastic"
-color = [0.1, 0.3, 0.7]
-roughness = 0.1
-```
-)";
-
-constexpr Key color_key{
-    .name = "color",
-    .type = KeyType::texture,
-    .doc = "Colour of the body. For a metal it is the reflectance at perpendicular incidence.",
-    .fallback = "0.8",
-    .max = 1};
-constexpr Key ior_key{.name = "ior",
-                      .type = KeyType::number,
-                      .doc = "Index of refraction of the surface.",
-                      .fallback = "1.5",
-                      .min = 1,
-                      .max = 4};
-
-constexpr Key principled_keys[] = {
-    color_key,
-    {.name = "metallic",
-     .type = KeyType::texture,
-     .doc = "Share of the surface that is metal. The blue channel counts.",
-     .fallback = "0",
-     .max = 1},
-    roughness_key,
-    ior_key,
-    {.name = "specular",
-     .type = KeyType::texture,
-     .doc = "Factor for the reflectance of the non-metal part. The red channel counts.",
-     .fallback = "1",
-     .max = 1},
-    {.name = "specular_color",
-     .type = KeyType::texture,
-     .doc = "Tint of the reflectance of the non-metal part at perpendicular incidence.",
-     .fallback = "1"},
-    {.name = "transmission",
-     .type = KeyType::texture,
-     .doc = "Share of light that is transmitted, of the light that the non-metal part does not reflect. The "
-            "red channel counts.",
-     .fallback = "0",
-     .max = 1},
-    {.name = "thin",
-     .type = KeyType::boolean,
-     .doc = "If true, the part that transmits light is a pane without an inside: a window, a leaf, a bubble.",
-     .fallback = "false"},
-    {.name = "absorption",
-     .type = KeyType::color,
-     .doc =
-         "Absorption coefficient per world unit: inside, light is weakened by exp(-absorption * distance).",
-     .fallback = "0"},
-    {.name = "sheen_color",
-     .type = KeyType::texture,
-     .doc = "Colour of the fibres above the body; black means no fibres.",
-     .fallback = "0",
-     .max = 1},
-    {.name = "sheen_roughness",
-     .type = KeyType::texture,
-     .doc = "Spread of the directions of the fibres: from 0 (sheen only at grazing angles) to 1 (all "
-            "directions). The green channel counts. Values below 0.07 are raised to 0.07.",
-     .fallback = "0.5",
-     .max = 1},
-    {.name = "coat",
-     .type = KeyType::texture,
-     .doc = "Share of the surface that a clear coat covers. The red channel counts.",
-     .fallback = "0",
-     .max = 1},
-    {.name = "coat_roughness",
-     .type = KeyType::texture,
-     .doc = "Roughness of the coat. The green channel counts.",
-     .fallback = "0",
-     .max = 1},
-    {.name = "coat_normal",
-     .type = KeyType::texture,
-     .doc = "Normal map of the coat, in the form of `normal`. Neither `normal` nor `bump` bends the coat.",
-     .max = 1,
-     .optional = true},
-    {.name = "coat_normal_scale",
-     .type = KeyType::number,
-     .doc = "Strength of `coat_normal`. A negative value bends the normals in the opposite direction.",
-     .fallback = "1",
-     .min = -1000,
-     .max = 1000},
-    emission_key,
-};
-
-constexpr Key plastic_keys[] = {color_key, roughness_key, ior_key, emission_key};
 
 class Principled final : public Physical {
  public:
@@ -175,8 +49,7 @@ class Principled final : public Physical {
     const double level = values_.specular->at(context.point).x;
     const Vec3 f0 = mirrored(values_.specular_color->at(context.point), level), edge(level);
     const double through = values_.transmission->at(context.point).x * (1 - metallic);
-    Bsdf bsdf{.diffuse = color * (1 - metallic - through),
-              .layer = optics::schlick(f0, edge),
+    Bsdf bsdf{.layer = optics::schlick(f0, edge),
               .layered = 1 - metallic,
               .metal = optics::schlick(color, Vec3(1)),
               .metallic = metallic,
@@ -186,6 +59,9 @@ class Principled final : public Physical {
               .coat_normal = context.coat_normal,
               .sheen = values_.sheen->at(context.point),
               .sheen_roughness = values_.sheen_roughness->at(context.point).y};
+    add_body(1 - metallic - through, color, context, bsdf);
+    add_anisotropy(context.point, bsdf);
+    add_film(context.point, bsdf);
     if (through == 0) return bsdf;
     if (values_.thin) {
       (bsdf.roughness == 0 ? bsdf.passed : bsdf.thin) = color * through;
@@ -212,7 +88,12 @@ class Principled final : public Physical {
                    coat_roughness = values_.coat_roughness->pack(packer),
                    transmission = values_.transmission->pack(packer), sheen = values_.sheen->pack(packer),
                    sheen_roughness = values_.sheen_roughness->pack(packer),
-                   emission = values_.emission->pack(packer);
+                   emission = values_.emission->pack(packer),
+                   diffuse_transmission = values_.diffuse_transmission->pack(packer),
+                   diffuse_transmission_color = values_.diffuse_transmission_color->pack(packer),
+                   anisotropy = values_.anisotropy->pack(packer),
+                   iridescence = values_.iridescence->pack(packer),
+                   iridescence_thickness = values_.iridescence_thickness->pack(packer);
     // Constant `specular` and `specular_color` are multiplied here; their textures are then white.
     const std::optional<Vec3> level = values_.specular->constant(), tint = values_.specular_color->constant();
     const TexturePtr white = textures::make_constant(Vec3(1));
@@ -229,6 +110,14 @@ class Principled final : public Physical {
       if (const auto filling = medium()) record.medium = packer.add_medium(*filling);
     }
     record.transmission = transmission;
+    record.diffuse_transmission = diffuse_transmission;
+    record.diffuse_transmission_color = diffuse_transmission_color;
+    record.anisotropy = anisotropy;
+    record.iridescence = iridescence;
+    record.iridescence_thickness = iridescence_thickness;
+    record.iridescence_least = float(values_.iridescence_least);
+    record.iridescence_most = float(values_.iridescence_most);
+    record.iridescence_ior = float(values_.iridescence_ior);
     record.sheen = sheen;
     record.sheen_roughness = sheen_roughness;
     record.specular_level = specular_level;
@@ -243,13 +132,48 @@ class Principled final : public Physical {
     std::set<uint32_t>& lobes = packer.scene.lobes;
     if (values_.coat->constant() != Vec3(0)) lobes.insert(shader::LOBE_coat);
     if (values_.sheen->constant() != Vec3(0)) lobes.insert(shader::LOBE_sheen);
-    if (transmits() && values_.roughness->constant() != Vec3(0))
+    if (values_.diffuse_transmission->constant() != Vec3(0)) lobes.insert(shader::LOBE_translucent);
+    packer.scene.has_films |= values_.iridescence->constant() != Vec3(0);
+    if (transmits() &&
+        (values_.roughness->constant() != Vec3(0) || values_.anisotropy->constant() != Vec3(0)))
       lobes.insert(values_.thin ? shader::LOBE_thin : shader::LOBE_rough_glass);
   }
 
  private:
   bool transmits() const { return values_.transmission->constant() != Vec3(0); }
-  Medium own_medium() const { return {.ior = std::max(1.0, values_.ior), .absorption = values_.absorption}; }
+  Medium own_medium() const {
+    return {.ior = std::max(1.0, values_.ior),
+            .absorption = values_.absorption,
+            .dispersion = values_.dispersion};
+  }
+  // The light that the body, which is that share of the surface, scatters back and lets through evenly. A
+  // Lambert body lets as much light through from the side of the greater index as from the other: there, the
+  // part that is reflected totally is scattered back, too.
+  void add_body(double body, const Vec3& color, const ScatteringContext& context, Bsdf& bsdf) const {
+    const double share = values_.diffuse_transmission->at(context.point).x;
+    const double leaves = std::min(1.0, std::pow(context.ior_to / context.ior_from, 2));
+    const Vec3 through = share * values_.diffuse_transmission_color->at(context.point);
+    bsdf.translucent = body * leaves * through;
+    bsdf.diffuse = body * ((1 - share) * color + (1 - leaves) * through);
+  }
+  // KHR_materials_anisotropy: the slopes' width grows towards 1 along one direction. The roughness is that of
+  // even microfacets that lose about as much light to each other: a fit.
+  void add_anisotropy(const TextureContext& point, Bsdf& bsdf) const {
+    const double strength = values_.anisotropy->at(point).z;
+    const double width = std::max(bsdf.roughness * bsdf.roughness, 1e-3);
+    const double along = std::lerp(width, 1.0, strength * strength);
+    if (!(along > width)) return;
+    bsdf.widths = {along, width};
+    bsdf.roughness =
+        std::sqrt(0.75 * std::sqrt((along * along + width * width) / 2) + 0.25 * (along + width) / 2);
+  }
+  void add_film(const TextureContext& point, Bsdf& bsdf) const {
+    bsdf.film = {.share = values_.iridescence->at(point).x,
+                 .thickness = std::lerp(values_.iridescence_least, values_.iridescence_most,
+                                        values_.iridescence_thickness->at(point).y),
+                 .ior = values_.iridescence_ior};
+    if (bsdf.film.thickness == 0) bsdf.film.share = 0;
+  }
   // The reflectance of the non-metal part at perpendicular incidence.
   Vec3 mirrored(const Vec3& tint, double level) const {
     const double r = (values_.ior - 1) / (values_.ior + 1);
@@ -265,8 +189,10 @@ std::unique_ptr<Material> make(const PrincipledValues& values, std::unique_ptr<M
                                uint32_t kind) {
   if (!stand_in_material && values.transmission->constant() != Vec3(0) &&
       values.transmission->constant().value_or(values.transmission->at(Vec2(0.5))).x >= 0.5) {
-    stand_in_material = make_dielectric(
-        {.ior = std::max(1.0, values.ior), .thin = values.thin, .absorption = values.absorption});
+    stand_in_material = make_dielectric({.ior = std::max(1.0, values.ior),
+                                         .thin = values.thin,
+                                         .absorption = values.absorption,
+                                         .dispersion = values.dispersion});
   }
   if (!stand_in_material) {
     const double metallic = values.metallic->constant().value_or(values.metallic->at(Vec2(0.5))).z;
@@ -279,7 +205,9 @@ std::unique_ptr<Material> make(const PrincipledValues& values, std::unique_ptr<M
     phong.emission = values.emission;
     stand_in_material = make_phong(phong);
   }
-  return std::make_unique<Principled>(values, std::move(stand_in_material), kind);
+  auto material = std::make_unique<Principled>(values, std::move(stand_in_material), kind);
+  if (values.anisotropy->constant() != Vec3(0)) material->rough_axis = RoughAxis{};
+  return material;
 }
 
 PrincipledValues read_body(const TableReader& table) {
@@ -287,6 +215,38 @@ PrincipledValues read_body(const TableReader& table) {
           .roughness = table.texture("roughness"),
           .ior = table.number("ior"),
           .emission = table.texture("emission")};
+}
+
+// One error for each of `keys` that is set without `needed`.
+void need(TableReader& table, const char* needed, std::initializer_list<const char*> keys) {
+  for (const char* key : keys)
+    if (table.has(key) && !table.has(needed))
+      table.error(key, fmt::format("`{}` has no effect without `{}`", key, needed));
+}
+
+void read_directions(TableReader& table, PrincipledValues& values) {
+  need(table, "diffuse_transmission", {"diffuse_transmission_color"});
+  need(table, "anisotropy", {"anisotropy_rotation", "anisotropy_direction"});
+  values.diffuse_transmission = table.texture("diffuse_transmission");
+  values.diffuse_transmission_color = table.texture("diffuse_transmission_color");
+  values.anisotropy = table.texture("anisotropy");
+}
+
+RoughAxis read_rough_axis(const TableReader& table) {
+  RoughAxis axis{.turn = table.number("anisotropy_rotation") * M_PI / 180};
+  if (table.has("anisotropy_direction")) axis.texture = as_data(table.texture("anisotropy_direction"));
+  return axis;
+}
+
+void read_film(TableReader& table, PrincipledValues& values) {
+  need(table, "iridescence", {"iridescence_ior", "iridescence_thickness", "iridescence_thickness_map"});
+  need(table, "iridescence_thickness_map", {"iridescence_thickness_least"});
+  values.iridescence = table.texture("iridescence");
+  values.iridescence_ior = table.number("iridescence_ior");
+  values.iridescence_most = table.number("iridescence_thickness");
+  if (!table.has("iridescence_thickness_map")) return;
+  values.iridescence_least = table.number("iridescence_thickness_least");
+  values.iridescence_thickness = as_data(table.texture("iridescence_thickness_map"));
 }
 
 std::unique_ptr<Material> parse_principled(TableReader& table) {
@@ -306,9 +266,17 @@ std::unique_ptr<Material> parse_principled(TableReader& table) {
     if (table.has(key) && !table.has("transmission"))
       table.error(key, fmt::format("`{}` applies to transmitted light, so it needs `transmission`", key));
   if (table.failed()) return nullptr;
+  values.dispersion = table.number("dispersion");
+  if (values.dispersion > 0 && (values.thin || !table.has("transmission")))
+    table.error("dispersion",
+                "dispersion is that of glass with an inside: it needs `transmission`, without `thin`");
+  read_directions(table, values);
+  read_film(table, values);
+  if (table.failed()) return nullptr;
   values.coat = table.texture("coat");
   values.coat_roughness = table.texture("coat_roughness");
   std::unique_ptr<Material> material = make(values, nullptr, shader::MATERIAL_principled);
+  if (material->rough_axis) material->rough_axis = read_rough_axis(table);
   material->coat_normal_map = read_normal_map(table, "coat_normal", "coat_normal_scale");
   if (material->coat_normal_map && !table.has("coat"))
     table.error("coat_normal", "`coat_normal` needs a `coat`");

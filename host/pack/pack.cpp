@@ -102,7 +102,14 @@ void pack_bent_normals(const Material& material, records::Packer& packer) {
     record.bump_width = float(map->width);
     if (map->texture->in_space()) record.flags |= MATERIAL_BUMP_IN_SPACE;
   }
-  packer.scene.bent_normals |= material.normal_map || material.bump_map || of_coat;
+  if (const auto& axis = material.rough_axis) {
+    const uint32_t direction = axis->texture ? axis->texture->pack(packer) : NONE;
+    shader::Material& anisotropic = packer.scene.materials.back();
+    anisotropic.flags |= MATERIAL_ANISOTROPIC;
+    anisotropic.anisotropy_direction = direction;
+    anisotropic.anisotropy_turn = glm::vec2(Vec2(std::cos(axis->turn), std::sin(axis->turn)));
+  }
+  packer.scene.bent_normals |= material.normal_map || material.bump_map || of_coat || material.rough_axis;
 }
 
 records::Packer pack_records(const Scene& scene, const PackOptions& options) {
@@ -144,7 +151,10 @@ records::Packer pack_records(const Scene& scene, const PackOptions& options) {
     pack_albedos(packer.scene);
   } else {
     packer.scene.lobes.clear();
-    for (shader::Medium& medium : packer.scene.media) medium.scattering = shader::vec3(0);
+    for (shader::Medium& medium : packer.scene.media) {
+      medium.scattering = shader::vec3(0);
+      medium.spread = 0;
+    }
   }
   packer.scene.frame = pack_frame(scene, packer.scene);
   packer.scene.frame.light_bvh_numbers = light_bvh_numbers;

@@ -64,7 +64,7 @@ struct PackedScene {
   size_t texel_count = 0;        // the number of texels, written or not; 0 without images
   std::vector<uint32_t> texels;  // records.h has the layout
   std::vector<shader::Medium> media{
-      {{0, 0, 0}, 1, {0, 0, 0}, 0}};  // by number; medium 0 is around everything
+      {{0, 0, 0}, 1, {0, 0, 0}, 0, 0, 0, 0, 0}};  // by number; medium 0 is around everything
   std::vector<shader::Light> lights;
   RawVector<shader::uvec4> environment;   // as in records.h; empty if there is none, or it is not written
   std::vector<shader::Emitter> emitters;  // lights, then surfaces in the order of their primitives
@@ -75,6 +75,7 @@ struct PackedScene {
   bool interfaces = false;            // whether such a material may be a border between media of one index
   bool transparent = false;           // whether the picture has an alpha in place of its background
   bool has_conductors = false;        // whether any material mirrors by a metal's index
+  bool has_films = false;             // whether a thin film lies on any material
   std::vector<shader::vec4> albedos;  // as in records.h; empty where no lobe needs them
   shader::Frame frame{};
 };
@@ -151,8 +152,14 @@ class Packer {
 
 // Float32 records from float64 values.
 inline shader::Medium to_record(const Medium& medium) {
-  return {glm::vec3(medium.absorption), float(medium.ior), glm::vec3(medium.scattering),
-          float(medium.anisotropy)};
+  return {glm::vec3(medium.absorption),
+          float(medium.ior),
+          glm::vec3(medium.scattering),
+          float(medium.anisotropy),
+          float(medium.spread()),
+          0,
+          0,
+          0};
 }
 inline shader::vec4 to_vec4(const Vec3& v, double w = 0) {
   return shader::vec4(glm::vec3(v), float(w));

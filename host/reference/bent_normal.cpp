@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 
 #include "host/reference/emitter_sample.hpp"
 #include "host/scene/luminance.hpp"
@@ -17,9 +18,15 @@ bool usable(const Vec3& v) {
   return squared > 1e-30 && squared < 1e30;
 }
 
-Vec3 mapped(const NormalMap& map, const SurfacePoint& point, const Vec3& n) {
-  // The directions of the u and v that the map reads, perpendicular to n and to each other.
-  const bool second = point.second && map.texture->reads_second_uv();
+// The directions of the u and v that a map reads, perpendicular to n and to each other, and the map's value.
+struct TangentSpace {
+  Vec3 t, b;
+  Vec3 code;
+};
+
+// `map`: null for a constant direction along u.
+TangentSpace tangent_space(const Texture* map, const SurfacePoint& point, const Vec3& n) {
+  const bool second = point.second && map && map->reads_second_uv();
   const auto uv =
       second ? *point.second : SurfacePoint::SecondUv{point.uv, point.along_u, point.along_v, point.tangent};
   const bool own = uv.tangent.w != 0;
@@ -29,8 +36,12 @@ Vec3 mapped(const NormalMap& map, const SurfacePoint& point, const Vec3& n) {
   const double turn =
       own ? uv.tangent.w : glm::dot(glm::cross(point.normal_geometric, uv.along_u), uv.along_v);
   const Vec3 b = glm::cross(n, t) * (turn < 0 ? -1.0 : 1.0);
+  const Vec3 code = map ? 2.0 * map->at({uv.uv, uv.uv, point.position}) - 1.0 : Vec3(1, 0, 0);
+  return {t, b, code};
+}
 
-  const Vec3 code = 2.0 * map.texture->at({uv.uv, uv.uv, point.position}) - 1.0;
+Vec3 mapped(const NormalMap& map, const SurfacePoint& point, const Vec3& n) {
+  const auto [t, b, code] = tangent_space(map.texture.get(), point, n);
   const Vec3 bent = map.scale * (code.x * t + code.y * b) + code.z * n;
   return usable(bent) ? glm::normalize(bent) : n;
 }
@@ -84,15 +95,27 @@ Vec3 lifted(Vec3 n, const SurfacePoint& point, const Vec3& d) {
 
 }  // namespace
 
+namespace {
+
+Vec3 rough_axis(const RoughAxis& axis, const SurfacePoint& point) {
+  const auto [t, b, code] = tangent_space(axis.texture.get(), point, point.normal);
+  // The map's direction as a complex number, rotated.
+  const std::complex<double> turned = std::complex(code.x, code.y) * std::polar(1.0, axis.turn);
+  const Vec3 along = turned.real() * t + turned.imag() * b;
+  return usable(along) ? glm::normalize(along) : Vec3(0);
+}
+
+}  // namespace
+
 void bend_normals(const Material& material, SurfacePoint& point, const Vec3& d) {
   const Vec3 own = point.normal;
   point.coat_normal =
       material.coat_normal_map ? lifted(mapped(*material.coat_normal_map, point, own), point, d) : own;
-  if (!material.normal_map && !material.bump_map) return;
   Vec3 n = own;
   if (material.normal_map) n = mapped(*material.normal_map, point, n);
   if (material.bump_map) n = bumped(*material.bump_map, point, n);
-  point.normal = lifted(n, point, d);
+  if (material.normal_map || material.bump_map) point.normal = lifted(n, point, d);
+  if (material.rough_axis) point.rough_axis = rough_axis(*material.rough_axis, point);
 }
 
 }  // namespace eyeray::engine::reference

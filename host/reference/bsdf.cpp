@@ -1,10 +1,9 @@
 // Portsmouth, Kutz, Hill: EON: A Practical Energy-Preserving Rough Diffuse BRDF, JCGT 2025. Kelemen,
 // Szirmay-Kalos: A Microfacet Based Coupled Specular-Matte BRDF Model, Eurographics 2001. Walter, Marschner,
-// Li, Torrance: Microfacet Models for Refraction through Rough Surfaces, EGSR 2007. Heitz: Understanding the
-// Masking-Shadowing Function in Microfacet-Based BRDFs, JCGT 2014. Dupuy, Benyoub: Sampling Visible GGX
-// Normals with Spherical Caps, HPG 2023. Kulla, Conty: Revisiting Physically Based Shading at Imageworks,
-// SIGGRAPH 2017. Estevez, Kulla: Production Friendly Microfacet Sheen BRDF, SIGGRAPH 2017. Turquin: Practical
-// Multiple Scattering Compensation for Microfacet Models, 2019.
+// Li, Torrance: Microfacet Models for Refraction through Rough Surfaces, EGSR 2007. Kulla, Conty: Revisiting
+// Physically Based Shading at Imageworks, SIGGRAPH 2017. Estevez, Kulla: Production Friendly Microfacet Sheen
+// BRDF, SIGGRAPH 2017. Turquin: Practical Multiple Scattering Compensation for Microfacet Models, 2019.
+// facets.hpp has the sources of microfacets.
 #include "host/reference/bsdf.hpp"
 
 #include <algorithm>
@@ -20,8 +19,6 @@ namespace {
 using optics::Fresnel;
 using optics::GgxAlbedo;
 
-constexpr double least_width = 1e-3;
-
 double largest(const Vec3& v) {
   return std::max({v.x, v.y, v.z});
 }
@@ -29,41 +26,6 @@ double largest(const Vec3& v) {
 const Fresnel& coat_fresnel() {
   static const Fresnel fresnel = optics::schlick(Vec3(0.04), Vec3(1));
   return fresnel;
-}
-
-double width_of(double roughness) {
-  return std::max(roughness * roughness, least_width);
-}
-
-// The density of microfacets with normal h.
-double ggx(const Vec3& h, double width) {
-  const double tan_squared = (h.x * h.x + h.y * h.y) / (h.z * h.z);
-  const double cos_squared = h.z * h.z, sum = 1 + tan_squared / (width * width);
-  return 1 / (M_PI * width * width * cos_squared * cos_squared * sum * sum);
-}
-
-double lambda(const Vec3& w, double width) {
-  const double tan_squared = (w.x * w.x + w.y * w.y) / (w.z * w.z);
-  return (std::sqrt(1 + width * width * tan_squared) - 1) / 2;
-}
-
-// Samples the normal of a microfacet that is visible from o.
-Vec3 ggx_normal(const Vec3& o, double width, const Vec2& u) {
-  const Vec3 stretch(width, width, 1);
-  const Vec3 v = glm::normalize(stretch * o);
-  const double z = 1 - u.y * (1 + v.z);
-  const double radius = std::sqrt(std::max(0.0, 1 - z * z)), turn = 2 * M_PI * u.x;
-  return glm::normalize(stretch * (v + Vec3(radius * std::cos(turn), radius * std::sin(turn), z)));
-}
-
-// The light that microfacets, each a perfect mirror, reflect from i to o, and the density with which i is
-// sampled.
-BsdfValue reflection(const Vec3& o, const Vec3& i, double width) {
-  if (i.z <= 0) return {};
-  const Vec3 h = glm::normalize(o + i);
-  const double along_o = glm::dot(o, h);
-  const double masking = 1 / (1 + lambda(o, width)), both = 1 / (1 + lambda(o, width) + lambda(i, width));
-  return {Vec3(ggx(h, width) * both / (4 * o.z)), ggx(h, width) * masking * along_o / o.z / (4 * along_o)};
 }
 
 // The reflectance by more than one microfacet, as a factor of the share of light that one microfacet leaves
@@ -76,17 +38,9 @@ Vec3 once(const Fresnel& fresnel, double once, double edge) {
   return fresnel.f0 * (once - edge) + fresnel.f90 * edge;
 }
 
-// The reflectance of layer and metal together: at one angle, by one microfacet, and by more than one.
-Vec3 mirrored_at(const Bsdf& bsdf, double cosine) {
-  return bsdf.layered * bsdf.layer.at(cosine) + bsdf.metallic * bsdf.metal.at(cosine);
-}
-Vec3 mirrored_once(const Bsdf& bsdf, const GgxAlbedo& albedo) {
-  const Vec3 metal =
-      bsdf.metal.conductor ? bsdf.metal.mean * albedo.once : once(bsdf.metal, albedo.once, albedo.edge);
-  return bsdf.layered * once(bsdf.layer, albedo.once, albedo.edge) + bsdf.metallic * metal;
-}
-Vec3 mirrored_often(const Bsdf& bsdf, const GgxAlbedo& albedo) {
-  return bsdf.layered * often(bsdf.layer, albedo) + bsdf.metallic * often(bsdf.metal, albedo);
+// The share of light that one microfacet mirrors.
+Vec3 once(const Fresnel& fresnel, const GgxAlbedo& albedo) {
+  return fresnel.conductor ? fresnel.mean * albedo.once : once(fresnel, albedo.once, albedo.edge);
 }
 
 // The albedo of a layer, single and multiple reflection together: for one direction, and on average.
@@ -159,27 +113,33 @@ Vec3 rough_diffuse(const Vec3& color, double r, const Vec3& o, const Vec3& i) {
 ViewedBsdf::ViewedBsdf(const Bsdf& bsdf, const Vec3& o, bool adjoint)
     : bsdf_(bsdf),
       o_(o),
+      layer_(bsdf.film.share > 0 ? bsdf.film.seen(bsdf.layer, o.z) : bsdf.layer),
+      metal_(bsdf.film.share > 0 ? bsdf.film.seen(bsdf.metal, o.z) : bsdf.metal),
+      facets_(bsdf.roughness, bsdf.widths),
       coat_(LocalFrame::turned_to(bsdf.coat_normal)),
       coat_o_(coat_.seen(o)),
       adjoint_(adjoint) {
   const bool any_glossy = bsdf.metallic > 0 || bsdf.layer.f90 != Vec3(0);
-  const GgxAlbedo albedo = any_glossy ? tables::ggx_albedo(o.z, bsdf.roughness) : GgxAlbedo{};
+  const GgxAlbedo albedo = any_glossy ? albedo_of(o) : GgxAlbedo{};
   const Layers crossed = layers(o_);
   // A photon's viewer is not known yet.
   const double coated = adjoint_ ? 1 : crossed.coat, under = coated * (adjoint_ ? 1 : crossed.sheen);
-  const Vec3 let_in = 1.0 - layer_albedo(bsdf.layer, albedo);
+  const Vec3 let_in = 1.0 - layer_albedo(layer_, albedo);
   passed_ =
       bsdf.passed * (crossed.coat * crossed.sheen * let_in) + bsdf.crossed * (crossed.coat * crossed.sheen);
   Vec3 albedos[lobes];
   albedos[diffuse] = under * bsdf.diffuse * let_in;
-  albedos[glossy] = under * mirrored_once(bsdf, albedo);
-  albedos[multiple] = under * mirrored_often(bsdf, albedo) * (1 - albedo.once);
+  albedos[glossy] =
+      under * (bsdf.layered * once(layer_, albedo.once, albedo.edge) + bsdf.metallic * once(metal_, albedo));
+  albedos[multiple] = under * (bsdf.layered * often(layer_, albedo) + bsdf.metallic * often(metal_, albedo)) *
+                      (1 - albedo.once);
   albedos[coat] = Vec3(1 - crossed.coat);
   albedos[glass] = under * bsdf.glass;
   albedos[sheen] = Vec3(0);
   if (bsdf.sheen != Vec3(0))
     albedos[sheen] = coated * bsdf.sheen * tables::sheen_albedo(o.z, bsdf.sheen_roughness).albedo;
   albedos[thin] = under * bsdf.thin * let_in;
+  albedos[translucent] = under * bsdf.translucent * let_in;
   albedos[mirror] = bsdf.mirror * under;
   albedos[transmitted] = bsdf.transmitted * under;
   albedos[straight] = passed();
@@ -200,6 +160,7 @@ ViewedBsdf ViewedBsdf::part(bool wide) const {
     switch (lobe) {
       case diffuse:
       case sheen:
+      case translucent:
         is_wide = true;
         break;
       case glossy:
@@ -228,48 +189,51 @@ double ViewedBsdf::followed() const {
 
 BsdfValue ViewedBsdf::value(Lobe lobe, const Vec3& i) const {
   const double cosine = std::max(0.0, i.z), even = cosine / M_PI;
-  const auto albedo = [&](const Vec3& w) { return tables::ggx_albedo(w.z, bsdf_.roughness); };
+  const auto albedo = [&](const Vec3& w) { return albedo_of(w); };
   switch (lobe) {
     case diffuse: {
       if (cosine == 0) return {};
       Vec3 value = bsdf_.diffuse_roughness > 0
                        ? rough_diffuse(bsdf_.diffuse, bsdf_.diffuse_roughness, o_, i) * cosine
                        : bsdf_.diffuse * even;
-      if (bsdf_.layer.f90 != Vec3(0))
-        value *= (1.0 - layer_albedo(bsdf_.layer, albedo(o_))) *
-                 (1.0 - layer_albedo(bsdf_.layer, albedo(i))) /
-                 (1.0 - mean_layer_albedo(bsdf_.layer, albedo(o_)));
-      return {value, even};
+      return {value * through_layer(i), even};
+    }
+    case translucent: {
+      const double behind = std::max(0.0, -i.z) / M_PI;
+      return {bsdf_.translucent * through_layer({i.x, i.y, -i.z}) * behind, behind};
     }
     case glossy: {
-      BsdfValue result = reflection(o_, i, width_of(bsdf_.roughness));
-      result.value *= mirrored_at(bsdf_, std::min(1.0, glm::dot(o_, glm::normalize(o_ + i))));
-      return result;
+      const Facets::Reflection found = facets_.reflection(o_, i);
+      const double along = std::min(1.0, glm::dot(o_, glm::normalize(o_ + i)));
+      const Vec3 mirrored = bsdf_.layered * bsdf_.film.over(bsdf_.layer, along) +
+                            bsdf_.metallic * bsdf_.film.over(bsdf_.metal, along);
+      return {found.value * mirrored, found.density};
     }
     case multiple:
-      return {mirrored_often(bsdf_, albedo(o_)) * (1 - albedo(o_).once) * (1 - albedo(i).once) /
-                  (1 - albedo(o_).mean_once) * even,
+      return {(bsdf_.layered * often(layer_, albedo(o_)) + bsdf_.metallic * often(metal_, albedo(o_))) *
+                  (1 - albedo(o_).once) * (1 - albedo(i).once) / (1 - albedo(o_).mean_once) * even,
               between_facets_density(bsdf_.roughness, i.z)};
     case coat: {
       const Vec3& own_o = coat_o_;
       const Vec3 own_i = coat_.into(i);
-      BsdfValue result = reflection(own_o, own_i, width_of(bsdf_.coat_roughness));
+      const Facets::Reflection found = Facets(bsdf_.coat_roughness).reflection(own_o, own_i);
+      BsdfValue result{Vec3(found.value), found.density};
       result.value *=
           bsdf_.coat * coat_fresnel().at(std::min(1.0, glm::dot(own_o, glm::normalize(own_o + own_i))));
       if (adjoint_ && own_i.z > 0) result.value *= own_o.z / o_.z * std::abs(i.z) / own_i.z;
       return result;
     }
     case glass: {
-      const double width = width_of(bsdf_.roughness), n_o = bsdf_.ior_from, n_i = bsdf_.ior_to;
+      const double n_o = bsdf_.ior_from, n_i = bsdf_.ior_to;
       const bool through = i.z < 0;
       Vec3 h = glm::normalize(through ? n_o * o_ + n_i * i : o_ + i);
       if (h.z < 0) h = -h;
       const double along_o = glm::dot(o_, h), along_i = glm::dot(i, h);
       if (along_o <= 0 || (along_i > 0) == through) return {};
       const double mirrored = optics::dielectric_reflectance(std::min(1.0, along_o), n_o, n_i);
-      const double masking = 1 / (1 + lambda(o_, width));
-      const double both = 1 / (1 + lambda(o_, width) + lambda(i, width));
-      const double seen = ggx(h, width) * masking * along_o / o_.z;
+      const double masking = 1 / (1 + facets_.lambda(o_));
+      const double both = 1 / (1 + facets_.lambda(o_) + facets_.lambda(i));
+      const double seen = facets_.density(h) * masking * along_o / o_.z;
       const double sum = n_o * along_o + n_i * along_i;
       const double density = through ? seen * (1 - mirrored) * n_i * n_i * std::abs(along_i) / (sum * sum)
                                      : seen * mirrored / (4 * along_o);
@@ -289,18 +253,39 @@ BsdfValue ViewedBsdf::value(Lobe lobe, const Vec3& i) const {
     case thin: {
       if (i.z >= 0) return {};
       const Vec3 up(i.x, i.y, -i.z);
-      const BsdfValue blurred = reflection(o_, up, width_of(bsdf_.roughness));
+      const Facets::Reflection blurred = facets_.reflection(o_, up);
       const GgxAlbedo there = albedo(o_), here = albedo(up);
-      const Vec3 let_in = 1.0 - bsdf_.layer.at(std::min(1.0, glm::dot(o_, glm::normalize(o_ + up))));
-      const Vec3 scattered = (1.0 - often(bsdf_.layer, there)) * (1 - there.once) * (1 - here.once) /
+      const double along = std::min(1.0, glm::dot(o_, glm::normalize(o_ + up)));
+      const Vec3 let_in = 1.0 - bsdf_.film.over(bsdf_.layer, along);
+      const Vec3 scattered = (1.0 - often(layer_, there)) * (1 - there.once) * (1 - here.once) /
                              (1 - there.mean_once) * up.z / M_PI;
       return {bsdf_.thin * (let_in * blurred.value + scattered),
               std::lerp(between_facets_density(bsdf_.roughness, up.z), blurred.density,
-                        thin_mirrored(bsdf_.layer, there))};
+                        thin_mirrored(layer_, there))};
     }
     default:
       return {};
   }
+}
+
+GgxAlbedo ViewedBsdf::albedo_of(const Vec3& w) const {
+  GgxAlbedo albedo = tables::ggx_albedo(std::abs(w.z), bsdf_.roughness);
+  if (facets_.uneven() && w.z != 0) {
+    const Facets::Once once = facets_.once({w.x, w.y, std::abs(w.z)});
+    albedo.once = once.all;
+    albedo.edge = once.edge;
+  }
+  return albedo;
+}
+
+Vec3 ViewedBsdf::through_layer(const Vec3& w) const {
+  if (bsdf_.layer.f90 == Vec3(0)) return Vec3(1);
+  const GgxAlbedo there = albedo_of(o_), here = albedo_of(w);
+  const bool filmed = bsdf_.film.share > 0;
+  const Fresnel towards_light = filmed ? bsdf_.film.seen(bsdf_.layer, w.z) : layer_;
+  const Vec3 mean = filmed ? layer_.mean * there.mean_once + often(layer_, there) * (1 - there.mean_once)
+                           : mean_layer_albedo(layer_, there);
+  return (1.0 - layer_albedo(layer_, there)) * (1.0 - layer_albedo(towards_light, here)) / (1.0 - mean);
 }
 
 ViewedBsdf::Layers ViewedBsdf::layers(const Vec3& w) const {
@@ -324,7 +309,7 @@ double ViewedBsdf::through_layers(const Vec3& i) const {
 BsdfValue ViewedBsdf::at(const Vec3& i, bool before) const {
   BsdfValue all;
   const Layers left = layers_between(i);
-  for (const Lobe lobe : {diffuse, glossy, multiple, coat, glass, sheen, thin}) {
+  for (const Lobe lobe : {diffuse, glossy, multiple, coat, glass, sheen, thin, translucent}) {
     if (shares_[lobe] == 0) continue;
     const BsdfValue one = value(lobe, i);
     const bool counts = lobe == coat ? before : before == (i.z > 0);
@@ -342,19 +327,19 @@ bool ViewedBsdf::faces(const Vec3& i, bool before) const {
 Vec3 ViewedBsdf::direction(Lobe lobe, double part, const Vec2& u) const {
   if (lobe == diffuse) return cosine_direction(u);
   if (lobe == sheen) return uniform_direction(u);
-  const double mirrored =
-      lobe == thin ? thin_mirrored(bsdf_.layer, tables::ggx_albedo(o_.z, bsdf_.roughness)) : 0;
+  if (lobe == translucent) return cosine_direction(u) * Vec3(1, 1, -1);
+  const double mirrored = lobe == thin ? thin_mirrored(layer_, albedo_of(o_)) : 0;
   if (lobe == multiple || (lobe == thin && part >= mirrored)) {
     const double rest = (part - mirrored) / (1 - mirrored);
     const Vec3 i = rest < uniform_share(bsdf_.roughness) ? uniform_direction(u) : cosine_direction(u);
     return {i.x, i.y, lobe == thin ? -i.z : i.z};
   }
   if (lobe == coat) {
-    const Vec3 h = ggx_normal(coat_o_, width_of(bsdf_.coat_roughness), u);
+    const Vec3 h = Facets(bsdf_.coat_roughness).normal(coat_o_, u);
     const Vec3 i = 2 * std::min(1.0, glm::dot(coat_o_, h)) * h - coat_o_;
     return i.z > 0 ? coat_.out_of(i) : Vec3(0);
   }
-  const Vec3 h = ggx_normal(o_, width_of(bsdf_.roughness), u);
+  const Vec3 h = facets_.normal(o_, u);
   const double along = std::min(1.0, glm::dot(o_, h));
   // Light that a microfacet scatters to the wrong side is lost.
   if (lobe != glass) {

@@ -2,6 +2,8 @@
 // vectors in the surface's own frame, whose z is the normal on the viewer's side.
 #pragma once
 
+#include "host/optics/ggx_albedo.hpp"
+#include "host/reference/facets.hpp"
 #include "host/reference/local_frame.hpp"
 #include "host/scene/bsdf.hpp"
 
@@ -56,7 +58,20 @@ class ViewedBsdf {
   ViewedBsdf(const Bsdf& bsdf, const Vec3& o, bool adjoint);
 
   // The lobes, in the order in which they are chosen.
-  enum Lobe { diffuse, glossy, multiple, coat, glass, sheen, thin, mirror, transmitted, straight, lobes };
+  enum Lobe {
+    diffuse,
+    glossy,
+    multiple,
+    coat,
+    glass,
+    sheen,
+    thin,
+    translucent,
+    mirror,
+    transmitted,
+    straight,
+    lobes
+  };
 
   bool rough() const {
     double sum = 0;
@@ -72,8 +87,16 @@ class ViewedBsdf {
   Layers layers_between(const Vec3& i) const;
   Vec3 direction(Lobe lobe, double part, const Vec2& u) const;
 
+  // The albedo of the body's microfacets for light from w, on either side.
+  optics::GgxAlbedo albedo_of(const Vec3& w) const;
+  // The layer's albedo for light on its way into the body in direction w and out to the viewer, over that of
+  // the body itself.
+  Vec3 through_layer(const Vec3& w) const;
+
   const Bsdf& bsdf_;
   Vec3 o_;
+  optics::Fresnel layer_, metal_;  // those of bsdf_, as its film makes them towards the viewer
+  Facets facets_;
   LocalFrame coat_;
   Vec3 coat_o_;  // o_ in the frame coat_
   bool adjoint_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/reference/emitter_sample.hpp"
+#include "host/scene/shape.hpp"
 
 namespace eyeray::engine::reference {
 
@@ -14,6 +15,12 @@ class LocalFrame {
     const auto [s, t] = tangents(n_);
     s_ = s;
     t_ = t;
+  }
+
+  // The frame of a surface that a BSDF scatters in: x is the direction along which its microfacets are wider.
+  static LocalFrame of(const SurfacePoint& point) {
+    if (point.rough_axis == Vec3(0)) return LocalFrame(point.normal);
+    return {point.rough_axis, glm::cross(point.normal, point.rough_axis), point.normal};
   }
 
   // The frame in which n is given, rotated the shortest way until its z is n: by two half turns.

@@ -59,6 +59,27 @@ Flight PathSample::fly(const Ray& ray, const MediaStack& media, const std::optio
   return {end, false, left / glm::dot(shares, left)};
 }
 
+// Where a path hits the boundary of a medium that disperses light, it goes on with the light of one channel,
+// chosen in proportion to the light left in each.
+Vec3 PathSample::dispersed(const std::optional<Hit>& hit, const Flight& flight,
+                           const MediaStack& media) const {
+  if (!hit || flight.scattered) return Vec3(1);
+  const Material& material = *scene_.materials[size_t(hit->material)];
+  if (!fills(material, scene_.render.integrator)) return Vec3(1);
+  MediaStack below = media;
+  if (media.top() >= 0) below.remove(media.top());
+  const bool disperses = material.medium()->dispersion > 0 || rays_.medium(media).dispersion > 0 ||
+                         rays_.medium(below).dispersion > 0;
+  const Vec3 light = throughput_ * flight.weight;
+  const double all = light.x + light.y + light.z;
+  if (!disperses || all == 0) return Vec3(1);
+  const double random = pair_of(channel_pair).x * all;
+  const int channel = random < light.x ? 0 : random < light.x + light.y ? 1 : 2;
+  Vec3 factor(0);
+  factor[channel] = all / light[channel];
+  return factor;
+}
+
 std::optional<Ray> PathSample::scatter(const Interaction& at, const LocalFrame& frame, const ViewedBsdf& bsdf,
                                        MediaStack& media) {
   if (bsdf.black()) return std::nullopt;
@@ -171,14 +192,15 @@ PixelSample PathSample::follow(Ray ray, MediaStack media, Meet meet) {
     const auto hit = rays_.trace(ray);
     const Flight flight = fly(ray, media, hit);
     const Vec3 before = throughput_;
-    throughput_ *= flight.weight;
+    const Vec3 weight = flight.weight * dispersed(hit, flight, media);
+    throughput_ *= weight;
     std::optional<Ray> next;
     if (flight.scattered) {
       next = hit_medium(ray, flight, media, color);
     } else if (hit) {
-      const Interaction at = rays_.interaction(ray, *hit, media, before, flight.weight);
+      const Interaction at = rays_.interaction(ray, *hit, media, before, weight);
       rays_.decided(Event::hit, at.primitive + 1);
-      const LocalFrame frame(at.surface.normal);
+      const LocalFrame frame = LocalFrame::of(at.surface);
       if (at.has_medium && at.scattering.transmitted == Vec3(0) && depth_ <= scene_.render.max_depth)
         ++rays_.total_reflections;
       next = (this->*meet)(at, frame, ViewedBsdf(at.bsdf, frame.seen(-at.d)), media, color);
@@ -208,7 +230,8 @@ AuxiliarySample PathSample::auxiliary(Ray ray, MediaStack media) {
     const auto hit = rays_.trace(ray);
     const Flight flight = fly(ray, media, hit);
     const Vec3 before = throughput_;
-    throughput_ *= flight.weight;
+    const Vec3 weight = flight.weight * dispersed(hit, flight, media);
+    throughput_ *= weight;
     if (flight.scattered) {
       const Medium medium = rays_.medium(media);
       Vec3 albedo(0);
@@ -218,8 +241,8 @@ AuxiliarySample PathSample::auxiliary(Ray ray, MediaStack media) {
       return {albedo, -ray.d};
     }
     if (!hit) return {Vec3(1), Vec3(0)};
-    const Interaction at = rays_.interaction(ray, *hit, media, before, flight.weight);
-    const LocalFrame frame(at.surface.normal);
+    const Interaction at = rays_.interaction(ray, *hit, media, before, weight);
+    const LocalFrame frame = LocalFrame::of(at.surface);
     const ViewedBsdf bsdf(at.bsdf, frame.seen(-at.d));
     const bool shines = at.scattering.emitted != Vec3(0);
     const AuxiliarySample found{shines ? Vec3(1) : bsdf.albedo(), at.surface.normal};

@@ -17,7 +17,7 @@ double power_heuristic(double p, double q) {
 }
 
 LitPoint lit_point(const Interaction& at) {
-  const bool all_around = at.bsdf.glass + at.bsdf.thin != Vec3(0) || at.in_medium();
+  const bool all_around = at.bsdf.glass + at.bsdf.thin + at.bsdf.translucent != Vec3(0) || at.in_medium();
   return {at.surface.position, all_around ? std::nullopt : std::optional(at.surface.normal)};
 }
 

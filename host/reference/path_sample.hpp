@@ -22,6 +22,7 @@ namespace eyeray::engine::reference {
 // grow by `pairs_a_vertex`.
 inline constexpr uint32_t scatter_pair = 4, direction_pair = 5, light_pair = 6, emitter_pair = 7,
                           pairs_a_vertex = 4;
+inline constexpr uint32_t channel_pair = 0xffff;
 inline constexpr uint32_t first_flight_pair =
     0x10000;  // at the first vertex; it grows by 1 from vertex to vertex
 
@@ -91,6 +92,8 @@ class PathSample {
   // The number of surfaces that the path has passed.
   uint32_t surfaces() const { return uint32_t(depth_ + all_panes_); }
   Flight fly(const Ray& ray, const MediaStack& media, const std::optional<Hit>& hit) const;
+  // The factor of the path's light at its hit.
+  Vec3 dispersed(const std::optional<Hit>& hit, const Flight& flight, const MediaStack& media) const;
   Interaction scattered_at(const Ray& ray, double t) const;
   // Adds the light at the path's hit to `color`, and continues from there: returns the next ray, or none.
   using Meet = std::optional<Ray> (PathSample::*)(const Interaction& at, const LocalFrame& frame,

@@ -161,7 +161,7 @@ Vec3 SampleRays::through_panes(Ray ray, double t_end, bool has_extent, MediaStac
         media.push(hit->material);
     }
     const double cosine = std::clamp(-glm::dot(ray.d, surface.normal), 0.0, 1.0);
-    const LocalFrame frame(surface.normal);
+    const LocalFrame frame = LocalFrame::of(surface);
     const ScatteringContext context{context_on(surface), cosine,        before.ior,
                                     medium(media).ior,   surface.color, frame.into(surface.coat_normal)};
     left *= ViewedBsdf(bsdf(material, context, material.scattering(context)), frame.seen(-ray.d)).passed();
@@ -247,11 +247,12 @@ Interaction SampleRays::interaction(const Ray& ray, const Hit& hit, const MediaS
     }
   }
   at.dimming = dimming;
-  at.ior_before = before.ior;
-  at.ior_beyond = medium(at.media_beyond).ior;
+  const Vec3 light = walks_at_random(scene_.render.integrator) ? throughput * dimming : Vec3(1);
+  at.ior_before = before.index(light);
+  at.ior_beyond = medium(at.media_beyond).index(light);
   const ScatteringContext context{
       context_on(at.surface), at.cos_view,      at.ior_before,
-      at.ior_beyond,          at.surface.color, LocalFrame(at.surface.normal).into(at.surface.coat_normal)};
+      at.ior_beyond,          at.surface.color, LocalFrame::of(at.surface).into(at.surface.coat_normal)};
   at.scattering = scattering(ray, hit, at.surface, context);
   if (!front && material.emits_in_front) at.scattering.emitted = Vec3(0);
   if (walks_at_random(scene_.render.integrator)) at.bsdf = bsdf(material, context, at.scattering);

@@ -96,27 +96,30 @@ PhotonWay PathSample::photon(const PhotonSources& sources, std::vector<Photon>& 
   vertex_ = ray.o;
   if (source.flux == Vec3(0)) return {.trail = rays_.sample(Vec3(0)).trail};
   // Radiance is index² times the value that paths carry; flux is as well.
-  const auto squared_index = [&](const MediaStack& in) { return std::pow(rays_.medium(in).ior, 2); };
-  const Vec3 sent = source.flux * squared_index(media);
+  const auto squared_index = [&](const MediaStack& in, const Vec3& light) {
+    return std::pow(rays_.medium(in).index(light), 2);
+  };
+  const Vec3 sent = source.flux * squared_index(media, Vec3(1));
   PhotonWay way{.sent = sent};
   while (depth_ <= scene_.render.max_depth) {
     ray = with_key(ray, 0);
     const auto hit = rays_.trace(ray);
     const Flight flight = fly(ray, media, hit);
     const Vec3 before = throughput_;
-    throughput_ *= flight.weight;
+    const Vec3 weight = flight.weight * dispersed(hit, flight, media);
+    throughput_ *= weight;
     std::optional<Ray> next;
     if (flight.scattered) {
       rays_.decided(Event::hit, in_medium);
       next = scatter_in(rays_.medium(media), scattered_at(ray, flight.t));
     } else if (hit) {
-      const Interaction at = rays_.interaction(ray, *hit, media, before, flight.weight);
+      const Interaction at = rays_.interaction(ray, *hit, media, before, weight);
       rays_.decided(Event::hit, at.primitive + 1);
-      const LocalFrame frame(at.surface.normal);
+      const LocalFrame frame = LocalFrame::of(at.surface);
       const ViewedBsdf bsdf(at.bsdf, frame.seen(-at.d));
       const Vec3 &bent = at.surface.normal, &n = at.surface.normal_geometric;
       if (depth_ > 0 && !bsdf.part(true).black()) {
-        const Vec3 flux = sent * throughput_ / squared_index(media);
+        const Vec3 flux = sent * throughput_ / squared_index(media, throughput_);
         stopped.push_back({at.surface.position, -at.d, n, flux, id_.index, depth_});
         way.add(at.surface.position, -at.d, flux);
       }

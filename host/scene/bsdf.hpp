@@ -2,6 +2,7 @@
 // definitions are in reference/bsdf.hpp, and in shaders/bsdf.
 #pragma once
 
+#include "host/optics/film.hpp"
 #include "host/optics/fresnel.hpp"
 
 namespace eyeray::engine {
@@ -12,14 +13,17 @@ struct Bsdf {
   optics::Fresnel layer = {};  // crossed by light on its way to the diffuse lobe and back
   double layered = 1;          // the share of the surface that mirrors by `layer`
   optics::Fresnel metal = {};
-  double metallic = 0;   // the share of the surface that mirrors by `metal`
-  double roughness = 1;  // roughness of `layer`, `metal`, `glass` and `thin`
-  double coat = 0;       // the share of the surface that is coated
+  double metallic = 0;     // the share of the surface that mirrors by `metal`
+  double roughness = 1;    // roughness of `layer`, `metal`, `glass` and `thin`
+  Vec2 widths{0};          // of their microfacets' slopes along x and along y; 0: by `roughness`
+  optics::Film film = {};  // over `layer` and `metal`
+  double coat = 0;         // the share of the surface that is coated
   double coat_roughness = 1;
   Vec3 coat_normal{0, 0, 1};  // in the surface's own frame
   Vec3 sheen{0};              // colour of the fibres, above all other layers but the coat
   double sheen_roughness = 1;
   Vec3 thin{0};         // throughput of a rough pane, under `layer`
+  Vec3 translucent{0};  // albedo for light that comes through the body evenly, under `layer`
   Vec3 glass{0};        // throughput of rough glass, before Fresnel
   Vec3 glass_color{1};  // further factor of light that rough glass refracts
   double ior_from = 1;  // index of the medium on the viewer's side of rough glass

@@ -1,5 +1,6 @@
 #include "host/scene/interfaces.hpp"
 
+#include <algorithm>
 #include <map>
 
 #include "host/scene/integrator.hpp"
@@ -13,6 +14,11 @@ bool any_interface(const Scene& scene) {
     bool any_scatters = false;
   };
   std::map<double, Media> by_index;
+  // With dispersion, media of one index have different ones at other colours.
+  if (std::ranges::any_of(scene.materials, [](const auto& material) {
+        return material->medium() && material->medium()->dispersion > 0;
+      }))
+    return false;
   for (const auto& material : scene.materials) {
     if (!fills(*material, scene.render.integrator)) continue;
     const Medium medium = *material->medium();

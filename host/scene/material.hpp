@@ -24,6 +24,16 @@ struct Medium {
   Vec3 absorption{0.0};  // per unit of length, like scattering
   Vec3 scattering{0.0};
   double anisotropy = 0;  // g, within ±most_anisotropy
+  double dispersion = 0;  // 20 / Abbe number; 0: all colours have one index
+
+  // The index at blue (the F line) less that at the middle of the spectrum (the d line), and that less the
+  // index at red (the C line): (ior − 1) / (2 V), as in Khronos: KHR_materials_dispersion.
+  double spread() const { return (ior - 1) * dispersion / 40; }
+  // The index for light of these colours: that of red light for red alone, that of blue light for blue alone.
+  double index(const Vec3& light) const {
+    if (light.x > 0 && light.y == 0 && light.z == 0) return ior - spread();
+    return light.x == 0 && light.y == 0 && light.z > 0 ? ior + spread() : ior;
+  }
 };
 constexpr double most_anisotropy = 0.99;
 
@@ -70,6 +80,13 @@ struct NormalMap {
   double scale = 1;
 };
 
+// The direction along which microfacets are wider than across it: that of u, or of a map as in glTF, whose
+// red is along u and whose green along v. It is rotated by `turn` radians, from u to v.
+struct RoughAxis {
+  TexturePtr texture = nullptr;  // null: along u
+  double turn = 0;
+};
+
 // A height field, in which white has the height `height` in the world. Heights are compared at a distance of
 // `width` to both sides: in uv, or in the world for a texture in_space().
 struct BumpMap {
@@ -107,6 +124,7 @@ class Material {
   std::optional<AlphaMask> mask;  // never set if there is a medium
   std::optional<NormalMap> normal_map;
   std::optional<BumpMap> bump_map;           // applied after normal_map
+  std::optional<RoughAxis> rough_axis;       // of a material whose BSDF sets `widths`
   std::optional<NormalMap> coat_normal_map;  // for the coat, which the other maps do not bend
 };
 

@@ -26,7 +26,7 @@ Lobes lobes_of(const Material& material) {
     const auto add = [&](bool is_there, double roughness) {
       if (is_there) (roughness >= 0.32 ? lobes.wide : lobes.sharp) = true;
     };
-    add(bsdf.diffuse + bsdf.sheen != Vec3(0), 1);
+    add(bsdf.diffuse + bsdf.translucent + bsdf.sheen != Vec3(0), 1);
     add(bsdf.metallic * bsdf.metal.f90 + bsdf.layer.f90 + bsdf.glass + bsdf.thin != Vec3(0), bsdf.roughness);
     add(bsdf.coat > 0, bsdf.coat_roughness);
     add(bsdf.mirror + bsdf.transmitted + bsdf.passed != Vec3(0), 0);

@@ -61,6 +61,8 @@ struct SurfacePoint {
   std::optional<SecondUv> second = {};
   Vec3 color{1.0};        // color of a mesh's vertices
   Vec3 coat_normal{0.0};  // unit normal of a clear coat, like `normal`, once the material has set it
+  Vec3 rough_axis{
+      0.0};  // unit, along the surface (RoughAxis), once the material has set it; 0 if there is none
   // The distance by which a triangle with normals at its corners lifts its scattered rays along its
   // interpolated normal, in front and behind (docs/numerics.md); −1 for any other surface.
   Vec2 lift{-1.0};

@@ -2,6 +2,7 @@
 // disagree.
 #ifndef BSDF_GLSL
 #define BSDF_GLSL
+#include "bsdf/facets.glsl"
 #include "bsdf/layers.glsl"
 #include "math/sampling.glsl"
 
@@ -14,6 +15,13 @@ Directions directions(Bsdf bsdf, vec3 o, vec3 i) {
   at.half_way = half_way_of(o, i);
 #if HAS_GLOSSY
   at.albedo = ggx_albedo(abs(i.z), bsdf.roughness);
+#if HAS_ANISOTROPY
+  if (bsdf.widths.x > 0.0f) at.albedo = facets_albedo(vec3(i.x, i.y, abs(i.z)), bsdf.widths, bsdf.roughness);
+#endif
+#if HAS_FILM
+  at.layer = bsdf.layer;
+  if (bsdf.film.share > 0.0f) at.layer = filmed(bsdf.film, bsdf.film.layer_f0, bsdf.film.layer_f90, bsdf.layer.mean, abs(i.z));
+#endif
 #endif
   return at;
 }

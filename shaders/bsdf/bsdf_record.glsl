@@ -1,6 +1,9 @@
 // The BSDF of a surface at a point as the sum of its lobes, filled in by its material (materials/material.glsl).
 #ifndef BSDF_RECORD_GLSL
 #define BSDF_RECORD_GLSL
+#if HAS_FILM
+#include "bsdf/film.glsl"
+#endif
 #include "bsdf/ggx_albedo.glsl"
 
 SHADER_BEGIN
@@ -62,6 +65,15 @@ struct Bsdf {
 #if HAS_THIN
   vec3 thin;               // throughput of a rough pane, under the layer
 #endif
+#if HAS_TRANSLUCENT
+  vec3 translucent;        // albedo of the body for light that it lets through evenly, under the layer
+#endif
+#if HAS_ANISOTROPY
+  vec2 widths;             // of the microfacets' slopes along x and along y; 0: by roughness
+#endif
+#if HAS_FILM
+  Film film;               // over layer and metal, which are as it makes them towards the viewer
+#endif
 #if HAS_ADJOINT
   bool adjoint;            // true for a photon, which comes from `o`
 #endif
@@ -76,6 +88,9 @@ bool transmits(Bsdf bsdf) {
 #if HAS_THIN
   all = all + max_component(bsdf.thin);
 #endif
+#if HAS_TRANSLUCENT
+  all = all + max_component(bsdf.translucent);
+#endif
   return all > 0.0f;
 }
 
@@ -87,6 +102,9 @@ struct Directions {
   vec3 half_way;
 #if HAS_GLOSSY
   vec4 albedo;  // ggx_albedo towards the light, on either side
+#if HAS_FILM
+  Fresnel layer;  // the BSDF's, towards the light
+#endif
 #endif
 };
 
@@ -94,6 +112,50 @@ vec3 half_way_of(vec3 o, vec3 i) {
   vec3 sum = o + i;
   return sum / sqrt(maximum(dot3(sum, sum), 1.0e-30f));
 }
+
+#if HAS_GLOSSY
+// The share of light that a microfacet of the layer mirrors, and one of the metal.
+vec3 layer_share(Bsdf bsdf, float cosine) {
+#if HAS_FILM
+  if (bsdf.film.share > 0.0f) return filmed_share(bsdf.film, film_light(bsdf.film, cosine), bsdf.film.layer_f0, bsdf.film.layer_f90, cosine);
+#endif
+  return mirrored_share(bsdf.layer, cosine);
+}
+vec3 metal_share(Bsdf bsdf, float cosine) {
+#if HAS_FILM
+  if (bsdf.film.share > 0.0f) return filmed_share(bsdf.film, film_light(bsdf.film, cosine), bsdf.film.metal_f0, bsdf.film.metal_f90, cosine);
+#endif
+  return mirrored_share(bsdf.metal, cosine);
+}
+
+// The albedo of a body whose light goes through the layer in and out again.
+vec3 under_layer(Bsdf bsdf, Directions at, vec3 albedo) {
+  vec3 one = vec3(1.0f, 1.0f, 1.0f);
+  Fresnel towards_light = bsdf.layer;
+  vec3 mean = mean_layer_albedo(bsdf.layer, bsdf.albedo);
+#if HAS_FILM
+  if (bsdf.film.share > 0.0f) {
+    towards_light = at.layer;
+    mean = bsdf.layer.mean * (1.0f - bsdf.albedo.z) + mirrored_often(bsdf.layer, bsdf.albedo) * bsdf.albedo.z;
+  }
+#endif
+  return albedo * (one - layer_albedo(bsdf.layer, bsdf.albedo)) * (one - layer_albedo(towards_light, at.albedo)) / (one - mean);
+}
+
+#if HAS_FILM
+// Lays the film over the layer and the metal. `cosine`: the viewer's.
+Bsdf under_film(Bsdf bsdf, Film film, float cosine) {
+  film.layer_f0 = bsdf.layer.f0;
+  film.metal_f0 = bsdf.metal.f0;
+  film.layer_f90 = bsdf.layer.f90;
+  film.metal_f90 = bsdf.metal.f90;
+  bsdf.film = film;
+  bsdf.layer = filmed(film, film.layer_f0, film.layer_f90, filmed_mean(film, film.layer_f0, film.layer_f90), cosine);
+  bsdf.metal = filmed(film, film.metal_f0, film.metal_f90, filmed_mean(film, film.metal_f0, film.metal_f90), cosine);
+  return bsdf;
+}
+#endif
+#endif
 
 // A lobe's BSDF · |cosine| of the light, and the density of its direction by solid angle.
 struct LobeValue {
@@ -148,6 +210,15 @@ Bsdf black_bsdf() {
 #endif
 #if HAS_THIN
   bsdf.thin = black;
+#endif
+#if HAS_TRANSLUCENT
+  bsdf.translucent = black;
+#endif
+#if HAS_ANISOTROPY
+  bsdf.widths = vec2(0.0f, 0.0f);
+#endif
+#if HAS_FILM
+  bsdf.film = no_film();
 #endif
 #if HAS_ADJOINT
   bsdf.adjoint = false;

@@ -43,9 +43,7 @@ LobeValue diffuse_value(Bsdf bsdf, Directions at) {
   albedo = r > 0.0f ? bsdf.diffuse * (a * (1.0f + r * (s / t))) + often * rest : bsdf.diffuse;
 #endif
 #if HAS_GLOSSY
-  vec3 one = vec3(1.0f, 1.0f, 1.0f);
-  albedo = albedo * (one - layer_albedo(bsdf.layer, bsdf.albedo)) * (one - layer_albedo(bsdf.layer, at.albedo)) /
-           (one - mean_layer_albedo(bsdf.layer, bsdf.albedo));
+  albedo = under_layer(bsdf, at, albedo);
 #endif
   LobeValue result;
   result.density = cosine / PI;

@@ -1,8 +1,7 @@
 // A rough mirror, a layer or metal or both: the light that one microfacet reflects.
 #ifndef GLOSSY_GLSL
 #define GLOSSY_GLSL
-#include "bsdf/bsdf_record.glsl"
-#include "bsdf/ggx.glsl"
+#include "bsdf/facets.glsl"
 
 SHADER_BEGIN
 
@@ -14,16 +13,16 @@ vec3 glossy_albedo(Bsdf bsdf) {
 LobeValue glossy_value(Bsdf bsdf, Directions at) {
   LobeValue result = no_value();
   if (at.i.z > 0.0f) {
-    vec2 reflection = ggx_reflection(at.o, at.i, at.half_way, ggx_width(bsdf.roughness));
+    vec2 reflection = ggx_reflection(at.o, at.i, at.half_way, facets_of(bsdf));
     float cosine = dot3(at.o, at.half_way);
-    vec3 share = mirrored_share(bsdf.layer, cosine) * bsdf.layered + mirrored_share(bsdf.metal, cosine) * bsdf.metallic;
+    vec3 share = layer_share(bsdf, cosine) * bsdf.layered + metal_share(bsdf, cosine) * bsdf.metallic;
     result.value = share * reflection.x;
     result.density = reflection.y;
   }
   return result;
 }
 
-vec3 glossy_direction(Bsdf bsdf, vec3 o, vec2 u, float part) { return ggx_direction(o, ggx_width(bsdf.roughness), u); }
+vec3 glossy_direction(Bsdf bsdf, vec3 o, vec2 u, float part) { return ggx_direction(o, facets_of(bsdf), u); }
 
 SHADER_END
 #endif

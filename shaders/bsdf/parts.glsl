@@ -14,6 +14,7 @@ SHADER_BEGIN
 #define IS_WIDE_rough_glass(bsdf) (bsdf.roughness >= LEAST_WIDE)
 #define IS_WIDE_sheen(bsdf) true
 #define IS_WIDE_thin(bsdf) (bsdf.roughness >= LEAST_WIDE)
+#define IS_WIDE_translucent(bsdf) true
 
 // The probability of following each lobe of the part, out of all lobes: the sum is less than 1.
 LobeShares part_of(Bsdf bsdf, bool wide) {

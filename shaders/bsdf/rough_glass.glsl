@@ -3,15 +3,14 @@
 // both lobes (Turquin, "Practical Multiple Scattering Compensation for Microfacet Models", 2019), by the view direction; a photon's is i.
 #ifndef ROUGH_GLASS_GLSL
 #define ROUGH_GLASS_GLSL
-#include "bsdf/bsdf_record.glsl"
-#include "bsdf/ggx.glsl"
+#include "bsdf/facets.glsl"
 
 SHADER_BEGIN
 
 vec3 rough_glass_albedo(Bsdf bsdf) { return bsdf.glass; }
 
 LobeValue rough_glass_value(Bsdf bsdf, Directions at) {
-  float width = ggx_width(bsdf.roughness);
+  FACETS width = facets_of(bsdf);
   bool through = at.i.z < 0.0f;
   float eta = bsdf.ior_to / bsdf.ior_from;
   // The microfacet that would send i to o.
@@ -41,7 +40,7 @@ LobeValue rough_glass_value(Bsdf bsdf, Directions at) {
 }
 
 vec3 rough_glass_direction(Bsdf bsdf, vec3 o, vec2 u, float part) {
-  vec3 h = ggx_normal(o, ggx_width(bsdf.roughness), u);
+  vec3 h = ggx_normal(o, facets_of(bsdf), u);
   float along = minimum(dot3(o, h), 1.0f);
   float mirrored = fresnel_reflectance(along, bsdf.ior_from, bsdf.ior_to);
   float ratio = bsdf.ior_from / bsdf.ior_to;

@@ -11,5 +11,6 @@
   X(coat, 3u, 0u)         \
   X(rough_glass, 4u, 2u)  \
   X(sheen, 5u, 1u)        \
-  X(thin, 6u, 2u)
+  X(thin, 6u, 2u)         \
+  X(translucent, 7u, 2u)
 #endif

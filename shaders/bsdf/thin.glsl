@@ -2,8 +2,7 @@
 // (KHR_materials_transmission). Light that its microfacets reflect at each other goes through evenly, but for the mirrored share.
 #ifndef THIN_GLSL
 #define THIN_GLSL
-#include "bsdf/bsdf_record.glsl"
-#include "bsdf/ggx.glsl"
+#include "bsdf/facets.glsl"
 #include "bsdf/multiple.glsl"
 
 SHADER_BEGIN
@@ -25,10 +24,10 @@ LobeValue thin_value(Bsdf bsdf, Directions at) {
     vec3 mirrored = vec3(at.i.x, at.i.y, -at.i.z);
     vec3 h = at.o + mirrored;
     h = h / sqrt(maximum(dot3(h, h), 1.0e-30f));
-    vec2 reflection = ggx_reflection(at.o, mirrored, h, ggx_width(bsdf.roughness));
+    vec2 reflection = ggx_reflection(at.o, mirrored, h, facets_of(bsdf));
     float even = -at.i.z / PI;
     float rest = bsdf.albedo.x * at.albedo.x / maximum(bsdf.albedo.z, 1.0e-20f);
-    result.value = bsdf.thin * ((one - mirrored_share(bsdf.layer, dot3(at.o, h))) * reflection.x +
+    result.value = bsdf.thin * ((one - layer_share(bsdf, dot3(at.o, h))) * reflection.x +
                                 (one - mirrored_often(bsdf.layer, bsdf.albedo)) * (rest * even));
     float share = thin_mirrored(bsdf);
     result.density = share * reflection.y + (1.0f - share) * between_facets_density(bsdf.roughness, -at.i.z);
@@ -39,7 +38,7 @@ LobeValue thin_value(Bsdf bsdf, Directions at) {
 vec3 thin_direction(Bsdf bsdf, vec3 o, vec2 u, float part) {
   float share = thin_mirrored(bsdf);
   vec3 i = between_facets_direction(bsdf.roughness, u, (part - share) / maximum(1.0f - share, 1.0e-20f));
-  if (part < share) i = mirror3(o, ggx_normal(o, ggx_width(bsdf.roughness), u));
+  if (part < share) i = mirror3(o, ggx_normal(o, facets_of(bsdf), u));
   return i.z > 0.0f ? vec3(i.x, i.y, -i.z) : vec3(0.0f, 0.0f, 0.0f);
 }
 

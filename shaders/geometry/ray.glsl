@@ -61,6 +61,9 @@ struct Surface {
 #if HAS_BENT_COAT
   vec3 coat_normal;       // … of a clear coat, which only its own normal map bends
 #endif
+#if HAS_ANISOTROPY
+  vec3 rough_axis;        // unit, perpendicular to `normal`: along it microfacets are wider; 0 where no direction is
+#endif
 #if HAS_SMOOTH
   vec3 normal_side;       // unit, see side_normal; not bent by the material
   vec2 lift;              // lift of a smooth triangle, see geometry/lift.glsl; −1 of any other surface
@@ -107,6 +110,9 @@ Surface no_surface() {
   surface.normal = surface.p;
 #if HAS_BENT_COAT
   surface.coat_normal = surface.p;
+#endif
+#if HAS_ANISOTROPY
+  surface.rough_axis = surface.p;
 #endif
 #if HAS_SMOOTH
   surface.normal_side = surface.p;

@@ -29,7 +29,7 @@ AuxiliaryResult auxiliary_of(Frame frame, Ray camera_ray, uint pixel, uint index
     Ray ray = path_ray(frame, path);
     Hit hit = trace(ray, result.flags);
     Flight flight = flight_of(frame, path, hit);
-    path.throughput = path.throughput * flight.weight;
+    path = after_flight(frame, path, hit, flight);
     going = hit.slot != NONE || flight.scattered;
     if (!going) {
       result.albedo = white;

@@ -91,12 +91,21 @@ Interaction scattered_at(Path path, Flight flight) {
 }
 #endif
 
+// The path at the end of its flight.
+Path after_flight(Frame frame, Path path, Hit hit, Flight flight) {
+  path.throughput = path.throughput * flight.weight;
+#if HAS_DISPERSION
+  if (hit.slot != NONE && !flight.scattered) path = dispersed(frame, path, load_material(material_of(primitive_at(hit))).medium);
+#endif
+  return path;
+}
+
 // The interaction at the end of the flight.
 Interaction first_interaction(Path path, Ray ray, Hit hit, Flight flight, INOUT(uint) flags) {
 #if HAS_SCATTERING
   if (flight.scattered) return scattered_at(path, flight);
 #endif
-  return interaction_at(ray, hit, path.media, flags);
+  return interaction_at(ray, hit, path, flags);
 }
 
 // For kernels that trace shadow rays alone: the vertex that the path has behind `hit`, if it is `there`; on_surface: whether there is one.
@@ -106,6 +115,9 @@ Interaction vertex_at(Frame frame, Path path, Ray ray, Hit hit, bool there, OUT(
   on_surface = there && (hit.slot != NONE || flight.scattered);
   Hit some = hit;
   some.slot = there && hit.slot != NONE ? hit.slot : 0u;
+#if HAS_DISPERSION
+  path = after_flight(frame, path, some, flight);
+#endif
   return first_interaction(path, ray, some, flight, flags);
 }
 

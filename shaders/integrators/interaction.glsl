@@ -3,6 +3,7 @@
 #define INTERACTION_GLSL
 #include "geometry/own_color.glsl"
 #include "geometry/surface.glsl"
+#include "integrators/dispersion.glsl"
 #include "materials/material.glsl"
 #include "materials/media.glsl"
 
@@ -25,6 +26,18 @@ struct Interaction {
   float anisotropy;            // … in this way (materials/phase.glsl)
 #endif
 };
+
+// A surface's own frame, whose z is the normal and whose x is the direction along which microfacets are wider.
+LocalFrame surface_frame(Surface seen) {
+  LocalFrame frame = frame_around(seen.normal);
+#if HAS_ANISOTROPY
+  if (dot3(seen.rough_axis, seen.rough_axis) > 0.0f) {
+    frame.s = seen.rough_axis;
+    frame.t = cross3(seen.normal, frame.s);
+  }
+#endif
+  return frame;
+}
 
 bool in_medium(Interaction at) {
 #if HAS_SCATTERING
@@ -63,7 +76,7 @@ Interaction surface_interaction(Ray ray, Hit hit, uint media, INOUT(uint) flags)
 #if HAS_BENT_COAT
   vec3 coat = at.seen.coat_normal;
   bool bent = coat.x != at.seen.normal.x || coat.y != at.seen.normal.y || coat.z != at.seen.normal.z;
-  at.context.coat_normal = bent ? into_frame(frame_around(at.seen.normal), coat) : vec3(0.0f, 0.0f, 1.0f);
+  at.context.coat_normal = bent ? into_frame(surface_frame(at.seen), coat) : vec3(0.0f, 0.0f, 1.0f);
   at.context.cos_coat = -dot3(ray.d, coat);
 #endif
   at.context.ior_from = 1.0f;
@@ -79,19 +92,26 @@ Interaction surface_interaction(Ray ray, Hit hit, uint media, INOUT(uint) flags)
   at.context.ior_from = load_medium(innermost_medium(media)).ior;
   at.context.ior_to = load_medium(innermost_medium(at.media_behind)).ior;
 #endif
-  PROBE(ior, vec2(at.context.ior_from, at.context.ior_to));
   return at;
 }
 
-Interaction interaction_at(Ray ray, Hit hit, uint media, INOUT(uint) flags) {
+Interaction interaction_at(Ray ray, Hit hit, Path path, INOUT(uint) flags) {
   uint material = material_of(primitive_at(hit));
-  Interaction at = surface_interaction(ray, hit, media, flags);
+  Interaction at = surface_interaction(ray, hit, path.media, flags);
+#if HAS_DISPERSION
+  at.context.ior_from = index_of_medium(path.media, path.throughput);
+  at.context.ior_to = index_of_medium(at.media_behind, path.throughput);
+#endif
+  PROBE(ior, vec2(at.context.ior_from, at.context.ior_to));
   at.scattering = scattering_of(material, at.material, at.context);
   bool behind = !(dot3(ray.d, at.surface.normal_geometric) < 0.0f);
   if (HAS_ONE_SIDED_EMISSION == 1 && behind && (at.material.flags & MATERIAL_EMITS_IN_FRONT) != 0u)
     at.scattering.emitted = vec3(0.0f, 0.0f, 0.0f);
 #if RANDOM_WALK
   at.bsdf = bsdf_of(material, at.material, at.context, at.scattering);
+#if HAS_ANISOTROPY
+  if (at.bsdf.widths.x > 0.0f) at.bsdf.albedo = facets_albedo(seen_from(into_frame(surface_frame(at.seen), -ray.d)), at.bsdf.widths, at.bsdf.roughness);
+#endif
 #endif
   PROBE(ambient, at.scattering.ambient);
   PROBE(diffuse, at.scattering.diffuse);

@@ -44,7 +44,7 @@ vec3 chosen_at(Path path) {
 }
 
 // A point's own frame: z is the normal towards where the ray came from.
-LocalFrame local_frame(Interaction at) { return frame_around(at.seen.normal); }
+LocalFrame local_frame(Interaction at) { return surface_frame(at.seen); }
 
 vec3 towards_viewer(LocalFrame local, Interaction at) { return seen_from(into_frame(local, -at.d)); }
 

@@ -30,9 +30,9 @@ bool sees_camera_paths(Interaction at, vec3 d) {
 }
 
 // Flux is radiance times area times solid angle. So in a medium flux is index² times the value that radiance / index² gives.
-float squared_index(uint media) {
+float squared_index(uint media, vec3 light) {
   if (HAS_MEDIA == 0) return 1.0f;
-  float ior = load_medium(innermost_medium(media)).ior;
+  float ior = index_of_medium(media, light);
   return ior * ior;
 }
 
@@ -52,7 +52,7 @@ PhotonResult photon_way(Frame frame, uint index, uint number) {
   }
   Path path = begin(frame, make_ray(source.o, source.d), pixel, number);
   path.media = source.media;
-  vec3 sent = source.flux * squared_index(source.media);
+  vec3 sent = source.flux * squared_index(source.media, vec3(1.0f, 1.0f, 1.0f));
   bool going = max_component(source.flux) > 0.0f;
   uint most_turns = (frame.max_depth + 2u) * (MOST_PANES + 1u);
   for (uint turn = 0u; turn < most_turns; turn++) {
@@ -60,7 +60,7 @@ PhotonResult photon_way(Frame frame, uint index, uint number) {
     Ray ray = path_ray(frame, path);
     Hit hit = trace(ray, result.flags);
     Flight flight = flight_of(frame, path, hit);
-    path.throughput = path.throughput * flight.weight;
+    path = after_flight(frame, path, hit, flight);
     bool on_surface = hit.slot != NONE && !flight.scattered;
     uint event = flight.scattered ? EVENT_IN_MEDIUM : on_surface ? hit.id + 1u : 0u;
     result.rays += 1u;
@@ -78,7 +78,7 @@ PhotonResult photon_way(Frame frame, uint index, uint number) {
         photon.number = number;
         photon.normal = at.seen.normal_geometric;
         photon.depth = path.depth;
-        photon.flux = sent * path.throughput / squared_index(path.media);
+        photon.flux = sent * path.throughput / squared_index(path.media, path.throughput);
         photon.unused = 0u;
         store_photon(photon);
         result.stored += 1u;

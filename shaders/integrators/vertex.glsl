@@ -81,7 +81,7 @@ Continuations shade(Frame frame, Path path, Ray ray, Hit hit, INOUT(vec3) color,
   bool on_surface = hit.slot != NONE;
   Flight flight = flight_of(frame, path, hit);
   on_surface = on_surface && !flight.scattered;
-  if (HAS_ABSORPTION == 1) path.throughput = path.throughput * flight.weight;
+  if (HAS_ABSORPTION == 1 || HAS_DISPERSION == 1) path = after_flight(frame, path, hit, flight);
   counts.x += 1u;
   counts.y += on_surface ? 1u : 0u;
   counts.w += TRACE_ITERATIONS + 1u;

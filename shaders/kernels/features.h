@@ -64,6 +64,15 @@
 #ifndef HAS_THIN  // … or of bsdf/thin.glsl
 #define HAS_THIN 1
 #endif
+#ifndef HAS_TRANSLUCENT  // … or of bsdf/translucent.glsl
+#define HAS_TRANSLUCENT 1
+#endif
+#ifndef HAS_ANISOTROPY  // microfacets of a surface are wider along one direction
+#define HAS_ANISOTROPY 1
+#endif
+#ifndef HAS_FILM  // a thin film lies on a surface
+#define HAS_FILM 1
+#endif
 #ifndef HAS_TRANSMISSION  // light goes through a principled material
 #define HAS_TRANSMISSION 1
 #endif
@@ -84,6 +93,9 @@
 #endif
 #ifndef HAS_MEDIA  // light goes through surfaces
 #define HAS_MEDIA 1
+#endif
+#ifndef HAS_DISPERSION  // … and bends the colours of light differently
+#define HAS_DISPERSION 1
 #endif
 #ifndef HAS_ABSORPTION  // a medium takes light away
 #define HAS_ABSORPTION 1

@@ -29,19 +29,44 @@ Surface as_read_by(uint texture, Surface surface) {
   return read;
 }
 
-// `n`: the surface's own, on either side of it. `code`: the map's colour.
-vec3 mapped_normal(Surface surface, vec3 n, vec3 code, float scale) {
+// The frame of tangent space: s is along u, t along v. `n`: the surface's normal, on either side of it. s is 0 where uv do not grow.
+LocalFrame uv_frame(Surface surface, vec3 n) {
   float left = dot3(surface.normal_geometric, cross3(surface.u_gradient, surface.v_gradient)) < 0.0f ? -1.0f : 1.0f;
   vec3 along_u = cross3(surface.v_gradient, surface.normal_geometric) * left;
   bool own = surface.tangent.w != 0.0f;
   left = own ? surface.tangent.w : left;
   along_u = own ? vec3(surface.tangent) : along_u;
-  vec3 t = unit_or(along_u - n * dot3(n, along_u), vec3(0.0f, 0.0f, 0.0f));
-  vec3 b = cross3(n, t) * left;
+  LocalFrame frame;
+  frame.s = unit_or(along_u - n * dot3(n, along_u), vec3(0.0f, 0.0f, 0.0f));
+  frame.t = cross3(n, frame.s) * left;
+  frame.n = n;
+  return frame;
+}
+
+// `code`: the map's colour.
+vec3 mapped_normal(Surface surface, vec3 n, vec3 code, float scale) {
+  LocalFrame frame = uv_frame(surface, n);
   float x = (2.0f * code.x - 1.0f) * scale;
   float y = (2.0f * code.y - 1.0f) * scale;
-  return unit_or(t * x + b * y + n * (2.0f * code.z - 1.0f), n);
+  return unit_or(frame.s * x + frame.t * y + n * (2.0f * code.z - 1.0f), n);
 }
+
+#if HAS_ANISOTROPY
+// The direction along which microfacets of the normal n are wider: u's, or the map's, turned.
+vec3 rough_axis_of(Material material, Surface surface, vec3 n, TextureContext point) {
+  vec2 turn = material.anisotropy_turn;
+  LocalFrame frame = uv_frame(surface, n);
+  float x = 1.0f;
+  float y = 0.0f;
+  if (material.anisotropy_direction != NONE) {
+    vec3 code = anisotropy_direction_of(material, point);
+    frame = uv_frame(as_read_by(material.anisotropy_direction, surface), n);
+    x = 2.0f * code.x - 1.0f;
+    y = 2.0f * code.y - 1.0f;
+  }
+  return unit_or(frame.s * (x * turn.x - y * turn.y) + frame.t * (x * turn.y + y * turn.x), vec3(0.0f, 0.0f, 0.0f));
+}
+#endif
 
 // The height that a bump map's colour stands for.
 float height_of(vec3 color) { return 0.2126f * color.x + 0.7152f * color.y + 0.0722f * color.z; }
@@ -90,6 +115,10 @@ Surface bent_by(Material material, Surface surface, vec3 d) {
   vec3 up = surface.normal_geometric * side;
   Surface bent = surface;
   if (material.normal_map != NONE || material.bump != NONE) bent.normal = above_surface(n * side, up, d) * side;
+#if HAS_ANISOTROPY
+  bent.rough_axis = vec3(0.0f, 0.0f, 0.0f);
+  if ((material.flags & MATERIAL_ANISOTROPIC) != 0u) bent.rough_axis = rough_axis_of(material, surface, bent.normal, point);
+#endif
 #if HAS_BENT_COAT
   bent.coat_normal = surface.normal;
   if (material.coat_normal != NONE) {

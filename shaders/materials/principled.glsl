@@ -1,7 +1,9 @@
-// glTF 2.0's metallic-roughness, with KHR_materials_ior, _specular, _clearcoat, _sheen, _transmission and _volume.
+// glTF 2.0's metallic-roughness, with KHR_materials_ior, _specular, _clearcoat, _sheen, _transmission, _volume, _diffuse_transmission,
+// _anisotropy, _iridescence and _dispersion.
 #ifndef PRINCIPLED_GLSL
 #define PRINCIPLED_GLSL
 #if RANDOM_WALK
+#include "bsdf/facets.glsl"
 #include "bsdf/layers.glsl"
 #endif
 #include "materials/dielectric.glsl"
@@ -31,10 +33,26 @@ vec3 principled_color(Material material, ScatteringContext context) {
   return color * context.color;
 }
 
+// Splits the body, which is that share of the surface, into the light that it scatters back and the light that it lets through evenly.
+// Where the index falls, part of the latter is reflected totally: in balance, both sides send as much light through.
+void add_body(INOUT(Bsdf) bsdf, Material material, ScatteringContext context, vec3 color, float body) {
+  bsdf.diffuse = color * body;
+#if HAS_TRANSLUCENT
+  float through = diffuse_transmission_of(material, context.point).x;
+  if (through > 0.0f) {
+    vec3 tint = diffuse_transmission_color_of(material, context.point);
+    float ratio = context.ior_to / context.ior_from;
+    float crossing = through * minimum(ratio * ratio, 1.0f);
+    bsdf.translucent = tint * (body * crossing);
+    bsdf.diffuse = (color * (1.0f - through) + tint * (through - crossing)) * body;
+  }
+#endif
+}
+
 // The body, the mirror above it, coat and sheen; no light goes through yet.
 Bsdf principled_surface(Material material, ScatteringContext context, vec3 color, float metallic) {
   Bsdf bsdf = black_bsdf();
-  bsdf.diffuse = color * (1.0f - metallic);
+  add_body(bsdf, material, context, color, 1.0f - metallic);
 #if HAS_GLOSSY
   vec3 white = vec3(1.0f, 1.0f, 1.0f);
   vec3 f0 = principled_f0(material);
@@ -51,7 +69,26 @@ Bsdf principled_surface(Material material, ScatteringContext context, vec3 color
   bsdf.metal = schlick(color, white);
   bsdf.metallic = metallic;
   bsdf.roughness = roughness_of(material, context.point).y;
+#if HAS_ANISOTROPY
+  if ((material.flags & MATERIAL_ANISOTROPIC) != 0u) {
+    float strength = anisotropy_of(material, context.point).z;
+    float width = ggx_width(bsdf.roughness);
+    float along = width + (1.0f - width) * (strength * strength);
+    if (along > width) {
+      bsdf.widths = vec2(along, width);
+      bsdf.roughness = sqrt(evened_width(bsdf.widths));
+    }
+  }
+#endif
   bsdf.albedo = ggx_albedo(viewed_cosine(context), bsdf.roughness);
+#if HAS_FILM
+  Film film = no_film();
+  film.share = iridescence_of(material, context.point).x;
+  film.ior = material.iridescence_ior;
+  film.thickness = material.iridescence_least +
+                   (material.iridescence_most - material.iridescence_least) * iridescence_thickness_of(material, context.point).y;
+  if (film.share > 0.0f && film.thickness > 0.0f) bsdf = under_film(bsdf, film, viewed_cosine(context));
+#endif
 #endif
 #if HAS_COAT
   bsdf.coat = coat_of(material, context.point).x;
@@ -102,7 +139,7 @@ Bsdf principled_bsdf(Material material, ScatteringContext context, Scattering sc
   float through = principled_through(material, context, metallic);
   bool pane = (material.flags & MATERIAL_PANE) != 0u;
   if (through > 0.0f) {
-    bsdf.diffuse = color * (1.0f - metallic - through);
+    add_body(bsdf, material, context, color, 1.0f - metallic - through);
 #if HAS_PANES
     if (pane) bsdf.passed = passed_straight(bsdf, color, through);
 #if HAS_THIN

@@ -38,5 +38,11 @@
   X(normal_map)              \
   X(bump)                    \
   X(coat_normal)             \
+  X(diffuse_transmission)    \
+  X(diffuse_transmission_color) \
+  X(anisotropy)              \
+  X(anisotropy_direction)    \
+  X(iridescence)             \
+  X(iridescence_thickness)   \
   X(alpha)
 #endif

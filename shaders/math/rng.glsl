@@ -26,6 +26,7 @@ uint pcg_hash(uint x) {
 #define PAIR_SOURCE 0u          // … which light, …
 #define PAIR_START 1u           // … where on it or from where around, …
 #define PAIR_HEADING 2u         // … and where to
+#define PAIR_CHANNEL 0xffffu   // by which colour channel's index the path is refracted
 #define PAIR_FLIGHT 0x10000u  // how far the path gets on its way to the first vertex; one further on to the next
 
 #define ALPHA_KEYS 0x80000000u  // in place of a dimension, + a path's depth · 2^16: of its ray; one further on each of its shadow rays

@@ -102,10 +102,22 @@ TEST_CASE("every record has the same members at the same offsets in SPIR-V and i
                 MEMBER(Material, bump_height),
                 MEMBER(Material, bump_width),
                 MEMBER(Material, coat_normal),
-                MEMBER(Material, coat_normal_scale)});
+                MEMBER(Material, coat_normal_scale),
+                MEMBER(Material, diffuse_transmission),
+                MEMBER(Material, diffuse_transmission_color),
+                MEMBER(Material, anisotropy),
+                MEMBER(Material, anisotropy_direction),
+                MEMBER(Material, anisotropy_turn),
+                MEMBER(Material, iridescence),
+                MEMBER(Material, iridescence_thickness),
+                MEMBER(Material, iridescence_least),
+                MEMBER(Material, iridescence_most),
+                MEMBER(Material, iridescence_ior),
+                MEMBER(Material, unused)});
   check_struct(samples, "Medium", sizeof(shader::Medium),
                {MEMBER(Medium, absorption), MEMBER(Medium, ior), MEMBER(Medium, scattering),
-                MEMBER(Medium, anisotropy)});
+                MEMBER(Medium, anisotropy), MEMBER(Medium, spread), MEMBER(Medium, unused_0),
+                MEMBER(Medium, unused_1), MEMBER(Medium, unused_2)});
   check_struct(samples, "Texture", sizeof(shader::Texture),
                {MEMBER(Texture, color), MEMBER(Texture, kind), MEMBER(Texture, a), MEMBER(Texture, b),
                 MEMBER(Texture, c)});

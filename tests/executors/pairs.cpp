@@ -47,6 +47,9 @@ const std::vector<std::string> materials = {
     "type = 'principled'\ntransmission = 0.8\nior = 1\ncoat = 0.5",
     "type = 'principled'\ntransmission = 1\nthin = true\nroughness = 0",
     "type = 'principled'\ntransmission = 0.5\nthin = true\nroughness = 0.4\ncoat = 0.5",
+    "type = 'principled'\ndiffuse_transmission = 0.6\nmetallic = 0.2\nanisotropy = 0.7",
+    "type = 'principled'\niridescence = 1\ntransmission = 0.5\nthin = true",
+    "type = 'dielectric'\nior = 1.7\ndispersion = 2",
     "type = 'principled'\ncoat = 1\ncoat_normal = { image = 'studs_normal.png' }",
 };
 

@@ -144,4 +144,12 @@ inline GltfFile square_file() {
   return file;
 }
 
+// The square with a material.
+inline GltfFile with_material(const Json& material) {
+  GltfFile file = square_file();
+  file.json["materials"] = Json::array({material});
+  file.primitive()["material"] = 0;
+  return file;
+}
+
 }  // namespace eyeray::engine::test

@@ -304,6 +304,27 @@ TEST_CASE("rules of glTF: each broken rule gives its message") {
          file.json["materials"][0]["extensions"]["KHR_materials_volume"] = {{"thicknessFactor", 1}};
        },
        "volumes of materials that transmit no light, left out: 1, the first materials[0].extensions.KHR_materials_volume"},
+      {"a dispersion below 0",
+       [](GltfFile& file) {
+         Json& extensions = file.json["materials"][0]["extensions"];
+         file.json["extensionsUsed"] = {"KHR_materials_transmission", "KHR_materials_volume", "KHR_materials_dispersion"};
+         extensions["KHR_materials_transmission"]["transmissionFactor"] = 1;
+         extensions["KHR_materials_volume"]["thicknessFactor"] = 1;
+         extensions["KHR_materials_dispersion"]["dispersion"] = -1;
+       },
+       "dispersions below 0 or above 10, clamped: 1, the first materials[0].extensions.KHR_materials_dispersion.dispersion"},
+      {"a film of an index below 1",
+       [](GltfFile& file) {
+         file.json["extensionsUsed"] = {"KHR_materials_iridescence"};
+         file.json["materials"][0]["extensions"]["KHR_materials_iridescence"] = {{"iridescenceFactor", 1}, {"iridescenceIor", 0.5}};
+       },
+       "indices of refraction below 1 or above 4, clamped: 1, the first materials[0].extensions.KHR_materials_iridescence.iridescenceIor"},
+      {"an anisotropy above 1",
+       [](GltfFile& file) {
+         file.json["extensionsUsed"] = {"KHR_materials_anisotropy"};
+         file.json["materials"][0]["extensions"]["KHR_materials_anisotropy"]["anisotropyStrength"] = 2;
+       },
+       "factors below 0 or above 1, clamped: 1, the first materials[0].extensions.KHR_materials_anisotropy.anisotropyStrength"},
       {"a strength of nothing",
        [](GltfFile& file) {
          file.json["extensionsUsed"] = {"KHR_materials_emissive_strength"};

@@ -10,14 +10,6 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-// The square with a material.
-GltfFile with_material(const Json& material) {
-  GltfFile file = square_file();
-  file.json["materials"] = Json::array({material});
-  file.primitive()["material"] = 0;
-  return file;
-}
-
 Scattering scattering_of(const Json& material) {
   const ImportedScene scene = import_sound(with_material(material).gltf(), "a.gltf");
   REQUIRE(scene.instances[0].material == 0);
@@ -107,75 +99,6 @@ TEST_CASE("metallic-roughness becomes a BSDF, with its coat, its index and its m
   CHECK(most > 0.25);
   CHECK(most <= 0.5);
   CHECK(metal > 0.25);
-}
-
-TEST_CASE("each material extension reads the right channel of its picture") {
-  std::ifstream png("tests/image/pictures/rgba_interlaced.png", std::ios::binary);
-  const std::string picture{std::istreambuf_iterator<char>(png), {}};
-  const Json map = {{"index", 0}};
-  const auto imported = [&](const Json& extensions, const Json& pbr = Json::object()) {
-    GltfFile file = with_material({{"pbrMetallicRoughness", pbr}, {"extensions", extensions}});
-    file.primitive()["attributes"]["TEXCOORD_0"] = file.add({0, 0, 1, 0, 1, 1, 0, 1}, 5126, "VEC2", 2);
-    file.json["textures"] = {{{"source", 0}}};
-    file.json["images"] = {{{"uri", "data:image/png;base64," + base64(picture)}}};
-    return import_sound(file.gltf(), "a.gltf");
-  };
-  const auto plain = imported(Json::object(), {{"baseColorTexture", map}});
-  const Json dielectric = {{"metallicFactor", 0}, {"roughnessFactor", 0.5}};
-  const ImportedScene clear =
-      imported({{"KHR_materials_transmission", {{"transmissionFactor", 0.5}, {"transmissionTexture", map}}}},
-               dielectric);
-  const ImportedScene cloth = imported({{"KHR_materials_sheen",
-                                         {{"sheenColorFactor", {0.5, 1, 1}},
-                                          {"sheenColorTexture", map},
-                                          {"sheenRoughnessFactor", 0.5},
-                                          {"sheenRoughnessTexture", map}}},
-                                        {"KHR_materials_specular", {{"specularTexture", map}}},
-                                        {"KHR_materials_clearcoat",
-                                         {{"clearcoatFactor", 1},
-                                          {"clearcoatTexture", map},
-                                          {"clearcoatRoughnessFactor", 1},
-                                          {"clearcoatRoughnessTexture", map}}}});
-  CHECK(clear.warnings.empty());
-  CHECK(cloth.warnings.empty());
-  CHECK(clear.materials[0]->thin());
-  image::PixelBudget budget;
-  std::vector<std::string> warnings;
-  const ImageTexture read =
-      decode_image_texture(std::as_bytes(std::span(picture)), "a.png", budget, warnings);
-  const auto channel = [&](int i) {
-    ImageTexture alone = read;
-    alone.srgb = false;
-    for (auto& texel : alone.texels) texel = {texel[size_t(i)], texel[size_t(i)], texel[size_t(i)], 255};
-    return textures::make_image(std::make_shared<const ImageTexture>(alone));
-  };
-  for (const Vec2 uv : {Vec2(0.1, 0.1), Vec2(0.4, 0.7), Vec2(0.8, 0.3)}) {
-    const ScatteringContext context{uv, 1, 1, 1};
-    const auto bsdf_of = [&](const ImportedScene& scene) {
-      return scene.materials[0]->bsdf(context, scene.materials[0]->scattering(context));
-    };
-    CHECK(bsdf_of(clear).thin.x == doctest::Approx(0.5 * channel(0)->at(uv).x));
-    const Bsdf over = bsdf_of(cloth);
-    CHECK(over.sheen.x == doctest::Approx(0.5 * plain.materials[0]->base_color(uv).x));
-    CHECK(over.sheen.z == doctest::Approx(plain.materials[0]->base_color(uv).z));
-    CHECK(over.sheen_roughness == doctest::Approx(0.5 * channel(3)->at(uv).x));
-    CHECK(over.layer.f90.x == doctest::Approx(channel(3)->at(uv).x));
-    CHECK(over.coat == doctest::Approx(channel(0)->at(uv).x));
-    CHECK(over.coat_roughness == doctest::Approx(channel(1)->at(uv).x));
-  }
-  // A material with thickness refracts, is tinted and dims light. A material without thickness is a pane,
-  // however Whitted's pictures show it.
-  const Json volume = {{"thicknessFactor", 1}, {"attenuationDistance", 2}, {"attenuationColor", {1, 0.5, 1}}};
-  const ImportedScene thick = imported({{"KHR_materials_transmission", {{"transmissionFactor", 0.25}}},
-                                        {"KHR_materials_volume", volume},
-                                        {"KHR_materials_ior", {{"ior", 1.33}}}},
-                                       dielectric);
-  CHECK_FALSE(thick.materials[0]->thin());
-  CHECK(thick.materials[0]->medium()->absorption.y == doctest::Approx(std::log(2) / 2));
-  const ScatteringContext entering{Vec2(0), 1, 1, 1.33};
-  const Bsdf half = thick.materials[0]->bsdf(entering, thick.materials[0]->scattering(entering));
-  CHECK(half.glass == Vec3(0.25));
-  CHECK(half.layered == 0.75);
 }
 
 TEST_CASE("pictures come from data and files, with their samplers") {
@@ -301,14 +224,14 @@ TEST_CASE("omitted parts are named once, with their count") {
   GltfFile file = with_material({{"occlusionTexture", {{"index", 0}}}});
   file.json["textures"].push_back(Json::object());
   file.json["materials"].push_back(file.json["materials"][0]);
-  file.json["extensionsUsed"] = {"KHR_materials_iridescence", "KHR_materials_ior"};
+  file.json["extensionsUsed"] = {"KHR_materials_volume_scatter", "KHR_materials_ior"};
   Json points = file.primitive();
   points["mode"] = 0;
   file.json["meshes"][0]["primitives"].push_back(points);
   const ImportedScene scene = import_sound(file.gltf(), "a.gltf");
-  CHECK(scene.warnings ==
-        std::vector<std::string>{"left out: the extension KHR_materials_iridescence (1), occlusion maps (2), "
-                                 "points and lines (1)"});
+  CHECK(scene.warnings == std::vector<std::string>{
+                              "left out: the extension KHR_materials_volume_scatter (1), occlusion maps (2), "
+                              "points and lines (1)"});
 }
 
 TEST_CASE("textures in unsupported formats leave the material's colour") {

@@ -177,7 +177,7 @@ TEST_CASE("values of a .mtl file that do not count are named") {
            {"illum 9\nNi 1.5\nmap_Kd x.png", "pictures (map_Kd) of glass"},
            {"map_Pc x.png\nmap_Tr x.png\nmap_RMA x.png\ndecal x.png\nmap_aat on",
             "statements that eyeray does not know (decal, map_Pc, map_RMA, map_Tr)"},
-           {"anisor 1", "anisotropy (aniso, anisor)"},
+           {"anisor 1", "anisotropy (aniso, anisor) without Pr, Pm, Pc or Ps"},
            {"map_Ka x.png", "maps of ambient light (map_Ka)"},
            {"Kd spectral x.rfl", "colours by `spectral`: write Kd with three numbers, R G B"},
            {"Kd xyz 0.4 0.2 0.1", "colours by `xyz`"},
@@ -285,8 +285,13 @@ TEST_CASE(
   const ScatteringContext context{Vec2(0), 1, 1, 1};
   CHECK(square_of(folder, "Ke 2 0 7e9").materials[0]->scattering(context).emitted == Vec3(2, 0, 1e6));
   CHECK(square_of(folder, "map_Ke rgb.png").materials[0]->scattering(context).emitted != Vec3(0));
-  const ImportedScene metal = square_of(folder, "Kd 1 0.5 0\nPr 0.2\nPm 1\naniso 0.5");
-  CHECK(warns(metal, "anisotropy"));
+  const ImportedScene metal = square_of(folder, "Kd 1 0.5 0\nPr 0.2\nPm 1\naniso 0.5\nanisor 0.25");
+  CHECK(metal.warnings.empty());
+  REQUIRE(metal.materials[0]->rough_axis);
+  CHECK(metal.materials[0]->rough_axis->turn == doctest::Approx(M_PI / 2));
+  const Bsdf brushed = metal.materials[0]->bsdf(context, metal.materials[0]->scattering(context));
+  CHECK(brushed.widths.x == doctest::Approx(0.04 + 0.96 * 0.25));
+  CHECK(brushed.widths.y == doctest::Approx(0.04));
   CHECK(!metal.materials[0]->emits());
 }
 

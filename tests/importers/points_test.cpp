@@ -33,10 +33,10 @@ const Positions three_points{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}};
 const PointColors three_colors{linear(255, 0, 128), linear(0, 255, 1), linear(7, 8, 9)};
 const std::string colored_lines = "0 0 0 255 0 128\n1 0 0 0 255 1\n0 2 0 7 8 9\n";
 
-std::string pcd_header(const std::string& fields, const std::string& sizes, const std::string& types,
+std::string pcd_header(const std::string& fields, const std::string& sizes, const std::string& type_letters,
                        const std::string& counts, int points, const std::string& data) {
   return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS " + fields + "\nSIZE " + sizes +
-         "\nTYPE " + types + "\nCOUNT " + counts + "\nWIDTH " + std::to_string(points) +
+         "\nTYPE " + type_letters + "\nCOUNT " + counts + "\nWIDTH " + std::to_string(points) +
          "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + std::to_string(points) + "\nDATA " + data + "\n";
 }
 

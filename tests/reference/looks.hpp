@@ -14,6 +14,7 @@ struct Look {
   double metallic = 0, transmission = 0, roughness = 0.5, coat = 0, sheen = 0, color = 1, specular = 1;
   bool thin = false;
   double ior = 1.5, coat_roughness = 0.3, sheen_roughness = 0.5;
+  double diffuse_transmission = 0, anisotropy = 0, iridescence = 0;
 };
 
 // The BSDF for a ray that leaves the shape, or for one that enters.
@@ -42,13 +43,17 @@ coat_roughness = {}
 sheen_color = {}
 sheen_roughness = {}
 thin = {}
+diffuse_transmission = {}
+anisotropy = {}
+iridescence = {}
 [[sphere]]
 material = "m"
 center = [0, 0, 0]
 radius = 1
 )",
                   look.color, look.metallic, look.roughness, look.ior, look.specular, look.transmission,
-                  look.coat, look.coat_roughness, look.sheen, look.sheen_roughness, look.thin),
+                  look.coat, look.coat_roughness, look.sheen, look.sheen_roughness, look.thin,
+                  look.diffuse_transmission, look.anisotropy, look.iridescence),
       "scene.toml");
   const Material& material = *scene.materials.back();
   const ScatteringContext context{.point = {},

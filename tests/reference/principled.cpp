@@ -78,3 +78,44 @@ TEST_CASE("a blend of paint and metal scatters the blend of their light, to ever
       }
     }
 }
+
+TEST_CASE(
+    "light that a white body lets through evenly is not lost: paper, and glass in balance on both sides") {
+  for (const double through : {0.3, 1.0})
+    for (const double transmission : {0.0, 0.5})
+      for (const double roughness : {0.3, 0.8})
+        for (const bool leaving : {false, true}) {
+          if (leaving && transmission == 0) continue;
+          for (const double cosine : {1.0, 0.3}) {
+            CAPTURE(through);
+            CAPTURE(transmission);
+            CAPTURE(leaving);
+            const Bsdf bsdf = bsdf_of(
+                {.transmission = transmission, .roughness = roughness, .diffuse_transmission = through},
+                cosine, leaving);
+            CHECK(albedo(bsdf, cosine) == doctest::Approx(1).epsilon(0.01));
+          }
+        }
+}
+
+TEST_CASE("a white brushed metal scatters about as much light as it gets") {
+  double least = 1, most = 1;
+  for (const double strength : {0.3, 0.6, 1.0})
+    for (const double roughness : {0.1, 0.3, 0.6, 1.0})
+      for (const double turn : {0.0, 0.8, 1.57})
+        for (const double cosine : {1.0, 0.6, 0.2}) {
+          Bsdf bsdf = bsdf_of({.metallic = 1, .roughness = roughness, .anisotropy = strength}, cosine);
+          if (turn > 1) std::swap(bsdf.widths.x, bsdf.widths.y);
+          const double found = albedo(bsdf, cosine);
+          least = std::min(least, found);
+          most = std::max(most, found);
+          if (turn == 0.8) continue;
+          CAPTURE(strength);
+          CAPTURE(roughness);
+          CAPTURE(turn);
+          CAPTURE(cosine);
+          CHECK(found < 1.1);
+          CHECK(found > 0.7);
+        }
+  MESSAGE("from " << least << " to " << most);
+}

@@ -2,9 +2,9 @@
 // Marschner, Li, Torrance: Microfacet Models for Refraction through Rough Surfaces, EGSR 2007 (the equations
 // cited here). Heitz: Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs, JCGT 2014.
 // Kulla, Conty: Revisiting Physically Based Shading at Imageworks, SIGGRAPH 2017. Khronos: glTF 2.0, appendix
-// B, and KHR_materials_clearcoat, _sheen, _transmission. Kelemen, Szirmay-Kalos: A Microfacet Based Coupled
-// Specular-Matte BRDF Model, Eurographics 2001. Turquin: Practical Multiple Scattering Compensation for
-// Microfacet Models, 2019.
+// B, and KHR_materials_clearcoat, _sheen, _transmission, _anisotropy, _diffuse_transmission. Kelemen,
+// Szirmay-Kalos: A Microfacet Based Coupled Specular-Matte BRDF Model, Eurographics 2001. Turquin: Practical
+// Multiple Scattering Compensation for Microfacet Models, 2019.
 #pragma once
 
 #include <algorithm>
@@ -37,32 +37,43 @@ struct HalfSphere {
   }
 };
 
-// The microfacets of one roughness.
+// The microfacets of one roughness, rougher along x by KHR_materials_anisotropy.
 class Facets {
  public:
-  explicit Facets(double roughness) : alpha_(roughness * roughness) {}
+  explicit Facets(double roughness, double anisotropy = 0)
+      : along_(std::lerp(roughness * roughness, 1, anisotropy * anisotropy)),
+        across_(roughness * roughness) {}
 
-  // Equation 33: the density of microfacets at that cosine to the normal.
-  double density(double cosine) const {
-    const double a = alpha_ * alpha_, tan_squared = 1 / (cosine * cosine) - 1;
-    return a / (std::numbers::pi * std::pow(cosine, 4) * (a + tan_squared) * (a + tan_squared));
+  // The density of microfacets with normal h: the extension's, which is equation 33 for equal widths.
+  double density(const Vec3& h) const {
+    const double area = along_ * across_;
+    const Vec3 f(across_ * h.x, along_ * h.y, area * h.z);
+    const double w = area / glm::dot(f, f);
+    return area * w * w / std::numbers::pi;
   }
   // The share that both directions see (Heitz, equation 99, with equation 34 for each direction).
-  double seen(double cosine_o, double cosine_i) const {
-    return 1 / (1 / seen(cosine_o) + 1 / seen(cosine_i) - 1);
-  }
+  double seen(const Vec3& o, const Vec3& i) const { return 1 / (1 / seen(o) + 1 / seen(i) - 1); }
   // Equation 20 without its Fresnel term, times the cosine of i.
   double mirrored(const Vec3& o, const Vec3& i) const {
-    const Vec3 h = glm::normalize(o + i);
-    return density(h.z) * seen(o.z, i.z) / (4 * o.z);
+    return density(glm::normalize(o + i)) * seen(o, i) / (4 * o.z);
+  }
+  // A normal by the density D cos θ: slopes of α √(x / (1 − x)).
+  Vec3 normal(double x, double turn) const {
+    const double slope = std::sqrt(x / (1 - x));
+    return glm::normalize(Vec3(along_ * slope * std::cos(turn), across_ * slope * std::sin(turn), 1));
+  }
+  // The roughness of even microfacets that lose about as much light.
+  double evened() const {
+    return std::sqrt(0.75 * std::hypot(along_, across_) / std::numbers::sqrt2 + (along_ + across_) / 8);
   }
 
  private:
-  double seen(double cosine) const {
-    return 2 / (1 + std::sqrt(1 + alpha_ * alpha_ * (1 / (cosine * cosine) - 1)));
+  double seen(const Vec3& w) const {
+    const double slope = std::hypot(along_ * w.x, across_ * w.y) / w.z;
+    return 2 / (1 + std::sqrt(1 + slope * slope));
   }
 
-  double alpha_;
+  double along_, across_;
 };
 
 inline double fifth_power(double cosine) {
@@ -79,21 +90,14 @@ struct Once {
   double all = 0, edge = 0;
   double with(double f0) const { return f0 * (all - edge) + edge; }
 };
-inline Once mirrored_once(double roughness, double cosine) {
-  const double width = roughness * roughness;
-  const Facets facets(roughness);
-  const Vec3 o = direction_of(cosine);
-  constexpr int steps = 128, turns = 64;
+inline Once mirrored_once(const Facets& facets, const Vec3& o, int steps, int turns) {
   Once sum;
   for (int a = 0; a < steps; ++a)
     for (int b = 0; b < turns; ++b) {
-      // tan² θ = α² x / (1 − x) has the density D cos θ.
-      const double x = (a + 0.5) / steps, tangent = width * std::sqrt(x / (1 - x));
-      const double z = 1 / std::sqrt(1 + tangent * tangent), turn = std::numbers::pi * (b + 0.5) / turns;
-      const Vec3 h(z * tangent * std::cos(turn), z * tangent * std::sin(turn), z);
+      const Vec3 h = facets.normal((a + 0.5) / steps, 2 * std::numbers::pi * (b + 0.5) / turns);
       const double along = glm::dot(o, h), down = 2 * along * h.z - o.z;
       if (along <= 0 || down <= 0) continue;
-      const double share = along / (cosine * h.z) * facets.seen(cosine, down) / (steps * turns);
+      const double share = along / (o.z * h.z) * facets.seen(o, 2 * along * h - o) / (steps * turns);
       sum.all += share;
       sum.edge += share * fifth_power(along);
     }
@@ -112,7 +116,7 @@ struct RoughMirror {
     if (!is_new) return it;
     for (int row = 0; row < HalfSphere::rows; ++row) {
       const double z = HalfSphere::height(row);
-      it.rows.push_back(mirrored_once(roughness, z));
+      it.rows.push_back(mirrored_once(Facets(roughness), direction_of(z), 128, 128));
       const double weight = 4 * z * std::sqrt(z) / HalfSphere::rows;
       it.mean.all += it.rows.back().all * weight;
       it.mean.edge += it.rows.back().edge * weight;
@@ -160,7 +164,7 @@ inline double glass_term(double roughness, double from, double to, const Vec3& o
   if (along_o <= 0 || along_i >= 0) return 0;
   const double sum = from * along_o + to * along_i;
   return along_o * -along_i / o.z * to * to * (1 - dielectric_term(along_o, from, to)) *
-         facets.seen(o.z, -i.z) * facets.density(h.z) / (sum * sum);
+         facets.seen(o, {i.x, i.y, -i.z}) * facets.density(h) / (sum * sum);
 }
 
 // `principled` seen from one direction.
@@ -171,9 +175,9 @@ class PrincipledFormulas {
         o_(direction_of(cosine)),
         from_(leaving ? look.ior : 1),
         to_(leaving ? 1 : look.ior),
-        facets_(look.roughness),
-        mirror_(RoughMirror::of(look.roughness)),
-        once_(mirrored_once(look.roughness, cosine)) {
+        facets_(look.roughness, look.anisotropy),
+        mirror_(RoughMirror::of(facets_.evened())),
+        once_(mirrored_once(facets_, o_, 128, 128)) {
     if (look.sheen > 0) {
       sheen_o_ = sheen_albedo(look.sheen_roughness, cosine);
       for (int row = 0; row < HalfSphere::rows; ++row)
@@ -184,7 +188,7 @@ class PrincipledFormulas {
           sum += sheen(HalfSphere::direction(row, turn), row) * HalfSphere::angle(row);
       under_ *= 1 - sum;
     }
-    coat_left_ = 1 - look.coat * mirrored_once(look.coat_roughness, cosine).with(0.04);
+    coat_left_ = 1 - look.coat * mirrored_once(Facets(look.coat_roughness), o_, 128, 128).with(0.04);
     if (look.transmission > 0 && !look.thin)
       glass_once_ = HalfSphere::integral([&](const Vec3& i) {
         return glass_term(look_.roughness, from_, to_, o_, i) +
@@ -207,8 +211,15 @@ class PrincipledFormulas {
   double layer_f0() const { return std::pow((look_.ior - 1) / (look_.ior + 1), 2); }
   // Light that left one microfacet and hit others, per share that leaves in the end.
   double even(const Vec3& i, int row) const {
-    return (1 - once_.all) * (1 - mirror_.rows[size_t(row)].all) / (1 - mirror_.mean.all) * std::abs(i.z) /
+    return (1 - once_.all) * (1 - towards(i, row).all) / (1 - mirror_.mean.all) * std::abs(i.z) /
            std::numbers::pi;
+  }
+  // The light that microfacets mirror once into direction i, or its mirror image behind the surface.
+  const Once& towards(const Vec3& i, int row) const {
+    if (look_.anisotropy == 0) return mirror_.rows[size_t(row)];
+    const Vec3 up(i.x, i.y, std::abs(i.z));
+    if (up != towards_) once_towards_ = mirrored_once(facets_, towards_ = up, 24, 32);
+    return once_towards_;
   }
   // An albedo above 1 is divided out, for the larger one of both directions.
   double sheen(const Vec3& i, int row) const {
@@ -220,15 +231,30 @@ class PrincipledFormulas {
     const auto mirrors = [&](double at_zero) {
       return schlick_term(at_zero, o_, i) * facets_.mirrored(o_, i) + mirror_.often(at_zero) * even(i, row);
     };
-    const double let_in = (1 - mirror_.albedo(f0, once_)) *
-                          (1 - mirror_.albedo(f0, mirror_.rows[size_t(row)])) /
-                          (1 - mirror_.albedo(f0, mirror_.mean));
     const double glass =
         look_.thin || through() == 0 ? 0 : glass_term(look_.roughness, from_, to_, o_, i) / glass_once_;
+    // KHR_materials_diffuse_transmission, and the light that would come through but is reflected totally.
+    const double scattered =
+        look_.color * (1 - look_.diffuse_transmission) + look_.diffuse_transmission * (1 - crossing());
     return layer() * mirrors(f0) + look_.metallic * mirrors(look_.color) +
-           body() * look_.color * let_in * i.z / std::numbers::pi + through() * glass;
+           body() * scattered * let_in(i, row) * i.z / std::numbers::pi + through() * glass;
   }
-  double behind(const Vec3& i, int row) const {
+  // The coupling of a layer with a body under it, for light that leaves in a direction of that row.
+  double let_in(const Vec3& i, int row) const {
+    const double f0 = layer_f0();
+    return (1 - mirror_.albedo(f0, once_)) * (1 - mirror_.albedo(f0, towards(i, row))) /
+           (1 - mirror_.albedo(f0, mirror_.mean));
+  }
+  // The share of evenly transmitted light that leaves on the other side.
+  double crossing() const {
+    const bool refracts = look_.transmission > 0 && !look_.thin;
+    return refracts ? std::min(1.0, to_ * to_ / (from_ * from_)) : 1;
+  }
+  double behind(const Vec3& i, int row) const { return evenly_behind(i, row) + straight_behind(i, row); }
+  double evenly_behind(const Vec3& i, int row) const {
+    return body() * look_.diffuse_transmission * crossing() * let_in(i, row) * -i.z / std::numbers::pi;
+  }
+  double straight_behind(const Vec3& i, int row) const {
     if (through() == 0) return 0;
     if (!look_.thin)
       return through() * look_.color * glass_term(look_.roughness, from_, to_, o_, i) / glass_once_;
@@ -244,6 +270,8 @@ class PrincipledFormulas {
   Facets facets_;
   const RoughMirror& mirror_;
   Once once_;
+  mutable Vec3 towards_{0};  // the last direction of towards(), and its result
+  mutable Once once_towards_;
   double sheen_o_ = 0;
   std::vector<double> sheen_rows_;
   double under_ = 1, coat_left_ = 1, glass_once_ = 1;

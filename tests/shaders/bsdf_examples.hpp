@@ -46,6 +46,24 @@ inline Bsdf opal(double roughness) {
   bsdf.ior_to = 1.5;
   return bsdf;
 }
+// A leaf: a body that scatters light to both sides, under a surface.
+inline Bsdf leaf(double color, double through, double roughness) {
+  Bsdf bsdf = plastic(color * (1 - through), roughness);
+  bsdf.translucent = Vec3(color * through);
+  return bsdf;
+}
+// `bsdf` with microfacets that are wider along x. The roughness is that of even ones that lose as much light.
+inline Bsdf brushed(Bsdf bsdf) {
+  const double width = std::max(bsdf.roughness * bsdf.roughness, 1e-3);
+  bsdf.widths = {std::min(1.0, 2 * width), width / 2};
+  const double sum = bsdf.widths.x + bsdf.widths.y;
+  bsdf.roughness = std::sqrt(0.75 * std::hypot(bsdf.widths.x, bsdf.widths.y) / std::sqrt(2.0) + sum / 8);
+  return bsdf;
+}
+inline Bsdf filmed(Bsdf bsdf, double thickness, double ior, double share = 1) {
+  bsdf.film = {.share = share, .thickness = thickness, .ior = ior};
+  return bsdf;
+}
 inline optics::Fresnel perfect() {
   return optics::schlick(Vec3(1), Vec3(1));
 }
@@ -62,16 +80,24 @@ inline std::vector<Named> examples(double roughness) {
   Bsdf velvet = plastic(0.4, 0.7, 0.3);
   velvet.sheen = {0.9, 0.5, 0.3};
   velvet.sheen_roughness = roughness;
-  return {{"matte", matte},
-          {"gold", conductor(gold(), roughness)},
-          {"plastic", plastic(0.6, roughness)},
-          {"coated", car},
-          {"coated aslant", lacquer},
-          {"glass from outside", glass(roughness, 1, 1.5)},
-          {"glass from inside", glass(roughness, 1.5, 1)},
-          {"velvet", velvet},
-          {"pane", pane(0.8, roughness)},
-          {"opal", opal(roughness)}};
+  return {
+      {"matte", matte},
+      {"gold", conductor(gold(), roughness)},
+      {"plastic", plastic(0.6, roughness)},
+      {"coated", car},
+      {"coated aslant", lacquer},
+      {"glass from outside", glass(roughness, 1, 1.5)},
+      {"glass from inside", glass(roughness, 1.5, 1)},
+      {"velvet", velvet},
+      {"pane", pane(0.8, roughness)},
+      {"opal", opal(roughness)},
+      {"leaf", leaf(0.8, 0.6, roughness)},
+      {"brushed gold", brushed(conductor(gold(), roughness))},
+      {"brushed glass", brushed(glass(roughness, 1, 1.5))},
+      {"brushed pane", brushed(pane(0.8, roughness))},
+      {"oil on paint", filmed(plastic(0.6, roughness), 350, 1.4, 0.7)},
+      {"film on copper", filmed(conductor(optics::schlick({0.9, 0.6, 0.4}, Vec3(1)), roughness), 500, 1.8)},
+      {"bubble", filmed(pane(0.9, roughness), 300, 1.33)}};
 }
 
 // The shaders' record of the BSDF, seen from o.
@@ -97,12 +123,22 @@ inline shader::Bsdf packed(const Bsdf& bsdf, const glm::vec3& o) {
   record.sheen_roughness = float(bsdf.sheen_roughness);
   record.sheen_albedo = shader::sheen_table(o.z, record.sheen_roughness);
   record.thin = glm::vec3(bsdf.thin);
+  record.translucent = glm::vec3(bsdf.translucent);
+  record.widths = glm::vec2(bsdf.widths);
+  if (bsdf.widths.x > 0) record.albedo = shader::facets_albedo(o, record.widths, record.roughness);
   record.glass = glm::vec3(bsdf.glass);
   record.glass_color = glm::vec3(bsdf.glass_color);
   record.ior_from = float(bsdf.ior_from);
   record.ior_to = float(bsdf.ior_to);
   if (bsdf.glass != Vec3(0))
     record.glass_albedo = shader::glass_table(o.z, record.roughness, record.ior_from, record.ior_to);
+  if (bsdf.film.share > 0) {
+    shader::Film film = shader::no_film();
+    film.share = float(bsdf.film.share);
+    film.thickness = float(bsdf.film.thickness);
+    film.ior = float(bsdf.film.ior);
+    record = shader::under_film(record, film, o.z);
+  }
   return record;
 }
 
