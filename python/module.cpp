@@ -122,15 +122,23 @@ Scene build(const py::dict& tables, const std::string& name, const py::object& d
 
 Picture render(const std::shared_ptr<Renderer>& renderer, const Scene& scene, const py::object& backend,
                const py::object& aovs, const py::object& crop, const py::object& noise,
-               const py::object& clamp, bool denoise, const py::object& progress,
-               const std::optional<Cancellation>& cancellation) {
+               const py::object& clamp, bool reject_fireflies, const py::object& denoise,
+               const py::object& progress, const std::optional<Cancellation>& cancellation) {
   eyeray::RenderOptions options;
   options.backend = backend_named(backend);
   options.aovs = strings_of(aovs, "aovs must be a list of names");
   options.crop = rect_of(crop);
   options.noise = cast_to<double>(noise, "noise must be a number");
   options.clamp = cast_to<double>(clamp, "clamp must be a number");
-  options.denoise = denoise;
+  options.reject_fireflies = reject_fireflies;
+  if (py::isinstance<py::str>(denoise)) {
+    if (denoise.cast<std::string>() != "oidn")
+      throw py::value_error("denoise must be True, False or \"oidn\"");
+    options.denoise = true;
+    options.denoiser = eyeray::Denoiser::open_image_denoise;
+  } else {
+    options.denoise = cast_to<bool>(denoise, "denoise must be True, False or \"oidn\"");
+  }
   if (cancellation) options.cancellation = *cancellation;
   options.progress = progress_of(progress, options.cancellation);
   return in_background<Picture>(options.cancellation, [=] { return renderer->render(scene, options); });
@@ -249,8 +257,8 @@ void add_renderer(py::module_& module) {
            py::arg("timeout") = 60.0)
       .def("render", &render, py::arg("scene"), py::kw_only(), py::arg("backend") = "gpu",
            py::arg("aovs") = py::tuple(), py::arg("crop") = py::none(), py::arg("noise") = 0.0,
-           py::arg("clamp") = 0.0, py::arg("denoise") = false, py::arg("progress") = py::none(),
-           py::arg("cancellation") = py::none())
+           py::arg("clamp") = 0.0, py::arg("reject_fireflies") = false, py::arg("denoise") = false,
+           py::arg("progress") = py::none(), py::arg("cancellation") = py::none())
       .def("verify", &verify, py::arg("scene"), py::kw_only(),
            py::arg("backends") = py::make_tuple("gpu", "twin"), py::arg("crop") = py::none(),
            py::arg("evidence") = py::none(), py::arg("progress") = py::none(),

@@ -50,8 +50,16 @@ std::vector<std::string> take_sbatch_words(int& argc, char** argv) {
   return words;
 }
 
+// `--denoise oidn` names the denoiser. CLI11 gives no words to an option that needs none.
+void name_denoiser(int argc, char** argv) {
+  static char option[] = "--denoiser";
+  for (int i = 1; i + 1 < argc; ++i)
+    if (argv[i] == std::string_view("--denoise") && argv[i + 1] == std::string_view("oidn")) argv[i] = option;
+}
+
 int run_command_line(int argc, char** argv) {
   const std::vector<std::string> sbatch_words = take_sbatch_words(argc, argv);
+  name_denoiser(argc, argv);
   CLI::App app;
   program::describe(app, "eyeray",
                     "eyeray: a ray tracer on Vulkan compute shaders, checked pixel by pixel against the CPU.",

@@ -96,6 +96,8 @@ Json json_of(const Result& picture, size_t parts) {
                      {"most_samples", totals.most_samples},
                      {"mean_samples", picture.mean_samples()}};
   if (quality.fireflies > 0) json["fireflies"] = quality.fireflies;
+  if (quality.outliers.pixels > 0)
+    json["outliers"] = {{"pixels", quality.outliers.pixels}, {"share_of_light", quality.outlier_share}};
   if (quality.clamp > 0) json["clamp"] = {{"at", quality.clamp}, {"samples", quality.clamped}};
   if (picture.metered) json["exposure"] = *picture.metered;
   if (picture.noise_left) json["noise_left"] = *picture.noise_left;

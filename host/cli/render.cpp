@@ -281,8 +281,24 @@ void add_render(CLI::App& app, Run& run) {
       ->option_text("X")
       ->check(within(1e-6, 1e15));
   command->add_flag(
+      "--reject-fireflies", request.reject_fireflies,
+      "Leave out rare samples that are far brighter than all around. This removes bright dots, but "
+      "the picture is biased: a warning states how much light it lost.");
+  command->add_flag(
       "--denoise", request.denoise,
       "Remove the noise of random paths from the finished picture. An .exr keeps the noisy one too.");
+  command
+      ->add_option_function<std::string>(
+          "--denoiser",
+          [render](const std::string& name) {
+            render->options.request.denoise = true;
+            render->options.request.denoiser =
+                name == "oidn" ? session::Denoiser::open_image_denoise : session::Denoiser::own;
+          },
+          "Denoise with this one: eyeray's own, or oidn, the library Open Image Denoise if it is installed. "
+          "--denoise oidn means the same.")
+      ->option_text("own|oidn")
+      ->check(one_of({"own", "oidn"}));
   command
       ->add_option_function<std::string>(
           "--shard",

@@ -7,8 +7,11 @@
 #include <utility>
 
 #include "host/core/error.hpp"
+#include "host/core/halves.hpp"
 #include "host/core/parallel_for.hpp"
+#include "host/denoise/alpha.hpp"
 #include "host/denoise/block_means.hpp"
+#include "host/denoise/choice.hpp"
 #include "host/denoise/distances.hpp"
 #include "host/denoise/regression.hpp"
 #include "host/scene/luminance.hpp"
@@ -26,25 +29,6 @@ constexpr float least_albedo = 0.02f;      // the least that colours are divided
 constexpr float dot_brightness = 16;       // the least brightness of a dot, relative to its surroundings
 constexpr float dot_doubt = 0.2f;          // the least standard error of a dot, relative to its brightness
 constexpr int scaling_radius = 5;  // radius of the windows in which variances are compared with the halves
-constexpr int error_radius = 2;    // radius of the windows in which errors are estimated
-
-// The means of the first and of the second half of the samples, or their variances.
-struct Halves {
-  Halves(int width, int height, int count) : first(width, height, count), second(width, height, count) {}
-  void extend() {
-    first.extend();
-    second.extend();
-  }
-  Planes first, second;
-};
-
-// Calls body(x, y) for each pixel.
-template <typename Body>
-void for_each_pixel(const Planes& planes, const Body& body) {
-  parallel_for(0, planes.height(), [&](int y) {
-    for (int x = 0; x < planes.width(); ++x) body(x, y);
-  });
-}
 
 // Calls body(x, y) for the first pixel of each tile.
 template <typename Body>
@@ -93,7 +77,9 @@ class Denoising {
       distances.compute(lights.first, light_variances.first, least, valid_, x, y);
       fit(colors.second, careful.second, bold.second);
     });
-    return result_of(best_of(colors, variances, std::move(careful), bold));
+    choose_best(colors, variances, valid_, 0, 3, bold, careful);
+    if (planes_ == 4) choose_best(colors, variances, valid_, 3, 4, bold, careful);
+    return result_of(careful);
   }
 
  private:
@@ -147,8 +133,8 @@ class Denoising {
 
   // The share of the samples that are in the first half.
   float first_share(int x, int y) const {
-    const auto samples = int64_t(*picture_.samples.pixel(x, y));
-    return float((samples + 1) / 2) / float(samples);
+    const auto samples = uint64_t(*picture_.samples.pixel(x, y));
+    return float(first_half_of(samples)) / float(samples);
   }
 
   // Writes the two halves of a mean to the planes from `plane` on.
@@ -283,106 +269,37 @@ class Denoising {
     return float(std::max(1e-8 * mean * mean, 1e-30));
   }
 
-  // The squared error of each fit of planes [begin, end) in a small window, in plane 0: that from the other
-  // half, less that half's variance, which is in plane 1.
-  Planes errors_of(const Halves& colors, const Halves& variances, const Halves& fitted, int begin,
-                   int end) const {
-    Planes sums(width_, height_, 2);
-    for_each_pixel(valid_, [&](int x, int y) {
-      if (!valid(x, y)) return;
-      for (int c = begin; c < end; ++c) {
-        const float first = *fitted.first.at(c, x, y) - *colors.second.at(c, x, y);
-        const float second = *fitted.second.at(c, x, y) - *colors.first.at(c, x, y);
-        const float noise = *variances.first.at(c, x, y) + *variances.second.at(c, x, y);
-        *sums.at(0, x, y) += 0.5f * (first * first + second * second - noise);
-        *sums.at(1, x, y) += 0.5f * noise;
-      }
-    });
-    sums.extend();
-    return blurred(sums, error_radius);
-  }
-
-  // At each pixel the fit whose error is less. It is mixed with the noisy halves so that the error is least:
-  // for an error e² and the variance v of both halves' mean, by e²/(e² + v). The estimate of e² is uncertain
-  // by about v, which does not count.
-  Halves best_of(const Halves& colors, const Halves& variances, Halves one, const Halves& other) const {
-    choose(colors, variances, one, other, 0, 3);
-    if (planes_ == 4) choose(colors, variances, one, other, 3, 4);
-    return one;
-  }
-  // The same for planes [begin, end), in place.
-  void choose(const Halves& colors, const Halves& variances, Halves& one, const Halves& other, int begin,
-              int end) const {
-    const Planes errors = errors_of(colors, variances, one, begin, end),
-                 others = errors_of(colors, variances, other, begin, end);
-    for_each_pixel(valid_, [&](int x, int y) {
-      const bool better = *others.at(0, x, y) < *errors.at(0, x, y);
-      const float noise = 0.5f * *errors.at(1, x, y);
-      const float error = std::max(0.0f, std::min(*errors.at(0, x, y), *others.at(0, x, y)) - noise);
-      const float share = error > 0 ? error / (error + noise) : 0.0f;
-      for (int c = begin; c < end; ++c) {
-        const auto mix = [&](Planes& mixed, const Planes& second, const Planes& noisy) {
-          float& value = *mixed.at(c, x, y);
-          if (better) value = *second.at(c, x, y);
-          value += share * (*noisy.at(c, x, y) - value);
-        };
-        mix(one.first, other.first, colors.first);
-        mix(one.second, other.second, colors.second);
-      }
-    });
-  }
-
   DenoisedPicture result_of(const Halves& fitted) const {
-    DenoisedPicture result{picture_.color};
+    DenoisedPicture result{.color = picture_.color, .errors = Image(width_, height_, 1)};
     double errors = 0, sum = 0;
     for (int y = 0; y < height_; ++y) {
       for (int x = 0; x < width_; ++x) {
-        if (!valid(x, y)) continue;
+        if (!valid(x, y)) {
+          *result.errors.pixel(x, y) = std::sqrt(light(picture_.variance, x, y));
+          continue;
+        }
         const float share = first_share(x, y);
-        Vec3 mean(0.0), error(0.0);
+        Vec3 apart(0.0);
         for (int c = 0; c < 3; ++c) {
           const float first = *fitted.first.at(c, x, y), second = *fitted.second.at(c, x, y);
           result.color.pixel(x, y)[c] = share * first + (1 - share) * second;
-          mean[c] = double(result.color.pixel(x, y)[c]);
-          error[c] = double(first - second) / 2;
+          apart[c] = double(first - second) / 2;
         }
-        errors += std::abs(luminance(error));
-        sum += luminance(mean);
+        const double error = std::abs(luminance(apart));
+        *result.errors.pixel(x, y) = float(error);
+        errors += error;
+        sum += double(light(result.color, x, y));
       }
     }
     keep_block_means(picture_.color, valid_, result.color);
-    if (planes_ == 4) result.color = with_alpha(result.color, fitted);
+    if (planes_ == 4)
+      result.color = with_alpha(picture_, result.color, [&](int x, int y) {
+        if (!valid(x, y)) return *picture_.coverage.pixel(x, y);
+        const float share = first_share(x, y);
+        return share * *fitted.first.at(3, x, y) + (1 - share) * *fitted.second.at(3, x, y);
+      });
     result.error = sum > 0 ? errors / sum : 0;
     return result;
-  }
-
-  // The colours with the fitted alpha, where the noisy one is between 0 and 1 at the pixel or beside it.
-  Image with_alpha(const Image& color, const Halves& fitted) const {
-    Image result(width_, height_, 4);
-    for_each_pixel(valid_, [&](int x, int y) {
-      float* const pixel = result.pixel(x, y);
-      std::copy_n(color.pixel(x, y), 3, pixel);
-      pixel[3] = *picture_.coverage.pixel(x, y);
-      if (!valid(x, y)) return;
-      if (!evenly_covered(x, y)) {
-        const float share = first_share(x, y);
-        pixel[3] =
-            std::min(1.0f, share * *fitted.first.at(3, x, y) + (1 - share) * *fitted.second.at(3, x, y));
-      } else if (pixel[3] == 0) {
-        std::copy_n(picture_.color.pixel(x, y), 3, pixel);
-      }
-    });
-    return result;
-  }
-
-  // True if the pixel and those around it are wholly covered, or not at all.
-  bool evenly_covered(int x, int y) const {
-    const float here = *picture_.coverage.pixel(x, y);
-    bool even = here == 0 || here == 1;
-    for (int j = std::max(0, y - 1); j <= std::min(height_ - 1, y + 1); ++j)
-      for (int i = std::max(0, x - 1); i <= std::min(width_ - 1, x + 1); ++i)
-        even = even && *picture_.coverage.pixel(i, j) == here;
-    return even;
   }
 
   const NoisyPicture& picture_;

@@ -6,7 +6,7 @@
 namespace eyeray::engine::denoise {
 
 // The inputs of denoising: images of the same size. All but `samples` and `variance` are means over a pixel's
-// samples, or over every other one, from the first on (`half_…`). Albedo and normal belong to the first
+// samples, or over the first half of them (`half_…`, core/halves.hpp). Albedo and normal belong to the first
 // surface that scatters light.
 struct NoisyPicture {
   image::Image color;        // linear RGB
@@ -24,8 +24,10 @@ struct NoisyPicture {
 
 struct DenoisedPicture {
   image::Image color;  // linear RGB; of a transparent picture, multiplied by an alpha that follows
-  // An estimate of the remaining noise: the mean of the pixels' errors of luminance, relative to the mean
-  // luminance. Blurred details do not count.
+  // An estimate of each pixel's error of luminance, in 1 channel: NaN where the colour is not finite. Blurred
+  // details do not count. Empty if the denoiser estimates no errors.
+  image::Image errors;
+  // The mean of these errors over the pixels that were denoised, relative to their mean luminance.
   double error = 0;
 };
 

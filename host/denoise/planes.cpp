@@ -1,7 +1,5 @@
 #include "host/denoise/planes.hpp"
 
-#include "host/core/parallel_for.hpp"
-
 namespace eyeray::engine::denoise {
 
 Planes blurred(const Planes& planes, int radius) {

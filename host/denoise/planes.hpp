@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "host/core/parallel_for.hpp"
+
 namespace eyeray::engine::denoise {
 
 constexpr int window_radius = 6;  // a pixel's neighbours: 13 × 13
@@ -49,6 +51,24 @@ class Planes {
   int count_ = 0;
   std::vector<float> values_;
 };
+
+// The means of the first and of the second half of the samples, or their variances.
+struct Halves {
+  Halves(int width, int height, int count) : first(width, height, count), second(width, height, count) {}
+  void extend() {
+    first.extend();
+    second.extend();
+  }
+  Planes first, second;
+};
+
+// Calls body(x, y) for each pixel.
+template <typename Body>
+void for_each_pixel(const Planes& planes, const Body& body) {
+  parallel_for(0, planes.height(), [&](int y) {
+    for (int x = 0; x < planes.width(); ++x) body(x, y);
+  });
+}
 
 // The mean of each value's square of 2·radius + 1 pixels a side, extended; radius ≤ margin, and `planes` must
 // be extended.

@@ -33,12 +33,26 @@ struct PixelTotals {
 // pixel's samples. A channel of one component uses only the first of ValueOfHit's three numbers.
 using ValueOfHit = Vec3 (*)(const FirstHit& hit);
 struct EntryOfLegend {};
+
+// Samples of a pixel that do not count (film/outliers.hpp), and the mean of the others, which stands for
+// each.
+struct LeftOut {
+  Vec3 sum;         // their colours
+  Vec3 mean;        // the mean colour of the pixel's other samples
+  double samples;   // their number
+  double others;    // the number of the others
+  bool first_half;  // whether the channel `half` has them
+};
+
 struct OfSamples {
   int sums = 0;  // number of float64 sums a pixel; each starts at 0
   void (*add)(const PixelSample& sample, const AuxiliarySample& auxiliary, double* sums) = nullptr;
   // Writes the values of a pixel whose samples have all been added; 0 for a pixel without samples. Null: the
   // value is the noise of the pixel's block (Film::noise), and its one sum is that of squared luminances.
   void (*mean)(const PixelTotals& totals, const double* sums, float* values) = nullptr;
+  // Changes the sums of a channel of colours as if these samples had the mean of the others. Null: they do
+  // not change.
+  void (*leave_out)(const LeftOut& samples, double* sums) = nullptr;
 };
 
 // Values that executors compute only on request, and coverage, which only a transparent picture has.

@@ -8,6 +8,7 @@
 
 #include "host/core/diagnostic.hpp"
 #include "host/core/error.hpp"
+#include "host/core/halves.hpp"
 #include "host/scene/integrator.hpp"
 #include "host/scene/luminance.hpp"
 
@@ -36,16 +37,15 @@ void add_reflected_and_refracted(const PixelSample& sample, const AuxiliarySampl
   sums[1] += sample.refracted;
 }
 
-// Adds to the sums of a mean over every other sample, from the first on. After its three sums comes the
-// number of all samples.
+// Adds to the sums of a mean over the first half of the samples. After its three sums comes the number of all
+// samples.
 void add_to_half(const Vec3& value, double* sums) {
-  const auto count = uint64_t(sums[3]++);
-  if (count % 2 == 0)
+  if (in_first_half(uint64_t(sums[3]++)))
     for (int i = 0; i < 3; ++i) sums[i] += value[i];
 }
 
 void means_of_half(const PixelTotals&, const double* sums, float* values) {
-  const double samples = std::max(1.0, std::ceil(sums[3] / 2));
+  const auto samples = double(std::max(uint64_t{1}, first_half_of(uint64_t(sums[3]))));
   for (int i = 0; i < 3; ++i) values[i] = float(sums[i] / samples);
 }
 
@@ -55,6 +55,12 @@ void variances_of_means(const PixelTotals& totals, const double* sums, float* va
   for (int i = 0; i < 3; ++i)
     values[i] =
         n < 2 ? 0.0f : float(std::max(0.0, sums[i] - totals.color[i] * totals.color[i] / n) / (n * (n - 1)));
+}
+
+// A group of samples that does not count has a very bright one. So the square of its sum stands for the sum
+// of its squares, which is not known.
+double squares_without(double squares, double sum, const LeftOut& left) {
+  return std::max(0.0, squares - sum * sum) * (left.others + left.samples) / left.others;
 }
 
 void means_of_three(const PixelTotals& totals, const double* sums, float* values) {
@@ -151,10 +157,12 @@ constexpr ChannelType types[] = {
     {.name = "noise",
      .components = 1,
      .shown_as = image::FalseColor::scalar,
-     .values =
-         OfSamples{.sums = 1,
-                   .add = [](const PixelSample& sample, const AuxiliarySample&,
-                             double* sums) { *sums += luminance(sample.color) * luminance(sample.color); }}},
+     .values = OfSamples{
+         .sums = 1,
+         .add = [](const PixelSample& sample, const AuxiliarySample&,
+                   double* sums) { *sums += luminance(sample.color) * luminance(sample.color); },
+         .leave_out = [](const LeftOut& left,
+                         double* sums) { *sums = squares_without(*sums, luminance(left.sum), left); }}},
     {.name = "brightest",
      .components = 1,
      .shown_as = image::FalseColor::depth,
@@ -180,7 +188,12 @@ constexpr ChannelType types[] = {
                              [](const PixelSample& sample, const AuxiliarySample&, double* sums) {
                                for (int i = 0; i < 3; ++i) sums[i] += sample.color[i] * sample.color[i];
                              },
-                         .mean = variances_of_means}},
+                         .mean = variances_of_means,
+                         .leave_out =
+                             [](const LeftOut& left, double* sums) {
+                               for (int i = 0; i < 3; ++i)
+                                 sums[i] = squares_without(sums[i], left.sum[i], left);
+                             }}},
     {.name = "half",
      .components = 3,
      .component_names = {"R", "G", "B"},
@@ -188,7 +201,13 @@ constexpr ChannelType types[] = {
      .values = OfSamples{.sums = 4,
                          .add = [](const PixelSample& sample, const AuxiliarySample&,
                                    double* sums) { add_to_half(sample.color, sums); },
-                         .mean = means_of_half}},
+                         .mean = means_of_half,
+                         .leave_out =
+                             [](const LeftOut& left, double* sums) {
+                               if (!left.first_half) return;
+                               for (int i = 0; i < 3; ++i)
+                                 sums[i] += left.samples * left.mean[i] - left.sum[i];
+                             }}},
     {.name = "albedo",
      .components = 3,
      .component_names = {"R", "G", "B"},
@@ -244,8 +263,10 @@ constexpr ChannelType types[] = {
                          .add = [](const PixelSample& sample, const AuxiliarySample&,
                                    double* sums) { add_to_half(Vec3(1 - sample.background), sums); },
                          .mean =
-                             [](const PixelTotals&, const double* sums, float* values) {
-                               *values = share(float(sums[0] / std::max(1.0, std::ceil(sums[3] / 2))));
+                             [](const PixelTotals& totals, const double* sums, float* values) {
+                               float means[3];
+                               means_of_half(totals, sums, means);
+                               *values = share(means[0]);
                              }},
      .needs = Needs::coverage},
     {.name = "nodes",

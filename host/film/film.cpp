@@ -3,12 +3,23 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "host/core/error.hpp"
 #include "host/core/parallel_for.hpp"
+#include "host/film/outliers.hpp"
 #include "host/scene/luminance.hpp"
 
 namespace eyeray::engine::film {
+
+namespace {
+
+constexpr size_t values_of_groups = 3 * groups_of_pixel;
+constexpr int outlier_block = 4;  // pixels each way; a divisor of noise_block, so bands do not cut blocks
+// No group of samples whose mean is at most this share of the luminance shown as 1 is an outlier.
+constexpr double outlier_floor = 0.05;
+
+}  // namespace
 
 static_assert(sizeof(PixelTotals) == 40, "checkpoints hold it as it lies in memory");
 
@@ -33,7 +44,7 @@ image::Image with_alpha(const Rows& rows) {
   return result;
 }
 
-void Film::reset(int width, int height, const Channels& channels, double shown_as_one) {
+void Film::reset(int width, int height, const Channels& channels, double shown_as_one, bool finds_outliers) {
   width_ = width;
   height_ = height;
   shown_as_one_ = shown_as_one;
@@ -43,6 +54,7 @@ void Film::reset(int width, int height, const Channels& channels, double shown_a
   sums_.resize(channels_.size());
   for (size_t i = 0; i < channels_.size(); ++i)
     sums_[i].assign(size_t(channels_[i]->of_samples()->sums) * pixels_.size(), 0);
+  groups_.assign(finds_outliers ? pixels_.size() * values_of_groups : 0, 0);
 }
 
 void Film::add(const Rect& part, std::span<const PixelSample> samples,
@@ -56,6 +68,10 @@ void Film::add(const Rect& part, std::span<const PixelSample> samples,
     const AuxiliarySample& auxiliary = auxiliaries.empty() ? none : auxiliaries[size_t(i)];
     const size_t at = index(part.x + i % part.width, part.y + i / part.width);
     PixelTotals& pixel = pixels_[at];
+    if (!groups_.empty()) {
+      float* const group = &groups_[at * values_of_groups + 3 * size_t(group_of(pixel.samples))];
+      for (int c = 0; c < 3; ++c) group[c] += float(sample.color[c]);
+    }
     pixel.color += sample.color;
     pixel.hits += sample.hits;
     pixel.rays += sample.rays;
@@ -71,6 +87,64 @@ void Film::add(const Rect& part, std::span<const PixelSample> samples,
 void Film::finish(const Rect& part) {
   for (int y = part.y; y < part.y + part.height; ++y)
     for (int x = part.x; x < part.x + part.width; ++x) pixels_[index(x, y)].finished = 1;
+}
+
+Outliers Film::leave_out_outliers() {
+  CHECK(!groups_.empty());
+  const int rows = (height_ + outlier_block - 1) / outlier_block;
+  std::vector<Outliers> found(static_cast<size_t>(rows));
+  parallel_for(0, rows, [&](int row) {
+    const int y = row * outlier_block;
+    for (int x = 0; x < width_; x += outlier_block)
+      found[size_t(row)] += leave_out_outliers(
+          {x, y, std::min(outlier_block, width_ - x), std::min(outlier_block, height_ - y)});
+  });
+  return std::accumulate(found.begin(), found.end(), Outliers(),
+                         [](Outliers sum, const Outliers& each) { return sum += each; });
+}
+
+Outliers Film::leave_out_outliers(const Rect& block) {
+  std::vector<size_t> indices;
+  std::vector<PixelGroups> groups;
+  for (int y = block.y; y < block.y + block.height; ++y) {
+    for (int x = block.x; x < block.x + block.width; ++x) {
+      const size_t at = index(x, y);
+      indices.push_back(at);
+      groups.push_back(
+          {std::span(groups_).subspan(at * values_of_groups, values_of_groups), pixels_[at].samples});
+    }
+  }
+  const std::vector<uint32_t> outliers = outliers_of(groups, outlier_floor * shown_as_one_);
+  Outliers found;
+  for (size_t i = 0; i < indices.size(); ++i) {
+    if (outliers[i] == 0) continue;
+    PixelTotals& pixel = pixels_[indices[i]];
+    const double before = luminance(pixel.color);
+    Vec3 others = pixel.color;
+    double samples = pixel.samples;
+    for (int group = 0; group < groups_of_pixel; ++group) {
+      if (!(outliers[i] >> group & 1)) continue;
+      others -= groups[i].sum(group);
+      samples -= groups[i].samples_in(group);
+    }
+    const Vec3 mean = glm::max(others, Vec3(0.0)) / samples;
+    for (int group = 0; group < groups_of_pixel; ++group) {
+      if (!(outliers[i] >> group & 1)) continue;
+      const LeftOut left{.sum = groups[i].sum(group),
+                         .mean = mean,
+                         .samples = double(groups[i].samples_in(group)),
+                         .others = samples,
+                         .first_half = group_is_in_first_half(group)};
+      for (size_t c = 0; c < channels_.size(); ++c) {
+        const OfSamples& values = *channels_[c]->of_samples();
+        if (values.leave_out) values.leave_out(left, &sums_[c][indices[i] * size_t(values.sums)]);
+      }
+    }
+    pixel.color = mean * double(pixel.samples);
+    ++found.pixels;
+    found.luminance += (before - luminance(pixel.color)) / double(pixel.samples);
+  }
+  return found;
 }
 
 uint64_t Film::samples() const {
@@ -95,17 +169,18 @@ double Film::noise(const Rect& block) const {
       brightness += sum / n;
     }
   }
-  return 1.96 * std::sqrt(variances / pixels) / (brightness / pixels + 0.01 * shown_as_one_);
+  return noise_of(variances, brightness, pixels, shown_as_one_);
 }
 
 void Film::fill_noise(int first, image::Image& rows) const {
   const int end = first + rows.height();
-  for (int top = first / noise_block * noise_block; top < end; top += noise_block) {
-    for (int left = 0; left < width_; left += noise_block) {
-      const Rect block{left, top, std::min(noise_block, width_ - left), std::min(noise_block, height_ - top)};
+  const NoiseBlocks blocks(width_, height_);
+  for (int row = first / noise_block; row * noise_block < end; ++row) {
+    for (int column = 0; column < blocks.columns; ++column) {
+      const Rect block = blocks.block(column, row);
       const auto value = float(noise(block));
-      for (int y = std::max(first, top); y < std::min(end, top + block.height); ++y)
-        std::fill_n(rows.pixel(left, y - first), block.width, value);
+      for (int y = std::max(first, block.y); y < std::min(end, block.y + block.height); ++y)
+        std::fill_n(rows.pixel(block.x, y - first), block.width, value);
     }
   }
 }
@@ -138,12 +213,14 @@ Rows Film::rows(int first, int count) const {
 std::vector<std::span<std::byte>> Film::parts() {
   std::vector<std::span<std::byte>> all{std::as_writable_bytes(std::span(pixels_))};
   for (std::vector<double>& sums : sums_) all.push_back(std::as_writable_bytes(std::span(sums)));
+  if (!groups_.empty()) all.push_back(std::as_writable_bytes(std::span(groups_)));
   return all;
 }
 
 std::vector<std::span<const std::byte>> Film::parts() const {
   std::vector<std::span<const std::byte>> all{std::as_bytes(std::span(pixels_))};
   for (const std::vector<double>& sums : sums_) all.push_back(std::as_bytes(std::span(sums)));
+  if (!groups_.empty()) all.push_back(std::as_bytes(std::span(groups_)));
   return all;
 }
 

@@ -6,6 +6,7 @@
 
 #include "host/core/rect.hpp"
 #include "host/film/channel.hpp"
+#include "host/film/noise.hpp"
 
 namespace eyeray::engine::film {
 
@@ -30,14 +31,25 @@ struct Rows {
 // have.
 image::Image with_alpha(const Rows& rows);
 
-// Noise is measured in blocks of this many pixels each way, from the top left of the film on.
-constexpr int noise_block = 8;
+// The effect of Film::leave_out_outliers.
+struct Outliers {
+  uint64_t pixels = 0;   // the number of pixels that have some
+  double luminance = 0;  // the luminance that pixels lost, summed over all
+
+  Outliers& operator+=(const Outliers& other) {
+    pixels += other.pixels;
+    luminance += other.luminance;
+    return *this;
+  }
+};
 
 class Film {
  public:
   // Sets all sums to 0. The film sums only those of `channels` whose values come from samples.
   // `shown_as_one`: the luminance that the picture shows as 1; noise in the dark is measured relative to it.
-  void reset(int width, int height, const Channels& channels, double shown_as_one = 1);
+  // `finds_outliers`: whether the film sums groups of samples, too, 192 bytes a pixel.
+  void reset(int width, int height, const Channels& channels, double shown_as_one = 1,
+             bool finds_outliers = false);
   int width() const { return width_; }
   int height() const { return height_; }
   const Channels& channels() const { return channels_; }
@@ -52,10 +64,12 @@ class Film {
   void finish(const Rect& part);
   bool finished(int x, int y) const { return pixel(x, y).finished; }
   uint64_t samples() const;  // summed over all pixels
-  // The error of a block's pixels relative to their brightness. A pixel's error is half the width of the 95 %
-  // interval of its luminance, 1.96 √(s²/n). The root mean square of these errors is divided by the mean
-  // luminance plus 1 % of the luminance shown as 1. Pixels without samples do not count. The result is NaN if
-  // a pixel has only one sample, or if no pixel has any. Evenly spread samples of a pixel, such as Sobol's,
+  // Leaves out groups of samples that are outliers (film/outliers.hpp) among those of 4 × 4 pixels. Their
+  // mean becomes that of the pixel's other samples. Requires `finds_outliers`. To be called once, after all
+  // samples.
+  Outliers leave_out_outliers();
+  // The noise of a block (noise_of), where a pixel's variance is s²/n. Pixels without samples do not count.
+  // The result is NaN if a pixel has only one sample. Evenly spread samples of a pixel, such as Sobol's,
   // usually have a smaller error than this. The film must have the channel `noise`.
   double noise(const Rect& block) const;
 
@@ -68,12 +82,14 @@ class Film {
   size_t index(int x, int y) const { return size_t(y) * size_t(width_) + size_t(x); }
   const PixelTotals& pixel(int x, int y) const { return pixels_[index(x, y)]; }
   void fill_noise(int first, image::Image& rows) const;
+  Outliers leave_out_outliers(const Rect& block);
 
   int width_ = 0;
   int height_ = 0;
   Channels channels_;
   std::vector<PixelTotals> pixels_;
   std::vector<std::vector<double>> sums_;  // for each channel, OfSamples::sums values a pixel
+  std::vector<float> groups_;              // the colours of a pixel's groups; empty unless they are summed
   double shown_as_one_ = 1;
 };
 

@@ -55,7 +55,10 @@ session::Request request_of(const v0::RenderOptions& options) {
     request.channels = film::parse_channels(fmt::format("{}", fmt::join(options.aovs, ",")));
   request.noise = options.noise;
   request.clamp = options.clamp;
+  request.reject_fireflies = options.reject_fireflies;
   request.denoise = options.denoise;
+  request.denoiser =
+      options.denoiser == v0::Denoiser::own ? session::Denoiser::own : session::Denoiser::open_image_denoise;
   request.next_is_alike = true;
   request.progress = progress_of(options.progress, options.cancellation);
   return request;

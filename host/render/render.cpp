@@ -11,35 +11,19 @@
 #include "host/core/termination.hpp"
 #include "host/render/adaptive.hpp"
 #include "host/render/checkpoint.hpp"
+#include "host/render/first_hits.hpp"
+#include "host/render/rows_at_a_time.hpp"
 
 namespace eyeray::engine::render {
 namespace {
 
-// The number of pixels traced at a time: tens of megabytes of results.
-constexpr int most_traced = 1 << 20;
 // The number of pixels passed on at a time: their results stay in the caches, and in memory that was used
 // before.
 constexpr int most_handed_on = 1 << 16;
 
-int rows_of(int pixels, int width) {
-  return std::max(1, pixels / width);
-}
-
-// The number of rows to request at a time: they take about a fifth of a second, so that progress shows and
-// Ctrl-C works.
-class RowsAtATime {
- public:
-  explicit RowsAtATime(int width) : rows_(rows_of(most_traced, width)), most_(2 * rows_) {}
-  int rows() const { return rows_; }
-  void took(double seconds) {
-    if (seconds > 0.4) rows_ = std::max(1, rows_ / 2);
-    if (seconds < 0.1) rows_ = std::min(most_, rows_ * 2);
-  }
-
- private:
-  int rows_;
-  int most_;
-};
+// The least samples a pixel from which its noise is judged. Noise that is left in a denoised picture is
+// judged earlier, since it follows from many pixels together.
+constexpr uint64_t first_judgement = 64, first_judgement_of_noise_left = 16;
 
 // The requested channels, and those that Driver needs.
 film::Channels channels_of(const RenderOptions& options) {
@@ -64,14 +48,15 @@ class Driver {
         shown_as_one_(std::exp2(-options.exposure.value_or(scene.image.tone.exposure))),
         least_samples_(samples_),
         at_a_time_(crop_.width) {
-    CHECK(pixels_ > 0 && !(tiles_ && options.noise > 0));
+    CHECK(pixels_ > 0 && !(tiles_ && (options.noise > 0 || options.reject_outliers)));
     const size_t rows = options.band_bytes / (size_t(crop_.width) * sizeof(film::PixelTotals));
     // Bands must hold whole blocks of noise, and whole tiles.
-    const bool blocks = film::contains(channels_, film::channel_named("noise"));
+    const bool blocks = film::contains(channels_, film::channel_named("noise")) || options.reject_outliers;
     const size_t unit = blocks || tiles_ ? film::noise_block : 1;
     const auto height = size_t(crop_.height);
     band_rows_ = int(rows < height ? std::min(height, std::max<size_t>(rows / unit, 1) * unit) : height);
     progress_.samples_total = uint64_t(pixels_) * uint64_t(samples_);
+    CHECK(bands() == 1 || !options.noise_left);
     progress_.bands = bands();
     progress_.samples = samples_;
     begin_band(0);
@@ -105,7 +90,8 @@ class Driver {
     position_.samples = 0;
     position_.extra_rows = 0;
     progress_.band = row / band_rows_;
-    film_.reset(crop_.width, std::min(band_rows_, crop_.height - row), channels_, shown_as_one_);
+    film_.reset(crop_.width, std::min(band_rows_, crop_.height - row), channels_, shown_as_one_,
+                options_.reject_outliers);
     look_for_what_is_left();
   }
 
@@ -235,22 +221,39 @@ class Driver {
   }
 
   void look_for_what_is_left() {
-    if (options_.noise > 0) adaptive_.emplace(options_.noise, film_);
+    const uint64_t first = options_.noise_left ? first_judgement_of_noise_left : first_judgement;
+    if (options_.noise > 0) adaptive_.emplace(options_.noise, first, film_);
   }
 
   // To be called between two samples of the band: returns whether it needs another one, and estimates the
   // total number.
   bool some_are_left() {
     const uint64_t samples = position_.samples;
-    if (AdaptiveSampling::judges_after(samples)) adaptive_->judge(film_);
-    if (samples >= 8 && std::has_single_bit(samples)) {
+    const bool judges = adaptive_->judges_after(samples);
+    const bool estimates = samples >= 8 && std::has_single_bit(samples) && !options_.noise_left;
+    if (judges || estimates) {
+      const std::vector<double> noise = noise_of_blocks();
+      if (judges) adaptive_->judge(film_, noise);
       // Assume that the bands to come need as many samples as those so far.
       const double until_now =
-          double(progress_.samples_done) + adaptive_->samples_to_go(film_, samples, samples_);
+          double(progress_.samples_done) + adaptive_->samples_to_go(noise, samples, samples_);
       const double pixels = double(crop_.width) * double(position_.finished_rows + uint64_t(film_.height()));
       progress_.samples_total = uint64_t(until_now / pixels * double(crop_.pixels()));
     }
     return !adaptive_->finished();
+  }
+
+  std::vector<double> noise_of_blocks() const {
+    film::Film without_outliers;
+    if (options_.reject_outliers) {
+      without_outliers = film_;
+      without_outliers.leave_out_outliers();
+    }
+    const film::Film& film = options_.reject_outliers ? without_outliers : film_;
+    if (options_.noise_left) return options_.noise_left(film.rows(0, film.height()));
+    return film::NoiseBlocks(film.width(), film.height()).map([&](const Rect& block) {
+      return film.noise(block);
+    });
   }
 
   void report() {
@@ -263,6 +266,7 @@ class Driver {
   // Passes the band's rows to the sink, and, unless the band is the last, to the checkpoint.
   void hand_on() {
     const bool last = int(position_.finished_rows) + film_.height() == crop_.height;
+    if (options_.reject_outliers) totals_.outliers += film_.leave_out_outliers();
     for (int row = 0; row < film_.height();) {
       const int count = std::min(rows_of(most_handed_on, crop_.width), film_.height() - row);
       film::Rows rows = film_.rows(row, count);
@@ -277,8 +281,9 @@ class Driver {
 
   void give(const film::Rows& rows) {
     luminances_given_ += sum_of_luminances(rows.color);
-    const float* const noise =
-        options_.noise > 0 ? rows[film::channel_named("noise")].samples().data() : nullptr;
+    const float* const noise = options_.noise > 0 && !options_.noise_left
+                                   ? rows[film::channel_named("noise")].samples().data()
+                                   : nullptr;
     const std::vector<float>& counts = rows[film::channel_named("samples")].samples();
     for (size_t i = 0; i < counts.size(); ++i) {
       const int samples = int(counts[i]);
@@ -306,6 +311,8 @@ class Driver {
     totals.samples_taken = progress_.samples_done;
     totals.fireflies = brightness_.fireflies(luminances_given_, pixels_);
     totals.brightness = brightness_;
+    if (totals.outliers.pixels > 0)
+      totals.outlier_share = totals.outliers.luminance / (totals.outliers.luminance + luminances_given_);
     totals.samples_total = progress_.samples_total;
     return totals;
   }
@@ -352,21 +359,6 @@ void copy_rows(const image::Image& rows, int first, image::Image& picture) {
 RenderTotals render_rows(const Scene& scene, executors::Executor& executor, const RenderOptions& options,
                          const RowSink& sink) {
   return Driver(scene, executor, options, sink).run();
-}
-
-bool trace_first_hits(executors::Executor& executor, const Rect& crop, const FirstHitSink& sink) {
-  std::vector<FirstHit> hits;
-  for (int row = 0; row < crop.height;) {
-    const Rect tile{crop.x, crop.y + row, crop.width,
-                    std::min(rows_of(most_traced, crop.width), crop.height - row)};
-    hits.assign(size_t(tile.pixels()), {});
-    executor.first_hits(tile, hits);
-    // Drop these hits: an interrupted executor may leave out any pixel.
-    if (interrupted()) return false;
-    sink(row, hits);
-    row += tile.height;
-  }
-  return true;
 }
 
 Rendering render(const Scene& scene, executors::Executor& executor, const RenderOptions& options) {

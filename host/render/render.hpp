@@ -38,12 +38,18 @@ struct RenderOptions {
   // that channels need.
   film::Channels channels = {};
   bool ray_kinds = false;  // sum up the counts of rays by kind; the executor must count them
-  // If above 0, pixels whose noise (Film::noise) is at most this take no more samples (render/adaptive.hpp),
-  // and a pixel takes at most scene.image.samples.
+  // If above 0, pixels whose noise is at most this take no more samples (render/adaptive.hpp), and a pixel
+  // takes at most scene.image.samples.
   double noise = 0;
+  // Returns the noise of each block (film::NoiseBlocks) that will be left in a picture of these rows, which
+  // are all. Empty: Film::noise. The picture must be one band.
+  std::function<std::vector<double>(const film::Rows& all)> noise_left = {};
   std::optional<double> exposure = {};  // exposure of the shown picture, in stops; absent: the scene's
   // If above 0, samples are clamped to at most this in every channel, which makes means too dark.
   double clamp = 0;
+  // Leave out samples that are outliers (Film::leave_out_outliers), which makes means too dark. Not allowed
+  // with `tiles`.
+  bool reject_outliers = false;
   bool over_white =
       false;  // put the samples of a transparent picture in front of white, to compare both at once
   // Called with sample number `index` of the pixels of a tile, once it is taken; the tile is in pixels of the
@@ -69,13 +75,15 @@ struct RenderTotals {
   uint64_t samples_total = 0;    // as in Progress
   uint64_t samples_resumed = 0;
   uint64_t rays_resumed = 0;
-  RayCounts ray_kinds;     // ray kinds of this run, if requested
-  int most_samples = 0;    // the most samples of a pixel
-  uint64_t fireflies = 0;  // Brightness::fireflies of this run
-  Brightness brightness;   // brightness of this run's samples
-  uint64_t clamped = 0;    // samples of this run that RenderOptions::clamp changed
-  // With RenderOptions::noise: the number of pixels with at most that noise, and the greatest noise of a
-  // pixel.
+  RayCounts ray_kinds;       // ray kinds of this run, if requested
+  int most_samples = 0;      // the most samples of a pixel
+  uint64_t fireflies = 0;    // Brightness::fireflies of this run
+  Brightness brightness;     // brightness of this run's samples
+  uint64_t clamped = 0;      // samples of this run that RenderOptions::clamp changed
+  film::Outliers outliers;   // left out by this run
+  double outlier_share = 0;  // the share of the light that they had
+  // With RenderOptions::noise, and without noise_left: the number of pixels with at most that noise, and the
+  // greatest noise of a pixel.
   uint64_t quiet_pixels = 0;
   double greatest_noise = 0;
 };
@@ -92,12 +100,6 @@ using RowSink = std::function<void(const film::Rows&)>;
 // checkpoint to resume from is damaged.
 RenderTotals render_rows(const Scene& scene, executors::Executor& executor, const RenderOptions& options,
                          const RowSink& sink);
-
-using FirstHitSink = std::function<void(int first_row, std::span<const FirstHit>)>;
-
-// Passes the first hits of the rays through the centres of the crop's pixels to `sink`, some rows at a time.
-// Returns false if interrupted, before `sink` got all.
-bool trace_first_hits(executors::Executor& executor, const Rect& crop, const FirstHitSink& sink);
 
 // The whole result of a render.
 struct Rendering : RenderTotals {

@@ -1,6 +1,10 @@
 #include "host/session/denoised_output.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include "host/denoise/open_image_denoise.hpp"
+#include "host/scene/luminance.hpp"
 
 namespace eyeray::engine::session {
 namespace {
@@ -35,8 +39,10 @@ film::Channels with_parts(film::Channels channels, bool transparent) {
 
 }  // namespace
 
-DenoisedOutput::DenoisedOutput(Output& output, const film::Channels& shown, bool transparent)
-    : output_(output),
+DenoisedOutput::DenoisedOutput(Denoiser denoiser, Output& output, const film::Channels& shown,
+                               bool transparent)
+    : denoiser_(denoiser),
+      output_(output),
       channels_(with_parts(shown, transparent)),
       transparent_(transparent),
       shown_(output.layered() ? channels_ : shown) {}
@@ -45,6 +51,8 @@ void DenoisedOutput::begin(const Plan& plan) {
   Plan inner = plan;
   inner.channels = shown_;
   output_.begin(inner);
+  shown_as_one_ = std::exp2(-plan.tone.exposure);
+  noise_wanted_ = plan.request.noise;
   picture_.color = image::Image(plan.crop.width, plan.crop.height, 3);
   for (const Part& part : parts_of(transparent_))
     picture_.*part.image =
@@ -66,26 +74,78 @@ void DenoisedOutput::write(size_t plane, const image::Image& rows) {
     const film::Channel channel = channels_[plane - 1];
     for (const Part& part : parts_of(transparent_))
       if (part.channel == channel->name) keep(picture_.*part.image);
-    const auto at = std::ranges::find(shown_, channel);
-    if (at != shown_.end()) output_.write(1 + size_t(at - shown_.begin()), rows);
+    // The noise that is left is written at the end.
+    if (channel->name != "noise" || !estimates()) pass_on(channel, rows);
   }
   rows_[plane] += rows.height();
 }
 
-void DenoisedOutput::finish_color() {
+void DenoisedOutput::pass_on(film::Channel channel, const image::Image& rows) {
+  const auto at = std::ranges::find(shown_, channel);
+  if (at != shown_.end()) output_.write(1 + size_t(at - shown_.begin()), rows);
+}
+
+denoise::DenoisedPicture DenoisedOutput::denoise(const NoisyPicture& picture) {
   const Stopwatch watch;
-  const denoise::DenoisedPicture denoised = denoise::denoise(picture_);
-  error_ = denoised.error;
-  seconds_ = watch.seconds();
+  denoise::DenoisedPicture denoised =
+      denoiser_ == Denoiser::own ? denoise::denoise(picture) : denoise::denoise_by_oidn(picture);
+  last_seconds_ = watch.seconds();
+  seconds_ += last_seconds_;
+  return denoised;
+}
+
+std::vector<double> DenoisedOutput::noise_of(const denoise::DenoisedPicture& picture) const {
+  return film::NoiseBlocks(picture.errors.width(), picture.errors.height()).map([&](const Rect& block) {
+    double variances = 0, luminances = 0;
+    for (int y = block.y; y < block.y + block.height; ++y) {
+      for (int x = block.x; x < block.x + block.width; ++x) {
+        const double error = double(*picture.errors.pixel(x, y));
+        const float* const color = picture.color.pixel(x, y);
+        variances += error * error;
+        luminances += luminance(Vec3(color[0], color[1], color[2]));
+      }
+    }
+    return film::noise_of(variances, luminances, double(block.pixels()), shown_as_one_);
+  });
+}
+
+std::vector<double> DenoisedOutput::noise_left(const film::Rows& all) {
+  NoisyPicture picture;
+  picture.color = all.color;
+  for (const Part& part : parts_of(transparent_))
+    picture.*part.image = all[film::channel_named(part.channel)];
+  return noise_of(denoise(picture));
+}
+
+void DenoisedOutput::finish_color() {
+  const denoise::DenoisedPicture denoised = denoise(picture_);
+  if (estimates()) {
+    error_ = denoised.error;
+    noise_ = noise_of(denoised);
+    const film::NoiseBlocks blocks(picture_.color.width(), picture_.color.height());
+    pass_on(film::channel_named("noise"), blocks.as_image(noise_));
+  }
   output_.write(0, denoised.color);
   output_.finish_color();
 }
 
 void DenoisedOutput::describe(Result& result) const {
-  if (result.totals.samples_done == 0) return;
+  if (result.totals.samples_done == 0 || !estimates()) return;
   result.noise_left = error_;
-  result.times.add("denoise", seconds_);
-  result.times.add("encode", -seconds_);  // it was measured around finish_color
+  const film::NoiseBlocks blocks(picture_.color.width(), picture_.color.height());
+  for (int row = 0; row < blocks.rows; ++row) {
+    for (int column = 0; column < blocks.columns; ++column) {
+      const double noise = noise_[blocks.index(column, row)];
+      if (noise <= noise_wanted_) result.totals.quiet_pixels += uint64_t(blocks.block(column, row).pixels());
+      result.totals.greatest_noise = std::max(result.totals.greatest_noise, noise);
+    }
+  }
+}
+
+void DenoisedOutput::add_times(StageTimes& times) const {
+  if (seconds_ == 0) return;
+  times.add("denoise", seconds_);
+  times.add("encode", -last_seconds_);  // it was measured around finish_color
 }
 
 }  // namespace eyeray::engine::session

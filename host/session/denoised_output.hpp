@@ -12,7 +12,7 @@ class DenoisedOutput final : public Output {
  public:
   // `shown`: the channels that `output` gets. `output` must outlive this object. `transparent`: whether the
   // picture has an alpha.
-  DenoisedOutput(Output& output, const film::Channels& shown, bool transparent);
+  DenoisedOutput(Denoiser denoiser, Output& output, const film::Channels& shown, bool transparent);
 
   // All channels that the picture must be rendered with.
   const film::Channels& channels() const { return channels_; }
@@ -21,18 +21,32 @@ class DenoisedOutput final : public Output {
   void write(size_t plane, const image::Image& rows) override;
   void finish_color() override;
   void finish(const film::ChannelValues& values, Result& result) override { output_.finish(values, result); }
-  // Adds the noise that is left, and the time.
+  // Whether the denoiser estimates the noise that is left.
+  bool estimates() const { return denoiser_ == Denoiser::own; }
+  // The noise that is left in each block (film::NoiseBlocks) once these rows, which are all, are denoised.
+  // Requires estimates().
+  std::vector<double> noise_left(const film::Rows& all);
+  // Adds the noise that is left in the picture.
   void describe(Result& result) const;
+  void add_times(StageTimes& times) const;
 
  private:
+  void pass_on(film::Channel channel, const image::Image& rows);
+  denoise::DenoisedPicture denoise(const denoise::NoisyPicture& picture);
+  std::vector<double> noise_of(const denoise::DenoisedPicture& picture) const;
+
+  Denoiser denoiser_;
   Output& output_;
   film::Channels channels_;
   bool transparent_;
   film::Channels shown_;
   denoise::NoisyPicture picture_;
-  std::vector<int> rows_;  // the number of rows that each plane has so far
+  std::vector<int> rows_;    // the number of rows that each plane has so far
+  double shown_as_one_ = 1;  // the luminance that the picture shows as 1
+  double noise_wanted_ = 0;  // Request::noise
   double error_ = 0;
-  double seconds_ = 0;
+  std::vector<double> noise_;              // the noise that is left in each block
+  double seconds_ = 0, last_seconds_ = 0;  // of all denoising, and of the finished picture's
 };
 
 }  // namespace eyeray::engine::session

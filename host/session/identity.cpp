@@ -18,6 +18,7 @@ std::vector<render::IdentityPart> identity_of_picture(const Plan& plan) {
       {"size", fmt::format("{}x{}", scene.image.width, scene.image.height)},
       {"crop", crop == Rect{} ? "none" : fmt::format("{},{},{},{}", crop.x, crop.y, crop.width, crop.height)},
       {"--clamp", fmt::format("{}", request.clamp)},
+      {"--reject-fireflies", request.reject_fireflies ? "on" : "off"},
       {"samples a pixel", std::to_string(scene.image.samples)},
       {"backend", std::string(executors::backend_name(request.backend))},
       {"scene", hash_of_files(scene.files), false},

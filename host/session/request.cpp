@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "host/core/error.hpp"
+#include "host/denoise/open_image_denoise.hpp"
 #include "host/executors/formula_check.hpp"
 #include "host/render/corners.hpp"
 #include "host/scene/integrator.hpp"
@@ -45,6 +46,18 @@ std::string obstacle_to_denoising(const Request& request, const Scene& scene) {
   if (request.shard)
     return "a pixel is denoised from its neighbours, which are in other shards: leave out denoise";
   return "";
+}
+
+void check_fireflies(const Request& request, const Scene& scene) {
+  if (!request.reject_fireflies) return;
+  if (!walks_at_random(scene.render.integrator))
+    throw Error(ExitCode::bad_input,
+                "only random paths make fireflies: set integrator = \"path\" in [render], or leave out "
+                "reject-fireflies");
+  if (request.shard)
+    throw Error(ExitCode::bad_input,
+                "fireflies are found from a pixel's neighbours, which are in other shards: leave out "
+                "reject-fireflies");
 }
 
 void check_classic(const Request& request) {
@@ -94,10 +107,12 @@ void make_classic(Scene& scene, Request& request) {
 film::Channels check(const Request& request, const Scene& scene) {
   if (request.classic) check_classic(request);
   check_noise(request, scene);
+  check_fireflies(request, scene);
   crop_within(request.crop, scene.image);
   if (denoises(request, scene))
     if (const std::string obstacle = obstacle_to_denoising(request, scene); !obstacle.empty())
       throw Error(ExitCode::bad_input, "{}", obstacle);
+  if (denoises(request, scene) && request.denoiser == Denoiser::open_image_denoise) denoise::check_for_oidn();
   return film::channels_of(scene, request.channels);
 }
 

@@ -20,13 +20,18 @@ struct CheckpointFile {
   double seconds = 30;  // between two writes
 };
 
+// eyeray's denoiser (host/denoise/denoise.hpp), or a library that must be installed.
+enum class Denoiser { own, open_image_denoise };
+
 struct Request {
   executors::Backend backend = executors::Backend::gpu;
-  Rect crop;                           // empty: the whole picture
-  film::Channels channels;             // beside the colour
-  double noise = 0;                    // RenderOptions::noise
-  double clamp = 0;                    // RenderOptions::clamp
-  bool denoise = false;                // remove noise from the finished picture, as RenderSettings::denoise
+  Rect crop;                      // empty: the whole picture
+  film::Channels channels;        // beside the colour
+  double noise = 0;               // RenderOptions::noise
+  double clamp = 0;               // RenderOptions::clamp
+  bool reject_fireflies = false;  // RenderOptions::reject_outliers
+  bool denoise = false;           // remove noise from the finished picture, as RenderSettings::denoise
+  Denoiser denoiser = Denoiser::own;
   std::optional<double> exposure;      // in stops, in place of a measured one
   bool ray_kinds = false;              // count rays by kind
   bool classic = false;                // only by make_classic

@@ -1,11 +1,13 @@
 #include "host/session/session.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "host/core/error.hpp"
 #include "host/core/termination.hpp"
 #include "host/render/checkpoint.hpp"
 #include "host/render/corners.hpp"
+#include "host/render/first_hits.hpp"
 #include "host/render/legibility.hpp"
 #include "host/render/light_meter.hpp"
 #include "host/render/shutter.hpp"
@@ -42,11 +44,13 @@ std::optional<render::Checkpoint> checkpoint_of(const Plan& plan) {
 // One request while it is rendered.
 class Rendering {
  public:
-  Rendering(const Plan& plan, executors::Executor& executor, Output& output)
+  // `denoised`: the output if it is denoised, else null.
+  Rendering(const Plan& plan, executors::Executor& executor, Output& output, DenoisedOutput* denoised)
       : plan_(plan),
         request_(plan.request),
         executor_(executor),
         output_(output),
+        denoised_(denoised),
         values_(plan.channels, plan.scene),
         legibility_(render::legibility_of(plan.scene, plan.tone.exposure)),
         checkpoint_(checkpoint_of(plan)) {}
@@ -69,6 +73,7 @@ class Rendering {
     if (checkpoint_ && !result_.interrupted()) checkpoint_->remove();
     for (const StageTimes& times : {executor_.times(), output_times_})
       for (const auto& [stage, seconds] : times.stages()) result_.times.add(stage, seconds);
+    if (denoised_) denoised_->add_times(result_.times);
     return std::move(result_);
   }
 
@@ -80,10 +85,15 @@ class Rendering {
     options.ray_kinds = request_.ray_kinds;
     options.channels = plan_.channels;
     if (plan_.transparent()) options.channels = film::with(options.channels, {"coverage"});
-    options.noise = request_.noise;
-    options.clamp = request_.clamp;
-    options.exposure = plan_.tone.exposure;
     options.band_bytes = request_.band_bytes;
+    options.noise = request_.noise;
+    if (denoised_ && denoised_->estimates() && request_.noise > 0) {
+      options.noise_left = [this](const film::Rows& all) { return denoised_->noise_left(all); };
+      options.band_bytes = std::numeric_limits<size_t>::max();  // denoising keeps the whole picture, too
+    }
+    options.clamp = request_.clamp;
+    options.reject_outliers = request_.reject_fireflies;
+    options.exposure = plan_.tone.exposure;
     options.checkpoint = checkpoint_ ? &*checkpoint_ : nullptr;
     options.progress = [this](const render::Progress& now) { report(now); };
     return options;
@@ -131,6 +141,7 @@ class Rendering {
   }
 
   void describe() {
+    if (denoised_) denoised_->describe(result_);
     result_.crop = plan_.crop;
     result_.shard = request_.shard;
     result_.samples = plan_.scene.image.samples;
@@ -157,6 +168,7 @@ class Rendering {
   const Request& request_;
   executors::Executor& executor_;
   Output& output_;
+  DenoisedOutput* const denoised_;
   film::ChannelValues values_;
   std::optional<render::Legibility> legibility_;
   std::optional<render::Checkpoint> checkpoint_;
@@ -198,7 +210,7 @@ Result Session::render(const Scene& scene, const Request& request, Output& outpu
   spare_sources(output.files(), scene);
   std::optional<DenoisedOutput> denoised;
   if (denoises(request, scene))
-    channels = denoised.emplace(output, channels, scene.image.transparent).channels();
+    channels = denoised.emplace(request.denoiser, output, channels, scene.image.transparent).channels();
   std::optional<render::ShardTiles> tiles;
   const Rect crop = crop_within(request.crop, scene.image);
   if (request.shard) tiles.emplace(crop, *request.shard);
@@ -208,8 +220,8 @@ Result Session::render(const Scene& scene, const Request& request, Output& outpu
   tone.exposure = request.exposure ? *request.exposure : render::metered_exposure(scene, *executor);
   const Plan plan{
       request, scene, *executor, crop, channels, tone, options_.gpu.fast_math, tiles ? &*tiles : nullptr};
-  Result result = Rendering(plan, *executor, denoised ? *denoised : output).run();
-  if (denoised) denoised->describe(result);
+  Result result =
+      Rendering(plan, *executor, denoised ? *denoised : output, denoised ? &*denoised : nullptr).run();
   result.seconds = watch.seconds();
   return result;
 }

@@ -13,6 +13,8 @@ PictureQuality quality_of(const Scene& scene, double noise, double clamp, int64_
                          .flagged = totals.flagged_pixels,
                          .clamp = clamp,
                          .clamped = totals.clamped,
+                         .outliers = totals.outliers,
+                         .outlier_share = totals.outlier_share,
                          .most_samples = totals.most_samples};
   if (walks_at_random(scene.render.integrator)) quality.fireflies = totals.fireflies;
   if (noise > 0 && totals.samples_done > 0) {
@@ -39,7 +41,11 @@ std::vector<Diagnostic> warnings_of(const PictureQuality& quality) {
   if (quality.clamp > 0)
     warn(fmt::format("the picture is biased: clamp cut {} sample{} to {:g}", quality.clamped,
                      quality.clamped == 1 ? "" : "s", quality.clamp));
-  else if (quality.fireflies > 0)
+  if (quality.outliers.pixels > 0)
+    warn(fmt::format("the picture is biased: {} pixel{} lost fireflies, {:.2g} % of all light",
+                     quality.outliers.pixels, quality.outliers.pixels == 1 ? "" : "s",
+                     100 * quality.outlier_share));
+  if (quality.fireflies > 0 && quality.clamp == 0 && quality.outliers.pixels == 0)
     warn(
         fmt::format("{} sample{} more than {:g} times as bright as the mean of the picture, and {} in full; "
                     "the AOV brightest shows where",

@@ -286,18 +286,26 @@ enum class Backend {
   reference,  // a renderer in float64, written independently
 };
 
+enum class Denoiser {
+  own,                 // eyeray's: exact in its means, the same bits on every machine
+  open_image_denoise,  // Intel's library, if it is installed
+};
+
 struct RenderOptions {
   Backend backend = Backend::gpu;
   std::vector<std::string> aovs = {};  // "depth", "normal" …, or "all"
   Rect crop = {};
-  // Above 0: a pixel takes samples until its error is at most this share of its brightness. The scene's
-  // number of samples is the maximum.
+  // Above 0: a pixel takes samples until its error is at most this share of its brightness, after denoising
+  // if `denoise` is set. The scene's number of samples is the maximum.
   double noise = 0;
   // Above 0: samples are cut to this value, which removes bright dots and makes the picture darker.
   double clamp = 0;
+  // Leaves out rare samples that are far brighter than all around, which makes the picture darker.
+  bool reject_fireflies = false;
   // Removes the noise of random paths from the finished picture. `denoise` in the scene's [render] does the
   // same.
   bool denoise = false;
+  Denoiser denoiser = Denoiser::own;
   // The thread that called render() calls this a few times a second. The function returns false to
   // cancel. Its exceptions reach the caller of render().
   std::function<bool(const Progress&)> progress = {};

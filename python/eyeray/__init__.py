@@ -60,8 +60,8 @@ def _scene_of(scene, size, spp):
     raise TypeError(f"a scene must be an eyeray.Scene, the name of a file, or a dict, not {type(scene).__name__}")
 
 
-def render(scene, *, size=None, spp=None, backend="gpu", aovs=(), crop=None, noise=0.0, clamp=0.0, denoise=False,
-           progress=None, cancellation=None):
+def render(scene, *, size=None, spp=None, backend="gpu", aovs=(), crop=None, noise=0.0, clamp=0.0,
+           reject_fireflies=False, denoise=False, progress=None, cancellation=None):
     """The picture of a scene, of a scene file or of a dict as Scene.build takes it.
 
     size=(width, height) and spp, samples a pixel, are laid over a file or a dict. The other options are
@@ -69,7 +69,7 @@ def render(scene, *, size=None, spp=None, backend="gpu", aovs=(), crop=None, noi
     """
     return _shared_renderer().render(
         _scene_of(scene, size, spp), backend=backend, aovs=aovs, crop=crop, noise=noise, clamp=clamp,
-        denoise=denoise, progress=progress, cancellation=cancellation)
+        reject_fireflies=reject_fireflies, denoise=denoise, progress=progress, cancellation=cancellation)
 
 
 def verify(scene, *, size=None, spp=None, backends=("gpu", "twin"), crop=None, evidence=None, progress=None,

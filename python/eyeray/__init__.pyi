@@ -1,6 +1,6 @@
 from collections.abc import Callable, Sequence
 from os import PathLike
-from typing import Any
+from typing import Any, Literal
 
 from eyeray._eyeray import (
     Backend, Cancellation as Cancellation, Picture as Picture, Renderer as Renderer, Report as Report,
@@ -14,7 +14,8 @@ __version__: str
 
 def render(scene: Scene | str | PathLike[str] | dict[str, Any], *, size: tuple[int, int] | None = ...,
            spp: int | None = ..., backend: Backend = ..., aovs: Sequence[str] = ...,
-           crop: tuple[int, int, int, int] | None = ..., noise: float = ..., clamp: float = ..., denoise: bool = ...,
+           crop: tuple[int, int, int, int] | None = ..., noise: float = ..., clamp: float = ...,
+           reject_fireflies: bool = ..., denoise: bool | Literal["oidn"] = ...,
            progress: Callable[[float], bool | None] | None = ...,
            cancellation: Cancellation | None = ...) -> Picture: ...
 def verify(scene: Scene | str | PathLike[str] | dict[str, Any], *, size: tuple[int, int] | None = ...,

@@ -75,7 +75,8 @@ class Report:
 class Renderer:
     def __init__(self, *, device: str = ..., shaders: str | PathLike[str] | None = ..., timeout: float = ...) -> None: ...
     def render(self, scene: Scene, *, backend: Backend = ..., aovs: Sequence[str] = ...,
-               crop: tuple[int, int, int, int] | None = ..., noise: float = ..., clamp: float = ..., denoise: bool = ...,
+               crop: tuple[int, int, int, int] | None = ..., noise: float = ..., clamp: float = ...,
+               reject_fireflies: bool = ..., denoise: bool | Literal["oidn"] = ...,
                progress: Callable[[float], bool | None] | None = ...,
                cancellation: Cancellation | None = ...) -> Picture: ...
     def verify(self, scene: Scene, *, backends: Sequence[Backend] = ..., crop: tuple[int, int, int, int] | None = ...,

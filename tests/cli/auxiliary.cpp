@@ -132,6 +132,40 @@ TEST_CASE("fireflies are counted; --clamp clamps them, and warns that the pictur
   CHECK(run_eyeray({"verify", folder.scene(), "--clamp", "1"}).code == 2);
 }
 
+TEST_CASE(
+    "--reject-fireflies leaves bright dots out, states how much light they had, and needs random paths") {
+  const SceneFolder folder;
+  write_text(folder.scene(), sparkling);
+  std::string pictures[2];
+  for (const std::string backend : {"gpu", "twin"}) {
+    const ProcessResult result = run_eyeray({"render", folder.scene(), "--backend", backend, "--json",
+                                             "--reject-fireflies", "-o", folder / "a.pfm", "--aov", "noisy"});
+    CAPTURE(result.err);
+    REQUIRE(result.code == 0);
+    const auto report = nlohmann::json::parse(result.out);
+    CHECK(report.at("outliers").at("pixels") > 0);
+    CHECK(report.at("outliers").at("share_of_light") > 0.5);
+    CHECK(result.err.find("the picture is biased: ") != std::string::npos);
+    CHECK(result.err.find("lost fireflies, ") != std::string::npos);
+    CHECK(std::ranges::max(read_image(folder / "a.pfm").samples()) < 0.1f);
+    pictures[backend == "twin"] = read_text(folder / "a.pfm");
+  }
+  CHECK(pictures[0] == pictures[1]);
+
+  const ProcessResult refused =
+      run_eyeray({"render", "scenes/whitted.toml", "--reject-fireflies", "-o", folder / "no.png"});
+  CHECK(refused.code == 2);
+  CHECK(
+      refused.err ==
+      "eyeray: error: only random paths make fireflies: set integrator = \"path\" in [render], or leave out "
+      "reject-fireflies\n");
+  CHECK(run_eyeray(
+            {"render", folder.scene(), "--reject-fireflies", "--shard", "1/2", "-o", folder / "no.eyeray"})
+            .err ==
+        "eyeray: error: fireflies are found from a pixel's neighbours, which are in other shards: "
+        "leave out reject-fireflies\n");
+}
+
 TEST_CASE("--stats counts the paths that max_depth cut off, the same by each executor") {
   const SceneFolder folder;
   std::vector<uint64_t> counts;

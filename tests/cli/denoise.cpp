@@ -1,5 +1,7 @@
 // eyeray render --denoise.
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "host/image/image_file.hpp"
@@ -55,6 +57,62 @@ TEST_CASE("--denoise removes noise, keeps brightness, and gives the same bits by
     after += double(denoised.samples()[i]);
   }
   CHECK(after == doctest::Approx(before).epsilon(0.001));
+}
+
+TEST_CASE("--noise is the noise after --denoise") {
+  const SceneFolder folder;
+  const auto render = [&](std::vector<std::string> more) {
+    std::vector<std::string> all = box("2048", {"--noise", "0.1", "--json", "--aov", "noise", "-q"});
+    all.insert(all.end(), more.begin(), more.end());
+    const ProcessResult result = run_eyeray(all);
+    CAPTURE(result.err);
+    REQUIRE(result.code == 0);
+    return nlohmann::json::parse(result.out);
+  };
+  const auto noisy = render({"-o", folder / "noisy.pfm"});
+  const auto denoised = render({"--denoise", "-o", folder / "gpu.pfm"});
+  CHECK(denoised.at("samples_taken").get<double>() < 0.3 * noisy.at("samples_taken").get<double>());
+  CHECK(denoised.at("noise").at("share") == 1);
+  const Image left = read_image(folder / "gpu.noise.pfm");
+  CHECK(std::ranges::max(left.samples()) <= 0.1f);
+  CHECK(std::ranges::max(left.samples()) == float(denoised.at("noise").at("greatest").get<double>()));
+  render({"--denoise", "--backend", "twin", "-o", folder / "twin.pfm"});
+  CHECK(read_text(folder / "gpu.pfm") == read_text(folder / "twin.pfm"));
+
+  REQUIRE(run_eyeray(box("4096", {"-o", folder / "truth.pfm", "-q"})).code == 0);
+  const Image truth = read_image(folder / "truth.pfm"), picture = read_image(folder / "gpu.pfm");
+  double errors = 0, light = 0;
+  for (size_t i = 1; i < truth.sample_count(); i += 3) {
+    const double here = double(truth.samples()[i]);
+    errors += std::abs(double(picture.samples()[i]) - here);
+    light += here;
+  }
+  CHECK(errors < 0.1 * light);
+}
+
+TEST_CASE("--denoise oidn uses a library, which estimates no error") {
+  const SceneFolder folder;
+  for (const std::vector<std::string>& option :
+       {std::vector<std::string>{"--denoise", "oidn"}, {"--denoiser", "oidn"}}) {
+    std::vector<std::string> more = option;
+    more.insert(more.end(), {"--json", "-o", folder / "a.pfm", "--aov", "noisy,albedo,shading_normal"});
+    const ProcessResult result = run_eyeray(box("4", more), {{"EYERAY_OPEN_IMAGE_DENOISE", FAKE_OIDN}});
+    CAPTURE(result.err);
+    REQUIRE(result.code == 0);
+    CHECK(!nlohmann::json::parse(result.out).contains("noise_left"));
+    const Image picture = read_image(folder / "a.pfm"), noisy = read_image(folder / "a.noisy.pfm"),
+                albedo = read_image(folder / "a.albedo.pfm"),
+                normal = read_image(folder / "a.shading_normal.pfm");
+    for (size_t i = 0; i < picture.sample_count(); i += 997)
+      CHECK(picture.samples()[i] ==
+            0.5f * noisy.samples()[i] + 0.25f * albedo.samples()[i] + 0.125f * normal.samples()[i]);
+  }
+  const ProcessResult absent = run_eyeray(box("4", {"--denoise", "oidn", "-o", folder / "b.pfm"}),
+                                          {{"EYERAY_OPEN_IMAGE_DENOISE", "/no/such/library.so"}});
+  CHECK(absent.code == 2);
+  CHECK(absent.err.find("the library Open Image Denoise is not on this machine: install it, or denoise with "
+                        "eyeray's own denoiser by --denoise alone; ") != std::string::npos);
+  CHECK(!std::filesystem::exists(folder / "b.pfm"));
 }
 
 TEST_CASE("an .exr keeps the noisy picture and what it was denoised by") {

@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "host/core/halves.hpp"
 #include "host/denoise/block_means.hpp"
 
 #include "tests/support/doctest.hpp"
@@ -46,12 +47,13 @@ NoisyPicture noisy_picture(const TruthAt& truth_at, int samples, double noise, d
       for (int i = 0; i < samples; ++i) {
         const double sample_albedo = truth.albedo + albedo_noise * error(random);
         albedo += sample_albedo / samples;
-        if (i % 2 == 0) half_albedo += sample_albedo / ((samples + 1) / 2);
+        if (in_first_half(uint64_t(i)))
+          half_albedo += sample_albedo / double(first_half_of(uint64_t(samples)));
         for (int c = 0; c < 3; ++c) {
           const double value = truth.color * parts[c] * (1 + noise * (light(random) - 1));
           sum[c] += value;
           squares[c] += value * value;
-          if (i % 2 == 0) half[c] += value / ((samples + 1) / 2);
+          if (in_first_half(uint64_t(i))) half[c] += value / double(first_half_of(uint64_t(samples)));
         }
       }
       for (int c = 0; c < 3; ++c) {
@@ -133,9 +135,9 @@ NoisyPicture picture_with(double (*alpha_at)(int x), int samples) {
         sum += value;
         squares += value * value;
         covered += hit;
-        if (i % 2 == 0) half += value, half_covered += hit;
+        if (in_first_half(uint64_t(i))) half += value, half_covered += hit;
       }
-      const double n = samples, n_half = (samples + 1) / 2;
+      const double n = samples, n_half = double(first_half_of(uint64_t(samples)));
       for (int c = 0; c < 3; ++c) {
         picture.color.pixel(x, y)[c] = float(sum / n);
         picture.half_color.pixel(x, y)[c] = float(half / n_half);
@@ -224,6 +226,15 @@ TEST_CASE("the error is estimated") {
   const double error = std::sqrt(error_of(denoised.color, plain));
   CHECK(denoised.error > error / 2);
   CHECK(denoised.error < error * 2);
+}
+
+TEST_CASE("the errors of pixels are as large as they are") {
+  const DenoisedPicture denoised = denoise::denoise(noisy_picture(textured, 32, 0.8));
+  // All channels have the same relative error, so that of the luminance follows from red.
+  const double of_red = std::sqrt(error_of(denoised.color, textured)) * (0.2126 + 0.7152 / 2 + 0.0722 / 4);
+  double sum = 0;
+  for (const float each : denoised.errors.samples()) sum += double(each) * double(each);
+  CHECK(std::sqrt(sum / (width * height)) == doctest::Approx(of_red).epsilon(0.3));
 }
 
 TEST_CASE("pixels that are not finite or have one sample stay, and spoil no others") {

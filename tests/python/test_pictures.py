@@ -119,6 +119,14 @@ def test_numpy_converts_a_picture_to_its_colours():
 TABLES = {"camera": {"eye": [0, 1, 4], "target": [0, 1, 0]}, "render": {"background": np.array([0.25, 0.5, 0.75])}}
 
 
+def test_fireflies_are_rejected():
+    box = "scenes/path/cornell_box.toml"
+    picture = eyeray.render(box, size=(48, 32), spp=4, reject_fireflies=True)
+    assert picture.color.max() <= eyeray.render(box, size=(48, 32), spp=4).color.max()
+    with pytest.raises(eyeray.InputError, match="^only random paths make fireflies: "):
+        eyeray.render(SMALL, reject_fireflies=True)
+
+
 def test_denoised_pictures_equal_those_of_the_program(tmp_path):
     box = "scenes/path/cornell_box.toml"
     picture = eyeray.render(box, size=(48, 32), spp=4, denoise=True)

@@ -172,7 +172,7 @@ TEST_CASE("the unfinished area is covered once, by few rectangles") {
   film::Film sums;
   sums.reset(100, 50, film::parse_channels("noise"));
   sums.finish({16, 8, 32, 16});
-  const AdaptiveSampling adaptive(target, sums);
+  const AdaptiveSampling adaptive(target, 64, sums);
   std::vector<int> covered(100 * 50);
   for (const auto& [row, height] : {std::pair{0, 11}, {11, 26}, {37, 13}}) {
     const std::vector<Rect> parts = adaptive.left(row, height);

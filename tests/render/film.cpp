@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "host/core/halves.hpp"
 #include "host/scene/luminance.hpp"
 #include "tests/support/random.hpp"
 //
@@ -98,12 +99,12 @@ TEST_CASE("channels are the means of a pixel's samples") {
         const double color = all[s].samples[i].color[c];
         sum += color;
         squares += color * color;
-        if (s % 2 == 1) continue;
+        if (!in_first_half(s)) continue;
         half += color;
         half_albedo += all[s].auxiliaries[i].albedo[c];
         half_normal += all[s].auxiliaries[i].normal[c];
       }
-      const double n = double(all.size()), in_half = std::ceil(n / 2);
+      const double n = double(all.size()), in_half = double(first_half_of(all.size()));
       CHECK(value("half", i, size_t(c)) == float(half / in_half));
       CHECK(value("half_albedo", i, size_t(c)) == float(half_albedo / in_half));
       CHECK(value("half_normal", i, size_t(c)) == float(half_normal / in_half));
