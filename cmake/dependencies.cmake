@@ -68,12 +68,14 @@ eyeray_needs(spirv-tools SPIRV-Tools)
 eyeray_needs(spirv-tools SPIRV-Tools-opt)
 eyeray_needs(pkg-config PkgConfig)
 eyeray_needs_module(libstb-dev stb)
+eyeray_needs_module(libwebp-dev libwebp)
 eyeray_needs_module(libmicrohttpd-dev libmicrohttpd)
 eyeray_needs_file(libtinyobjloader-dev TINYOBJ_INCLUDE tiny_obj_loader.h)
 eyeray_needs_file(libvulkan-volk-dev VOLK_INCLUDE volk.c)
 eyeray_has_needs()
 
 add_library(stb ALIAS PkgConfig::stb)
+add_library(webp ALIAS PkgConfig::libwebp)
 add_library(microhttpd ALIAS PkgConfig::libmicrohttpd)
 
 # A header with its implementation, compiled into the importers.

@@ -84,8 +84,10 @@ class SceneOptions {
   std::string file_;
   std::vector<std::string> defines_;
   loader::Trust trust_;
-  std::string look_, camera_, turntable_, point_size_, size_;
+  std::string turntable_, size_;
   bool transparent_ = false;
+  std::array<std::string, 7>
+      mesh_values_;                    // the values of the options for a mesh alone, in options.cpp's table
   std::array<std::string, 8> values_;  // the values of the options in options.cpp's table, --spp first
 };
 

@@ -47,6 +47,31 @@ const reading::Key& key_of(const ValueOption& option) {
   return *std::ranges::find(loader::find_section(option.section)->keys, option.key, &reading::Key::name);
 }
 
+// An option for a mesh alone: the key of its override, and its text.
+struct MeshOption {
+  const char* name;
+  const char* value;
+  std::string_view key;
+  const char* text;
+};
+constexpr std::array mesh_options = {
+    MeshOption{"--look", "NAME", "look", "How a mesh alone is shown (docs/scene-file.md): {}."},
+    MeshOption{"--camera", "NAME", "camera",
+               "The camera of a glTF file alone, by its name or its number from 0."},
+    MeshOption{"--gltf-scene", "NAME", "gltf_scene",
+               "The scene of a glTF file alone, by its name or its number from 0."},
+    MeshOption{"--variant", "NAME", "variant",
+               "The variant of the materials of a glTF file alone, by its name or its number from 0."},
+    MeshOption{"--point-size", "X", "point_size",
+               "The diameter of the spheres that show the points of a scan alone, in the file's units."},
+    MeshOption{"--line-width", "X", "line_width",
+               "The diameter of the lines of an OBJ or glTF file alone, in the file's units. Without it, "
+               "lines are left "
+               "out."},
+    MeshOption{"--up", "AXIS", "up",
+               "The axis that points up in a mesh file alone: y, z, x, -y, -z or -x. Most scans and CAD "
+               "files have z."}};
+
 // The option's text with the allowed values of its key: "Samples a pixel: an integer from 1 to 65536."
 std::string description_of(const ValueOption& option) {
   std::string values = describe(key_of(option));
@@ -120,7 +145,7 @@ void SceneOptions::add_to(CLI::App& command) {
   command
       .add_option(
           "SCENE", file_,
-          "The scene file (docs/scene-file.md), or a mesh: .obj, .ply, .stl, .gltf, .glb, .xyz, .pcd.")
+          "The scene file (docs/scene-file.md), or a mesh: .obj, .ply, .stl, .off, .gltf, .glb, .xyz, .pcd.")
       ->required()
       ->check([](const std::string& file) { return file.empty() ? "must be the name of a file" : ""; });
   const auto add = [&](const char* name, auto& value, const char* text, const std::string& description) {
@@ -141,12 +166,12 @@ void SceneOptions::add_to(CLI::App& command) {
                 "camera).")
       ->group(group);
   add("-s,--size", size_, "WxH", "Picture size in pixels, such as 640x480.");
-  add("--look", look_, "NAME",
-      fmt::format("How a mesh alone is shown (docs/scene-file.md): {}.",
-                  fmt::join(loader::look_names, ", ")));
-  add("--camera", camera_, "NAME", "The camera of a glTF file alone, by its name or its number from 0.");
-  add("--point-size", point_size_, "X",
-      "The diameter of the spheres that show the points of a scan alone, in the file's units.");
+  static_assert(std::tuple_size_v<decltype(mesh_values_)> == mesh_options.size());
+  for (size_t i = 0; i < mesh_options.size(); ++i) {
+    const MeshOption& each = mesh_options[i];
+    add(each.name, mesh_values_[i], each.value,
+        fmt::format(fmt::runtime(each.text), fmt::join(loader::look_names, ", ")));
+  }
   command
       .add_flag("--transparent", transparent_,
                 "Give the picture, a .png or an .exr, an alpha in place of its background. A mesh alone then "
@@ -166,10 +191,8 @@ std::string SceneOptions::as_written() const {
     if (!value.empty()) text += fmt::format(" {} {}", name, shell_word(value));
   };
   add("-s", size_);
-  add("--look", look_);
-  add("--camera", camera_);
+  for (size_t i = 0; i < mesh_options.size(); ++i) add(mesh_options[i].name, mesh_values_[i]);
   add("--turntable", turntable_);
-  add("--point-size", point_size_);
   if (transparent_) text += " --transparent";
   for (size_t i = 0; i < value_options.size(); ++i) add(value_options[i].name, values_[i]);
   return text;
@@ -178,11 +201,13 @@ std::string SceneOptions::as_written() const {
 Scene SceneOptions::load() const {
   std::vector<loader::Override> overrides;
   for (const std::string& define : defines_) overrides.push_back({define});
-  for (const auto& [name, value] :
-       {std::pair("look", look_), std::pair("camera", camera_), std::pair("turntable", turntable_)})
+  const auto override_with = [&](std::string_view key, const char* name, const std::string& value) {
     if (!value.empty())
-      overrides.push_back({fmt::format("{}={}", name, value), fmt::format("--{} {}", name, value)});
-  if (!point_size_.empty()) overrides.push_back({"point_size=" + point_size_, "--point-size " + point_size_});
+      overrides.push_back({fmt::format("{}={}", key, value), fmt::format("{} {}", name, value)});
+  };
+  for (size_t i = 0; i < mesh_options.size(); ++i)
+    override_with(mesh_options[i].key, mesh_options[i].name, mesh_values_[i]);
+  override_with("turntable", "--turntable", turntable_);
   if (!size_.empty()) {
     const auto [width, height] = parse_size(size_);
     overrides.push_back({fmt::format("image.width={}", width), "-s " + size_});

@@ -2,6 +2,7 @@
 
 #include <stb_image.h>
 
+#include <algorithm>
 #include <cstring>
 #include <memory>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "host/image/color_fields.hpp"
 #include "host/image/exif.hpp"
 #include "host/image/png_rows.hpp"
+#include "host/image/webp_rows.hpp"
 
 namespace eyeray::engine::image {
 
@@ -19,9 +21,11 @@ namespace {
 // The most pixels that a byte of a file can stand for. PNG: deflate expands a byte to at most 1032 bytes (RFC
 // 1951), each of which holds at most 8 pixels. JPEG: each block of 8 · 8 samples of a channel takes at least
 // a bit. A channel may be coarser than the picture by a factor of 4 in one direction, if another channel is
-// not coarser in that direction.
+// not coarser in that direction. WebP: pixels of one colour take no bits, so a file of any length may have
+// 2^24 of them. There is no true bound for larger pictures; we set one.
 constexpr int64_t most_png_pixels_a_byte = 1032 * 8;
 constexpr int64_t most_jpeg_pixels_a_byte = 8 * 256;
+constexpr int64_t most_webp_pixels_a_byte = 8 * 8192, most_webp_pixels_of_any = int64_t{1} << 24;
 
 bool is_png(std::string_view bytes) {
   return bytes.starts_with("\x89PNG\r\n\x1a\n");
@@ -36,25 +40,29 @@ struct Free {
 };
 
 // A file's format. The functions below give the facts that are needed before memory is taken for the pixels.
-enum class Format { png, jpeg, bmp, tga, other };
+enum class Format { png, jpeg, webp, bmp, tga, other };
 
 Format format_of(std::string_view bytes) {
   if (is_png(bytes)) return Format::png;
   if (is_jpeg(bytes)) return Format::jpeg;
+  if (is_webp(bytes)) return Format::webp;
   if (is_bmp(bytes)) return Format::bmp;
   return is_tga(bytes) ? Format::tga : Format::other;
 }
 
-int64_t most_pixels_a_byte(Format format) {
+// The most pixels of a file with so many bytes.
+int64_t most_pixels(Format format, int64_t bytes) {
   switch (format) {
     case Format::png:
-      return most_png_pixels_a_byte;
+      return bytes * most_png_pixels_a_byte;
     case Format::jpeg:
-      return most_jpeg_pixels_a_byte;
+      return bytes * most_jpeg_pixels_a_byte;
+    case Format::webp:
+      return std::max(most_webp_pixels_of_any, bytes * most_webp_pixels_a_byte);
     case Format::bmp:
-      return most_bmp_pixels_a_byte;
+      return bytes * most_bmp_pixels_a_byte;
     default:
-      return most_tga_pixels_a_byte;
+      return bytes * most_tga_pixels_a_byte;
   }
 }
 
@@ -62,8 +70,10 @@ const stbi_uc* stb_bytes(std::string_view bytes) {
   return reinterpret_cast<const stbi_uc*>(bytes.data());
 }
 
-// The size that the header states; empty if the header of a PNG or a JPEG cannot be read.
+// The size that the header states; empty if the header of a PNG or a JPEG cannot be read, 0 × 0 if that of a
+// WebP cannot be.
 std::optional<BitmapSize> size_of(std::string_view bytes, Format format) {
+  if (format == Format::webp) return webp_size(bytes);
   if (format == Format::bmp) return bmp_size(bytes);
   if (format == Format::tga) return tga_size(bytes);
   int width = 0, height = 0, channels = 0;
@@ -106,13 +116,13 @@ CodedImage decode_coded_image(std::span<const std::byte> bytes, const std::strin
     throw fail(fmt::format("it has {} bytes; the most is {} (1 GiB)", bytes.size(), most_coded_bytes));
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const Format format = format_of(text);
-  if (format == Format::other) throw fail("it is not a PNG, JPEG, BMP or TGA");
+  if (format == Format::other) throw fail("it is not a PNG, JPEG, WebP, BMP or TGA");
   const auto size = size_of(text, format);
   if (!size) throw fail(fmt::format("it is damaged ({})", stbi_failure_reason()));
   const auto [width, height] = *size;
   if (width < 1 || height < 1 || width > most_coded_side || height > most_coded_side)
     throw fail(fmt::format("it has {}×{} pixels; the most is {} a side", width, height, most_coded_side));
-  if (width * height > most_pixels_a_byte(format) * int64_t(bytes.size())) throw fail("it ends early");
+  if (width * height > most_pixels(format, int64_t(bytes.size()))) throw fail("it ends early");
   budget.take(int(width), int(height), name);
 
   // Decode it, always to four channels.
@@ -132,6 +142,9 @@ CodedImage decode_coded_image(std::span<const std::byte> bytes, const std::strin
         if (!has_jpeg_end(text)) return std::string("it ends early");
         clauses = jpeg_color_fields(text);
         return damaged(read_jpeg(text, image.pixels));
+      case Format::webp:
+        clauses = webp_color_fields(text);
+        return damaged(read_webp(text, image.pixels));
       case Format::bmp:
         return read_bmp(text, image.pixels, clauses);
       default:

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <map>
 
+#include "host/image/bitmap_rows.hpp"
 #include "host/image/exif.hpp"
 
 namespace eyeray::engine::image {
@@ -102,6 +103,21 @@ std::vector<std::string> png_color_fields(std::string_view bytes) {
     if (const int orientation = tiff_orientation(exif->second); orientation != 1)
       clauses.push_back(fmt::format("its EXIF orientation (eXIf) of {} is ignored", orientation));
   return clauses;
+}
+
+std::vector<std::string> webp_color_fields(std::string_view bytes) {
+  // Chunks of a name, a little-endian length and that many bytes, to an even number. VP8X and ICCP come
+  // first.
+  constexpr size_t start = 12;
+  for (size_t at = start; at + 8 <= bytes.size();) {
+    const size_t length = number_at(bytes, at + 4, 4);
+    const std::string_view name = bytes.substr(at, 4);
+    if ((name != "VP8X" && name != "ICCP") || length > bytes.size() - at - 8) break;
+    if (name == "ICCP" && !is_srgb_profile(bytes.substr(at + 8, length)))
+      return {fmt::format("its colour profile (ICCP){}", taken_as_srgb)};
+    at += 8 + length + length % 2;
+  }
+  return {};
 }
 
 std::vector<std::string> jpeg_color_fields(std::string_view bytes) {

@@ -1,5 +1,5 @@
-// The ignored fields of a PNG's or a JPEG's header that define the meaning of its codes and pixels. Codes are
-// always taken as sRGB, pixels as squares.
+// The ignored fields of a PNG's, a JPEG's or a WebP's header that define the meaning of its codes and pixels.
+// Codes are always taken as sRGB, pixels as squares.
 #pragma once
 
 #include <string>
@@ -10,8 +10,10 @@ namespace eyeray::engine::image {
 
 // A clause for each field with another meaning than that, such as "its gamma (gAMA) of 1 is ignored: …".
 // Fields that cannot be read count as absent. Sources: PNG Specification, Third Edition, 2025, 11.3 and 4.3
-// (cICP before iCCP before sRGB before gAMA and cHRM); ICC.1:2022, Annex B.4 (profiles in JPEG).
+// (cICP before iCCP before sRGB before gAMA and cHRM); ICC.1:2022, Annex B.4 (profiles in JPEG);
+// Google: WebP Container Specification.
 std::vector<std::string> png_color_fields(std::string_view bytes);
 std::vector<std::string> jpeg_color_fields(std::string_view bytes);
+std::vector<std::string> webp_color_fields(std::string_view bytes);
 
 }  // namespace eyeray::engine::image

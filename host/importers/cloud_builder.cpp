@@ -101,8 +101,8 @@ double closing_radius(std::span<const Vec3> positions) {
   return away >= 1e-9 ? away / 100 : 1;
 }
 
-std::shared_ptr<const PointCloud> build_cloud(RawPoints raw, std::optional<double> size,
-                                              std::vector<std::string>& warnings) {
+std::shared_ptr<PointCloud> build_cloud(RawPoints raw, std::optional<double> size,
+                                        std::vector<std::string>& warnings) {
   auto cloud = std::make_shared<PointCloud>();
   cloud->name = std::move(raw.name);
   const size_t count = raw.positions.size();

@@ -22,8 +22,8 @@ struct RawPoints {
 
 // Leaves out points that are not finite or out of range, with a warning that counts them. `size` is the
 // diameter of the spheres; if it is absent, closing_radius() decides. Null if no point is left.
-std::shared_ptr<const PointCloud> build_cloud(RawPoints raw, std::optional<double> size,
-                                              std::vector<std::string>& warnings);
+std::shared_ptr<PointCloud> build_cloud(RawPoints raw, std::optional<double> size,
+                                        std::vector<std::string>& warnings);
 
 // The radius of spheres around points of a surface that leaves few gaps between them. On a square grid it is
 // 3/4 of the grid's width, a little more than half a diagonal. It grows as the points are less regular, since

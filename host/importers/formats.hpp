@@ -1,7 +1,6 @@
 // The readers, one a format; import.cpp selects one by the file's ending. Private to the importers.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -14,11 +13,9 @@ namespace eyeray::engine::importers {
 struct MeshFile {
   std::string name;  // for messages
   std::string bytes;
-  std::optional<double> smooth;  // degrees, see ImportOptions
+  ImportOptions options;
   AssetFiles assets;
   image::PixelBudget* pixels;
-  Playing playing;
-  std::optional<double> point_size;  // see ImportOptions
 };
 
 // Each reader fills all of an ImportedScene but its `files`. InputError for a fault in the file; Error if a
@@ -26,6 +23,7 @@ struct MeshFile {
 ImportedScene import_obj(MeshFile& file);
 ImportedScene import_ply(MeshFile& file);
 ImportedScene import_stl(MeshFile& file);
+ImportedScene import_off(MeshFile& file);
 ImportedScene import_xyz(MeshFile& file);
 ImportedScene import_pcd(MeshFile& file);
 ImportedScene import_gltf(MeshFile& file);  // .gltf and .glb, distinguished by their first bytes

@@ -7,7 +7,11 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <optional>
 #include <set>
+#include <span>
+#include <string>
+#include <vector>
 
+#include "host/importers/cloud_builder.hpp"
 #include "host/importers/formats.hpp"
 #include "host/importers/gltf_animation.hpp"
 #include "host/importers/gltf_camera.hpp"
@@ -18,6 +22,7 @@
 #include "host/importers/gltf_meshes.hpp"
 #include "host/importers/gltf_nodes.hpp"
 #include "host/importers/gltf_properties.hpp"
+#include "host/importers/line_builder.hpp"
 #include "host/importers/malformed.hpp"
 #include "host/scene/affine.hpp"
 
@@ -30,6 +35,9 @@ constexpr size_t most_extensions_named = 16;
 std::set<std::string> as_set(const std::vector<std::string>& names) {
   return {names.begin(), names.end()};
 }
+
+// Limit on the points that instances add to those of the file.
+constexpr size_t most_copied_points = size_t{1} << 24;
 
 // Limit on a file's instances: a few meshes and nodes may make very many.
 constexpr size_t most_instances = size_t{1} << 20;
@@ -44,8 +52,11 @@ class GltfReader {
         textures_(file.assets, *file.pixels, scene_.warnings),
         buffers_(document_, container_, file.assets, breaches_),
         materials_(document_, buffers_, textures_, left_out_, breaches_),
-        meshes_(document_, buffers_, materials_, left_out_, breaches_, file.name, file.smooth.value_or(0)),
-        playing_(file.playing) {}
+        meshes_(document_, buffers_, materials_, left_out_, breaches_, file.name,
+                file.options.smooth.value_or(0), file.options.line_width.has_value()),
+        lines_(file.name, file.options.line_width),
+        name_(file.name),
+        options_(file.options) {}
 
   ImportedScene read() {
     check_extensions();
@@ -56,12 +67,18 @@ class GltfReader {
     for (const std::string& breach : container_.breaches) breaches_.add(breach, "the file");
     for (size_t i = 0; i < document_.size("materials"); ++i)
       scene_.materials.push_back(materials_.material(i));
-    scene_.animations = animation_names(document_);
-    if (const auto animation = find_animation(scene_.animations, playing_)) {
-      motion_ = motion_at(document_, *animation, playing_, buffers_, left_out_, breaches_);
+    scene_.animations = document_.names("animations");
+    scene_.scenes = document_.names("scenes");
+    if (const auto animation = find_animation(scene_.animations, options_.playing)) {
+      motion_ = motion_at(document_, *animation, options_.playing, buffers_, left_out_, breaches_);
       scene_.played = motion_.played;
     }
+    if (const auto variants = document_.extension("KHR_materials_variants")) {
+      scene_.variants = variants->names("variants");
+      if (options_.variant) meshes_.show_variant(find_named(scene_.variants, *options_.variant));
+    }
     read_nodes();
+    lines_.report(scene_.warnings);
     left_out_.report(scene_.warnings);
     if (flattened_ > 0) {
       scene_.warnings.push_back(fmt::format("{} whose transforms flatten everything {} left out",
@@ -85,6 +102,9 @@ class GltfReader {
   void read_node(size_t index);
   void add_camera(const GltfObject& node, const GltfObject& source, const Mat4& world);
   void read_mesh(size_t index, size_t mesh, const Mat4& world);
+  void add_loose(const GltfObject& node, const GltfMeshes::Part& part, std::span<const Mat4> transforms,
+                 bool posed);
+  int loose_material(const GltfMeshes::Part& part);
   int material_of(const GltfMeshes::Part& part);
   Mat4 transform(size_t index);
   bool is_flat(const Mat4& world);
@@ -101,12 +121,16 @@ class GltfReader {
   GltfBuffers buffers_;
   GltfMaterials materials_;
   GltfMeshes meshes_;
-  Playing playing_;
+  LineBuilder lines_;
+  std::string name_;
+  ImportOptions options_;
   GltfMotion motion_;
   std::vector<std::optional<Mat4>> worlds_;  // from each node to the world, if the node is in the scene
   std::vector<bool> hidden_;                 // one a node
   std::vector<std::optional<std::vector<Mat4>>> joints_;  // one list a skin, once the skin is used
   size_t flattened_ = 0;
+  size_t copied_points_ = 0;  // all that were shown before, by another node or instance
+  std::set<const GltfMeshes::Loose*> shown_points_;
   std::array<int, 2> plain_ = {-1, -1};  // indices of the plain materials, without colours and with them
 };
 
@@ -145,7 +169,9 @@ void GltfReader::read_nodes() {
   const auto push = [&](const std::vector<size_t>& indices, const Mat4& parent, bool hidden) {
     for (size_t i = indices.size(); i-- > 0;) pending.push_back({indices[i], parent, hidden});
   };
-  push(root_nodes(document_, scene_.warnings), Mat4(1.0), false);
+  const auto chosen =
+      options_.gltf_scene ? find_named(scene_.scenes, *options_.gltf_scene) : std::optional<size_t>();
+  push(root_nodes(document_, chosen, scene_.scenes, scene_.warnings), Mat4(1.0), false);
   worlds_.resize(nodes);
   hidden_.resize(nodes);
   joints_.resize(document_.size("skins"));
@@ -250,9 +276,16 @@ void GltfReader::read_node(size_t index) {
   }
 }
 
-// Adds the camera of a node, under the node's name, or else its own.
+// Adds the camera of a node, under the node's name, or else its own. One that is faulty is in nobody's way
+// until it is shown.
 void GltfReader::add_camera(const GltfObject& node, const GltfObject& source, const Mat4& world) {
-  ImportedCamera camera = gltf_camera(source, world, breaches_);
+  ImportedCamera camera;
+  try {
+    camera = gltf_camera(source, world, breaches_);
+  } catch (const InputError& faulty) {
+    camera.fault = faulty.diagnostics().front();
+    breaches_.add("cameras that are faulty, so they cannot be shown", source.location());
+  }
   camera.name = node.text("name").empty() ? source.text("name") : node.text("name");
   scene_.cameras.push_back(std::move(camera));
 }
@@ -267,6 +300,44 @@ int GltfReader::material_of(const GltfMeshes::Part& part) {
     scene_.materials.back()->front_only = true;
   }
   return index;
+}
+
+// The material of points or lines. They overlap, so light cannot pass through them.
+int GltfReader::loose_material(const GltfMeshes::Part& part) {
+  if (part.material < 0) return -1;
+  const Material& material = *scene_.materials[size_t(part.material)];
+  const bool opaque =
+      !material.medium() && !material.thin() && material.shadow_transmittance() == 0 && !material.mask;
+  if (!opaque) left_out_.add("transparent materials of points and lines");
+  return opaque ? part.material : -1;
+}
+
+// Adds the points or lines of a part under each transform. They are in world space, so that a node's scale
+// does not change their size. `posed`: they are as only this node deforms them.
+void GltfReader::add_loose(const GltfObject& node, const GltfMeshes::Part& part,
+                           std::span<const Mat4> transforms, bool posed) {
+  const GltfMeshes::Loose& loose = *part.loose;
+  const int material = loose_material(part);
+  if (!loose.lines.empty() && !loose.colors.empty()) left_out_.add("colours of lines");
+  for (const Mat4& transform : transforms) {
+    const auto place = [&](const Vec3& p) { return Vec3(transform * Vec4(p, 1)); };
+    if (!loose.lines.empty()) {
+      lines_.check_room(loose.lines.size());
+      std::vector<LineSegment> segments;
+      for (const auto& [from, to] : loose.lines)
+        segments.push_back({place(loose.positions[from]), place(loose.positions[to])});
+      lines_.add(std::move(segments), material, scene_);
+      continue;
+    }
+    if (posed || !shown_points_.insert(&loose).second) copied_points_ += loose.positions.size();
+    if (copied_points_ > most_copied_points)
+      node.fail(fmt::format("is one of those that show points again; {} points may be added so",
+                            most_copied_points));
+    RawPoints raw{name_, {}, loose.colors};
+    for (const Vec3& position : loose.positions) raw.positions.push_back(place(position));
+    if (auto cloud = build_cloud(std::move(raw), options_.point_size, scene_.warnings))
+      scene_.clouds.push_back({std::move(cloud), material});
+  }
 }
 
 void GltfReader::read_mesh(size_t index, size_t mesh, const Mat4& world) {
@@ -292,11 +363,15 @@ void GltfReader::read_mesh(size_t index, size_t mesh, const Mat4& world) {
   }
   if (!skinned) std::erase_if(transforms, [&](const Mat4& transform) { return is_flat(transform); });
   if (transforms.empty()) return;
-  for (const GltfMeshes::Part& part :
-       skinned || !pose.weights.empty() ? meshes_.posed_parts(mesh, pose) : meshes_.parts(mesh)) {
+  const bool posed = skinned || !pose.weights.empty();
+  for (const GltfMeshes::Part& part : posed ? meshes_.posed_parts(mesh, pose) : meshes_.parts(mesh)) {
     if (transforms.size() > most_instances - scene_.instances.size())
       node.fail(
           fmt::format("is one of more than {} instances, the most that a file may have", most_instances));
+    if (part.loose) {
+      add_loose(node, part, transforms, posed);
+      continue;
+    }
     for (const Mat4& transform : transforms)
       scene_.instances.push_back({part.mesh, transform, material_of(part), {}});
   }

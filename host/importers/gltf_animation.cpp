@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
@@ -194,22 +193,9 @@ class AnimationReader {
 
 }  // namespace
 
-std::vector<std::string> animation_names(const GltfObject& document) {
-  std::vector<std::string> names;
-  for (size_t i = 0; i < document.size("animations"); ++i)
-    names.push_back(document.element("animations", i).text("name"));
-  return names;
-}
-
 std::optional<size_t> find_animation(std::span<const std::string> names, const Playing& playing) {
   if (!playing.animation) return names.empty() ? std::nullopt : std::optional(size_t{0});
-  const std::string& wanted = *playing.animation;
-  if (const auto named = std::ranges::find(names, wanted); named != names.end() && !wanted.empty())
-    return size_t(named - names.begin());
-  size_t number = 0;
-  const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), number);
-  const bool whole = error == std::errc() && end == wanted.data() + wanted.size();
-  return whole && number < names.size() ? std::optional(number) : std::nullopt;
+  return find_named(names, *playing.animation);
 }
 
 GltfMotion motion_at(const GltfObject& document, size_t animation, const Playing& playing,

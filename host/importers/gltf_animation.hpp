@@ -15,9 +15,6 @@
 
 namespace eyeray::engine::importers {
 
-// The names of all animations; "" for one without a name.
-std::vector<std::string> animation_names(const GltfObject& document);
-
 // The index of the animation to play; empty if the file is to be shown at rest.
 std::optional<size_t> find_animation(std::span<const std::string> names, const Playing& playing);
 

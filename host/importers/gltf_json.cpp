@@ -138,6 +138,12 @@ std::vector<size_t> GltfObject::indices(const char* key, size_t size) const {
   return all;
 }
 
+std::vector<std::string> GltfObject::names(const char* key) const {
+  std::vector<std::string> all;
+  for (size_t i = 0; i < size(key); ++i) all.push_back(element(key, i).text("name"));
+  return all;
+}
+
 std::vector<std::string> GltfObject::texts(const char* key) const {
   std::vector<std::string> all;
   for (const Json& value : list(key)) {

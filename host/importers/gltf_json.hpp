@@ -38,6 +38,8 @@ class GltfObject {
   GltfObject element(const char* key, size_t i) const;
   std::vector<size_t> indices(const char* key, size_t size) const;
   std::vector<std::string> texts(const char* key) const;
+  // The names of a list's objects; "" for one without a name.
+  std::vector<std::string> names(const char* key) const;
   // The object of an extension.
   std::optional<GltfObject> extension(const char* name) const;
 

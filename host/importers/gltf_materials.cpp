@@ -112,10 +112,12 @@ ImageTexture GltfMaterials::decode_image(size_t index, image::PixelBudget& budge
   if (const std::string uri = image.text("uri"); type.empty() && uri.starts_with("data:"))
     type = uri.substr(5, uri.find(';') - 5);
   const bool is_png = bytes.starts_with("\x89PNG"), is_jpeg = bytes.starts_with("\xff\xd8");
-  if (!type.empty() && ((is_png && type != "image/png") || (is_jpeg && type != "image/jpeg")))
+  const bool is_webp = bytes.starts_with("RIFF");
+  if (!type.empty() && ((is_png && type != "image/png") || (is_jpeg && type != "image/jpeg") ||
+                        (is_webp && type != "image/webp")))
     breaches_.add("pictures of another type than their mimeType, decoded by their content", image.location());
-  if (!is_png && !is_jpeg)
-    breaches_.add("pictures that are neither PNG nor JPEG, decoded by their content", image.location());
+  if (!is_png && !is_jpeg && !is_webp)
+    breaches_.add("pictures that are none of PNG, JPEG and WebP, decoded by their content", image.location());
   return decode_image_texture(std::as_bytes(std::span(bytes)), image.location(), budget, warnings);
 }
 
@@ -124,11 +126,14 @@ std::shared_ptr<const ImageTexture> GltfMaterials::texture(const GltfObject& ref
   const auto index = reference.index("index", document_.size("textures"));
   if (!index) reference.fail("has no index");
   const GltfObject texture = document_.element("textures", *index);
-  const auto source = texture.index("source", document_.size("images"));
+  // The WebP is that of a reader who knows it; `source` is the PNG or JPEG for the others.
+  const auto webp = texture.extension("EXT_texture_webp");
+  auto source = (webp ? *webp : texture).index("source", document_.size("images"));
+  if (!source && webp) source = texture.index("source", document_.size("images"));
   if (!source) {
-    const bool webp = texture.extension("EXT_texture_webp").has_value();
-    const bool ktx2 = texture.extension("KHR_texture_basisu").has_value();
-    left_out_.add(webp ? "textures in WebP" : ktx2 ? "textures in KTX2" : "textures without a picture");
+    left_out_.add(texture.extension("KHR_texture_basisu")
+                      ? "textures in KTX2 (KHR_texture_basisu), which other programs convert to PNG or WebP"
+                      : "textures without a picture");
     return nullptr;
   }
   uint64_t filter = 0, wrap_s = 0, wrap_t = 0;

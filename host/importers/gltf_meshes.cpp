@@ -12,7 +12,15 @@ namespace eyeray::engine::importers {
 
 namespace {
 
-enum Mode : uint64_t { triangle_list = 4, triangle_strip = 5, triangle_fan = 6 };
+enum Mode : uint64_t {
+  point_list = 0,
+  line_list = 1,
+  line_loop = 2,
+  line_strip = 3,
+  triangle_list = 4,
+  triangle_strip = 5,
+  triangle_fan = 6
+};
 
 std::vector<IndexTriangle> assemble(uint64_t mode, const std::vector<uint32_t>& corners) {
   std::vector<IndexTriangle> triangles;
@@ -34,6 +42,24 @@ std::vector<IndexTriangle> assemble(uint64_t mode, const std::vector<uint32_t>& 
   return triangles;
 }
 
+std::vector<std::array<uint32_t, 2>> assemble_lines(uint64_t mode, const std::vector<uint32_t>& corners) {
+  std::vector<std::array<uint32_t, 2>> lines;
+  for (size_t i = 0; i + 1 < corners.size(); i += mode == line_list ? 2 : 1)
+    lines.push_back({corners[i], corners[i + 1]});
+  if (mode == line_loop && corners.size() > 2) lines.push_back({corners.back(), corners.front()});
+  return lines;
+}
+
+// The points at these corners of a pool.
+GltfMeshes::Loose points_at(const std::vector<uint32_t>& corners, const VertexPool& pool) {
+  GltfMeshes::Loose points;
+  for (const uint32_t corner : corners) {
+    points.positions.push_back(pool.positions[corner]);
+    if (!pool.colors.empty()) points.colors.push_back(pool.colors[corner]);
+  }
+  return points;
+}
+
 // True if a normal's length is clearly not 1. Rounding alone makes a deviation of 0.007 if normals are stored
 // in bytes. A normal of length 0 is counted elsewhere.
 bool is_no_unit(const Vec3& normal) {
@@ -50,7 +76,8 @@ bool is_direction(const Vec4& tangent) {
 }  // namespace
 
 GltfMeshes::GltfMeshes(const GltfObject& document, GltfBuffers& buffers, const GltfMaterials& materials,
-                       GltfLeftOut& left_out, GltfBreaches& breaches, const std::string& file, double smooth)
+                       GltfLeftOut& left_out, GltfBreaches& breaches, const std::string& file, double smooth,
+                       bool lines)
     : document_(document),
       buffers_(buffers),
       materials_(materials),
@@ -59,6 +86,7 @@ GltfMeshes::GltfMeshes(const GltfObject& document, GltfBuffers& buffers, const G
       file_(file),
       smooth_(smooth),
       draco_(document, buffers),
+      lines_(lines),
       seen_(document.size("meshes")),
       parts_(document.size("meshes")) {}
 
@@ -75,26 +103,46 @@ std::vector<GltfMeshes::Part> GltfMeshes::posed_parts(size_t index, const GltfPo
   for (size_t i = 0; i < mesh.size("primitives"); ++i) {
     const GltfObject primitive = mesh.element("primitives", i);
     if (!seen_[index]) check_targets(primitive, document_, buffers_, breaches_);
-    const auto material = primitive.index("material", document_.size("materials"));
-    std::optional<Mesh> made = read_primitive(primitive, material, whole);
-    if (!made || made->triangles.empty()) continue;
+    const auto material = material_of(primitive);
+    Made made = read_primitive(primitive, material, whole);
+    const int material_index = material ? static_cast<int>(*material) : -1;
+    if (auto* const loose = std::get_if<Loose>(&made)) {
+      const bool colored = !loose->colors.empty();
+      parts.push_back({-1, material_index, colored, std::make_shared<const Loose>(std::move(*loose))});
+    }
+    auto* const triangles = std::get_if<Mesh>(&made);
+    if (!triangles || triangles->triangles.empty()) continue;
     const std::string name = mesh.text("name");
-    made->name = fmt::format("{}: {}", file_, name.empty() ? primitive.location() : printable(name));
-    parts.push_back({static_cast<int>(meshes_.size()), material ? static_cast<int>(*material) : -1,
-                     !made->colors.empty()});
-    meshes_.push_back(std::move(*made));
+    triangles->name = fmt::format("{}: {}", file_, name.empty() ? primitive.location() : printable(name));
+    parts.push_back({static_cast<int>(meshes_.size()), material_index, !triangles->colors.empty()});
+    meshes_.push_back(std::move(*triangles));
   }
   seen_[index] = true;
   return parts;
 }
 
-// The mesh of a primitive; nothing for points and lines.
-std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std::optional<size_t> material,
-                                               const GltfPose& pose) {
+// The material of a primitive under the chosen variant; its own if it has none for that variant.
+std::optional<size_t> GltfMeshes::material_of(const GltfObject& primitive) const {
+  const size_t materials = document_.size("materials");
+  const auto variants = variant_ ? primitive.extension("KHR_materials_variants") : std::nullopt;
+  for (size_t i = 0; variants && i < variants->size("mappings"); ++i) {
+    const GltfObject mapping = variants->element("mappings", i);
+    const std::vector<size_t> of = mapping.indices("variants", ~size_t{0});
+    if (std::ranges::find(of, *variant_) == of.end()) continue;
+    if (const auto material = mapping.index("material", materials)) return material;
+    mapping.fail("has no material");
+  }
+  return primitive.index("material", materials);
+}
+
+// The mesh, the points or the lines of a primitive; nothing if it is not shown.
+GltfMeshes::Made GltfMeshes::read_primitive(const GltfObject& primitive, std::optional<size_t> material,
+                                            const GltfPose& pose) {
   const uint64_t mode = primitive.count("mode", triangle_list);
-  if (mode < triangle_list) {
-    left_out_.add("points and lines");
-    return std::nullopt;
+  const bool loose = mode < triangle_list;
+  if (loose && mode != point_list && !lines_) {
+    left_out_.add("lines, which `line_width` or --line-width shows");
+    return {};
   }
   if (mode > triangle_fan) primitive.fail("has a mode that glTF does not define");
   const auto attributes = primitive.object("attributes");
@@ -107,10 +155,12 @@ std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std:
   const auto positions = attributes->index("POSITION", accessors);
   if (!positions) {
     left_out_.add("meshes without positions");
-    return std::nullopt;
+    return {};
   }
+  if (loose && primitive.extension("KHR_draco_mesh_compression"))
+    primitive.fail("has Draco data, which only triangles can have");
   const auto draco_corners = draco_.open(primitive);
-  const GltfUvUse uv_use = material ? materials_.uv_use(*material) : GltfUvUse{};
+  const GltfUvUse uv_use = material && !loose ? materials_.uv_use(*material) : GltfUvUse{};
   const auto normals = attributes->index("NORMAL", accessors);
   const bool two_uv = uv_use.uv.size() == 2;
   const GltfUv first_use = uv_use.uv.empty() ? GltfUv{} : uv_use.uv[0];
@@ -200,6 +250,13 @@ std::optional<Mesh> GltfMeshes::read_primitive(const GltfObject& primitive, std:
   if (!corners.empty() && std::ranges::max(corners) >= pool.positions.size()) {
     primitive.fail(fmt::format("refers to vertex {}, but there are {}, counted from 0",
                                std::ranges::max(corners), pool.positions.size()));
+  }
+  if (loose && !pool.alphas.empty()) left_out_.add("the alpha of the colours of points and lines");
+  if (mode == point_list) return points_at(corners, pool);
+  if (loose) {
+    if (mode == line_list ? corners.size() % 2 != 0 : corners.size() < 2)
+      breaches_.add("primitives whose last corners make no line", primitive.location());
+    return Loose{std::move(pool.positions), std::move(pool.colors), assemble_lines(mode, corners)};
   }
   const uint64_t made_as = draco_corners ? triangle_list : mode;
   if (made_as == triangle_list ? corners.size() % 3 != 0 : corners.size() < 3)

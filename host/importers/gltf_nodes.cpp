@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "host/importers/import.hpp"
+
 namespace eyeray::engine::importers {
 
 Mat4 gltf_transform(const GltfObject& owner, const char* key, const Vec3& translation, const Vec4& rotation,
@@ -36,16 +38,18 @@ std::vector<size_t> parents_of_nodes(const GltfObject& document) {
   return parents;
 }
 
-std::vector<size_t> root_nodes(const GltfObject& document, std::vector<std::string>& warnings) {
+std::vector<size_t> root_nodes(const GltfObject& document, std::optional<size_t> chosen,
+                               std::span<const std::string> names, std::vector<std::string>& warnings) {
   const size_t nodes = document.size("nodes");
   const size_t scenes = document.size("scenes");
   if (scenes > 0) {
-    const auto shown = document.index("scene", scenes);
-    if (!shown) {
-      warnings.push_back(scenes == 1
-                             ? "it has no default scene: its only scene is shown"
-                             : fmt::format("it has no default scene: the first of {} is shown", scenes));
-    }
+    const auto shown = chosen ? chosen : document.index("scene", scenes);
+    if (!shown && scenes == 1) warnings.emplace_back("it has no default scene: its only scene is shown");
+    if (!shown && scenes > 1)
+      warnings.push_back(
+          fmt::format("it has no default scene: the first of {} is shown; `gltf_scene` or "
+                      "--gltf-scene shows another: {}",
+                      scenes, list_names(names)));
     return document.element("scenes", shown.value_or(0)).indices("nodes", nodes);
   }
   warnings.emplace_back("it has no scenes: all nodes without a parent are shown");

@@ -1,6 +1,9 @@
 // The tree of a glTF file's nodes. Private to the importers.
 #pragma once
 
+#include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "host/importers/gltf_breaches.hpp"
@@ -16,8 +19,10 @@ Mat4 gltf_transform(const GltfObject& owner, const char* key, const Vec3& transl
 // True if the matrix is more than a rotation combined with a scale along each axis.
 bool shears(const Mat3& matrix);
 
-// The root nodes of the scene that is shown; in a file without scenes, the nodes without a parent.
-std::vector<size_t> root_nodes(const GltfObject& document, std::vector<std::string>& warnings);
+// The root nodes of a scene: that of the index `chosen`, or else the default. In a file without scenes, the
+// nodes without a parent. `names`: the names of the file's scenes.
+std::vector<size_t> root_nodes(const GltfObject& document, std::optional<size_t> chosen,
+                               std::span<const std::string> names, std::vector<std::string>& warnings);
 
 // The parent of each node, or `no_parent`.
 constexpr size_t no_parent = ~size_t{0};

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -64,10 +63,16 @@ constexpr Property attributes[] = {index("*", "accessors")};
 constexpr Property draco_ids[] = {count("*")};
 constexpr Property draco[] = {index("bufferView", "bufferViews").must(),
                               object("attributes", draco_ids).must()};
-constexpr Property primitive[] = {
-    object("attributes", attributes).must(), index("indices", "accessors"),
-    index("material", "materials"),          one_of("mode", "0 1 2 3 4 5 6"),
-    objects("targets", attributes),          extension("KHR_draco_mesh_compression", draco)};
+constexpr Property mapping[] = {number("variants").listed().must(), index("material", "materials").must(),
+                                text("name")};
+constexpr Property mappings[] = {objects("mappings", mapping).must()};
+constexpr Property primitive[] = {object("attributes", attributes).must(),
+                                  index("indices", "accessors"),
+                                  index("material", "materials"),
+                                  one_of("mode", "0 1 2 3 4 5 6"),
+                                  objects("targets", attributes),
+                                  extension("KHR_draco_mesh_compression", draco),
+                                  extension("KHR_materials_variants", mappings)};
 constexpr Property mesh[] = {objects("primitives", primitive).must(), number("weights").listed()};
 constexpr Property skin[] = {index("inverseBindMatrices", "accessors"), index("skeleton", "nodes"),
                              index("joints", "nodes").listed().must()};
@@ -134,7 +139,9 @@ constexpr Property material[] = {object("pbrMetallicRoughness", metallic_roughne
                                  extension("KHR_materials_iridescence", iridescence),
                                  extension("KHR_materials_dispersion", dispersion),
                                  extension("KHR_materials_pbrSpecularGlossiness", specular_glossiness)};
-constexpr Property texture[] = {index("sampler", "samplers"), index("source", "images")};
+constexpr Property webp[] = {index("source", "images").must()};
+constexpr Property texture[] = {index("sampler", "samplers"), index("source", "images"),
+                                extension("EXT_texture_webp", webp)};
 constexpr Property sampler[] = {one_of("magFilter", "9728 9729"),
                                 one_of("minFilter", "9728 9729 9984 9985 9986 9987"),
                                 one_of("wrapS", "33071 33648 10497"), one_of("wrapT", "33071 33648 10497")};
@@ -178,6 +185,9 @@ constexpr Property curve[] = {index("input", "accessors").must(),
                               index("output", "accessors").must()};
 constexpr Property animation[] = {objects("channels", channel).must(), objects("samplers", curve).must()};
 
+constexpr Property variant[] = {text("name").must()};
+constexpr Property variants[] = {objects("variants", variant).must()};
+
 constexpr Property document[] = {object("asset", asset).must(),
                                  index("scene", "scenes"),
                                  objects("scenes", scene),
@@ -195,16 +205,33 @@ constexpr Property document[] = {object("asset", asset).must(),
                                  objects("buffers", buffer),
                                  text("extensionsUsed").listed(),
                                  text("extensionsRequired").listed(),
-                                 extension("KHR_lights_punctual", lights)};
+                                 extension("KHR_lights_punctual", lights),
+                                 extension("KHR_materials_variants", variants)};
 
 }  // namespace shapes
 
-// The extensions that are read, except those of materials, and those that do not change the parts that are
-// read.
+// The extensions that are read, except those of materials.
 constexpr std::string_view known_extensions[] = {"KHR_lights_punctual",     "KHR_mesh_quantization",
                                                  "KHR_texture_transform",   "EXT_meshopt_compression",
                                                  "KHR_meshopt_compression", "KHR_draco_mesh_compression",
-                                                 "KHR_node_visibility",     "EXT_mesh_gpu_instancing"};
+                                                 "KHR_node_visibility",     "EXT_mesh_gpu_instancing",
+                                                 "KHR_materials_variants",  "EXT_texture_webp"};
+
+// The extensions that change no picture.
+constexpr std::string_view harmless_extensions[] = {"KHR_xmp",
+                                                    "KHR_xmp_json_ld",
+                                                    "KHR_node_hoverability",
+                                                    "KHR_node_selectability",
+                                                    "EXT_mesh_features",
+                                                    "EXT_instance_features",
+                                                    "EXT_structural_metadata",
+                                                    "EXT_mesh_manifold",
+                                                    "FB_geometry_metadata"};
+
+template <size_t N>
+bool is_listed(std::string_view name, const std::string_view (&names)[N]) {
+  return std::ranges::find(names, name) != std::end(names);
+}
 
 constexpr Property name_of_object = text("name");
 
@@ -266,7 +293,7 @@ class PropertyCheck {
       const std::string here = location + "." + printable(name);
       if (const Property* row = find(table, name, true)) {
         check_value(value, here, *row);
-      } else if (is_known_extension(name)) {
+      } else if (is_listed(name, known_extensions)) {
         breaches_.add("extensions of objects to which they do not apply, left out", here);
       }
     }
@@ -335,8 +362,8 @@ class PropertyCheck {
 }  // namespace
 
 bool is_known_extension(std::string_view name) {
-  return find(shapes::material, name, true) ||
-         std::ranges::find(known_extensions, name) != std::end(known_extensions);
+  return find(shapes::material, name, true) || is_listed(name, known_extensions) ||
+         is_listed(name, harmless_extensions);
 }
 
 void check_properties(const Json& document, GltfBreaches& breaches) {

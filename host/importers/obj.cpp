@@ -6,10 +6,12 @@
 #include <cstdlib>
 #include <limits>
 #include <map>
+#include <optional>
 
 #include "host/core/free_memory.hpp"
 #include "host/importers/cloud_builder.hpp"
 #include "host/importers/formats.hpp"
+#include "host/importers/line_builder.hpp"
 #include "host/importers/malformed.hpp"
 #include "host/importers/mesh_builder.hpp"
 #include "host/importers/obj_materials.hpp"
@@ -30,7 +32,8 @@ struct Corner {
 struct Part {
   std::string material;
   std::vector<Corner> corners;
-  std::vector<uint32_t> sizes;  // number of corners of each face
+  std::vector<uint32_t> sizes;                         // number of corners of each face
+  std::vector<std::array<uint32_t, 2>> segments = {};  // parts of lines, as indices of vertices
 };
 
 bool is_space(char c) {
@@ -39,7 +42,11 @@ bool is_space(char c) {
 
 class ObjReader {
  public:
-  explicit ObjReader(MeshFile& file) : materials(file.assets, *file.pixels), file_(file), text_(file.bytes) {}
+  explicit ObjReader(MeshFile& file)
+      : materials(file.assets, *file.pixels),
+        lines(file.name, file.options.line_width),
+        file_(file),
+        text_(file.bytes) {}
 
   void read() {
     while (begin_ < text_.size()) {
@@ -56,7 +63,8 @@ class ObjReader {
   VertexPool vertices;
   std::vector<Part> parts;
   ObjMaterials materials;
-  size_t lines = 0, points = 0;  // elements `l` and `p`
+  LineBuilder lines;
+  size_t points = 0;  // elements `p`
   bool curves = false;
 
  private:
@@ -78,6 +86,8 @@ class ObjReader {
   void read_statement();
   void read_vertex();
   void read_face();
+  void read_line();
+  Part& current_part();
   Corner read_corner();
   uint32_t read_index(size_t count, Highest& highest, const char* what);
   int read_numbers(std::array<double, 7>& numbers, int most);
@@ -119,6 +129,7 @@ class ObjReader {
   Highest highest_position_;
   Highest highest_uv_;
   Highest highest_normal_;
+  size_t segments_ = 0;  // number of all parts of lines
 };
 
 void ObjReader::read_statement() {
@@ -142,7 +153,7 @@ void ObjReader::read_statement() {
   } else if (takes("mtllib")) {
     materials.load(rest());
   } else if (takes("l")) {
-    ++lines;
+    read_line();
   } else if (takes("p")) {
     ++points;
   } else if (takes("curv") || takes("surf")) {
@@ -184,9 +195,27 @@ int ObjReader::read_numbers(std::array<double, 7>& numbers, int most) {
   return count;
 }
 
-void ObjReader::read_face() {
+Part& ObjReader::current_part() {
   if (part_ == no_part) use_material("");
-  Part& part = parts[part_];
+  return parts[part_];
+}
+
+void ObjReader::read_line() {
+  if (!lines.shows()) return lines.leave_out(1);
+  Part& part = current_part();
+  std::optional<uint32_t> before;
+  for (skip_space(); at_ < end_ && text_[at_] != '#'; skip_space()) {
+    const uint32_t vertex = read_corner().position;
+    if (before) {
+      lines.check_room(++segments_);
+      part.segments.push_back({*before, vertex});
+    }
+    before = vertex;
+  }
+}
+
+void ObjReader::read_face() {
+  Part& part = current_part();
   const size_t start = part.corners.size();
   for (skip_space(); at_ < end_ && text_[at_] != '#'; skip_space()) part.corners.push_back(read_corner());
   part.sizes.push_back(static_cast<uint32_t>(part.corners.size() - start));
@@ -276,13 +305,19 @@ ImportedScene import_obj(MeshFile& file) {
   MeshCounts counts;
   MeshBuilder builder(reader.vertices, counts);
   for (Part& part : reader.parts) {
+    if (!part.segments.empty()) {
+      std::vector<LineSegment> segments;
+      for (const auto& [from, to] : part.segments)
+        segments.push_back({reader.vertices.positions[from], reader.vertices.positions[to]});
+      reader.lines.add(std::move(segments), reader.materials.find(part.material), scene);
+    }
     if (part.sizes.empty()) continue;
     RawTriangles raw = triangulate(part, reader.vertices, counts);
     raw.name = part.material.empty() ? file.name : fmt::format("{}: {}", file.name, part.material);
     const int material = reader.materials.find(part.material);
     if (material < 0 && !part.material.empty() && unknown++ == 0) example = part.material;
     scene.instances.push_back({static_cast<int>(scene.meshes.size()), Mat4(1.0), material, {}});
-    scene.meshes.push_back(builder.build(raw, file.smooth.value_or(default_smooth)));
+    scene.meshes.push_back(builder.build(raw, file.options.smooth.value_or(default_smooth)));
     if (material >= 0)
       for (Vec2& uv : scene.meshes.back().uv)
         uv = uv * reader.materials.uv(material).scale + reader.materials.uv(material).offset;
@@ -294,14 +329,15 @@ ImportedScene import_obj(MeshFile& file) {
     scene.warnings.push_back(fmt::format("{} of its materials {} not defined, such as `{}`", unknown,
                                          unknown == 1 ? "is" : "are", example));
   }
-  // A file without faces is one of points, of which few have elements `p`.
-  const bool shows_points = scene.instances.empty();
-  if (const size_t left_out = reader.lines + (shows_points ? 0 : reader.points); left_out > 0)
-    scene.warnings.push_back(fmt::format("{} lines and points were left out", left_out));
+  // A file without faces and lines is one of points, of which few have elements `p`.
+  const bool shows_points = scene.instances.empty() && scene.lines.empty();
+  reader.lines.report(scene.warnings);
+  if (!shows_points && reader.points > 0)
+    scene.warnings.push_back(fmt::format("{} points were left out", reader.points));
   if (shows_points) {
     RawPoints raw{file.name, std::move(reader.vertices.positions), std::move(reader.vertices.colors)};
-    if (auto cloud = build_cloud(std::move(raw), file.point_size, scene.warnings))
-      scene.clouds.push_back(std::move(cloud));
+    if (auto cloud = build_cloud(std::move(raw), file.options.point_size, scene.warnings))
+      scene.clouds.push_back({std::move(cloud)});
   }
   if (reader.curves) scene.warnings.emplace_back("free-form curves and surfaces were left out");
   counts.report(scene.warnings);

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <optional>
 #include <sstream>
@@ -15,6 +16,7 @@
 #include "host/core/error.hpp"
 #include "host/core/input_file.hpp"
 #include "host/importers/formats.hpp"
+#include "host/importers/height_map.hpp"
 #include "host/importers/obj_text.hpp"
 #include "host/materials/make.hpp"
 #include "host/scene/image_texture_file.hpp"
@@ -120,14 +122,6 @@ std::optional<AlphaMask> mask(double dissolve, const std::shared_ptr<const Image
   const auto between = [](const auto& texel) { return texel[3] != 0 && texel[3] != 255; };
   return AlphaMask{.alpha = textured(Vec3(counts ? factor : 1), picture),
                    .blends = counts || std::ranges::any_of(picture->texels, between)};
-}
-
-// True if the picture looks like a normal map, most of which points away from the surface: bluish.
-bool has_normals(const ImageTexture& picture) {
-  Vec3 sum(0);
-  for (const auto& texel : picture.texels) sum += Vec3(texel[0], texel[1], texel[2]);
-  const Vec3 apart = glm::abs(sum / double(picture.texels.size()) - Vec3(128, 128, 255));
-  return apart.x < 32 && apart.y < 32 && apart.z < 64;
 }
 
 // The options that position a map on the surface.
@@ -247,12 +241,12 @@ void ObjMaterials::parse(std::string text) {
     maps.metallic = load(source.metallic_texname, source.metallic_texopt, MapUse::data);
     maps.sheen = load(source.sheen_texname, source.sheen_texopt, MapUse::data);
     auto normals = load(source.normal_texname, source.normal_texopt, MapUse::data);
-    // Many programs name their normal map as a bump map.
     const auto bumps = load(source.bump_texname, source.bump_texopt, MapUse::data);
-    if (bumps && !normals && has_normals(*bumps))
-      normals = bumps;
+    if (bumps && normals)
+      warn("left out: bump maps beside normal maps");
     else if (bumps)
-      warn("left out: bump maps");
+      normals = normals_of(bumps, source.bump_texname, source.bump_texopt.clamp,
+                           double(source.bump_texopt.bump_multiplier));
 
     std::unique_ptr<Material> made = convert(source, maps);
     made->name = printable(source.name);
@@ -268,6 +262,26 @@ void ObjMaterials::parse(std::string text) {
   warn(fmt::format("left out: statements that eyeray does not know ({}{})",
                    fmt::join(unknown.begin(), std::next(unknown.begin(), std::ptrdiff_t(named)), ", "),
                    named < unknown.size() ? ", …" : ""));
+}
+
+// The normal map of a bump map, which many programs make one already. Null, with a warning, if it is neither
+// that nor grey.
+std::shared_ptr<const ImageTexture> ObjMaterials::normals_of(const std::shared_ptr<const ImageTexture>& bumps,
+                                                             const std::string& name, bool clamp,
+                                                             double multiplier) {
+  if (has_normals(*bumps)) return bumps;
+  if (!has_heights(*bumps)) {
+    warn("left out: bump maps that are neither grey nor normal maps");
+    return nullptr;
+  }
+  constexpr double most_strength = 1000;
+  const double strength =
+      std::isfinite(multiplier) ? std::clamp(multiplier, -most_strength, most_strength) : 1;
+  return textures_.load(fmt::format("{} {} heights {}", name, clamp, strength),
+                        [&](image::PixelBudget& budget, std::vector<std::string>&) {
+                          budget.take(bumps->width, bumps->height, bumps->name);
+                          return normals_of_heights(*bumps, strength);
+                        });
 }
 
 std::shared_ptr<const ImageTexture> ObjMaterials::picture(const std::string& name, bool clamp, MapUse use) {

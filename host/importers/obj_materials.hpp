@@ -43,6 +43,8 @@ class ObjMaterials {
 
   bool read(const std::string& name, bool last);
   std::shared_ptr<const ImageTexture> picture(const std::string& name, bool clamp, MapUse use);
+  std::shared_ptr<const ImageTexture> normals_of(const std::shared_ptr<const ImageTexture>& bumps,
+                                                 const std::string& name, bool clamp, double multiplier);
   void warn(std::string message);
 
   AssetFiles& assets_;

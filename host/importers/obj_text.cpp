@@ -37,6 +37,8 @@ constexpr MapOption map_options[] = {
 constexpr std::string_view map_statements[] = {"map_", "bump", "disp", "decal", "refl", "norm"};
 // The maps that eyeray shows. It leaves the others out, whatever their options are.
 constexpr std::string_view shown_maps[] = {"map_Kd", "map_Ke", "map_d", "norm"};
+// The maps whose option -bm eyeray follows.
+constexpr std::string_view bump_maps[] = {"map_Bump", "map_bump", "bump"};
 // The colours that eyeray reads.
 constexpr std::string_view color_statements[] = {"Kd", "Ks", "Ke", "Tf"};
 
@@ -78,7 +80,8 @@ bool is_one_of(std::string_view word, const std::string_view (&words)[N]) {
 }
 
 // Adds the options and the picture's name of a map to the text.
-void append_map(std::string_view line, bool shown, MtlText& mtl) {
+void append_map(std::string_view statement, std::string_view line, MtlText& mtl) {
+  const bool shown = is_one_of(statement, shown_maps), bumps = is_one_of(statement, bump_maps);
   for (;;) {
     std::string_view rest = line;
     const std::string_view word = take_word(rest);
@@ -97,7 +100,7 @@ void append_map(std::string_view line, bool shown, MtlText& mtl) {
       changes = changes || !is_same(counted, option->neutral[count]);
       values.append(" ").append(counted);
     }
-    if (option->counts) {
+    if (option->counts || (bumps && option->name == "-bm")) {
       mtl.text.append(" ").append(word).append(values);
     } else if (shown && changes) {
       mtl.left_out.insert("the option " + std::string(word) + " of maps");
@@ -114,7 +117,7 @@ void append_line(std::string_view line, MtlText& mtl) {
   const auto starts = [&](std::string_view start) { return statement.starts_with(start); };
   if (std::ranges::any_of(map_statements, starts)) {
     mtl.text += statement;
-    return append_map(rest, is_one_of(statement, shown_maps), mtl);
+    return append_map(statement, rest, mtl);
   }
   std::string_view values = rest;
   const std::string_view first = take_word(values);

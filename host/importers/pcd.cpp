@@ -147,8 +147,8 @@ ImportedScene import_pcd(MeshFile& file) {
   const ShownFields shown = shown_fields(header, file.name, scene.warnings);
   RawPoints points = read_points(header, shown, file);
   free_memory(file.bytes);  // the cloud needs the memory
-  if (auto cloud = build_cloud(std::move(points), file.point_size, scene.warnings))
-    scene.clouds.push_back(std::move(cloud));
+  if (auto cloud = build_cloud(std::move(points), file.options.point_size, scene.warnings))
+    scene.clouds.push_back({std::move(cloud)});
   return scene;
 }
 

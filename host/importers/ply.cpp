@@ -5,9 +5,9 @@
 
 #include "host/core/free_memory.hpp"
 #include "host/importers/cloud_builder.hpp"
+#include "host/importers/file_polygons.hpp"
 #include "host/importers/formats.hpp"
 #include "host/importers/ply_header.hpp"
-#include "host/importers/ply_polygons.hpp"
 #include "host/importers/ply_slots.hpp"
 #include "host/importers/ply_values.hpp"
 #include "host/importers/texture_files.hpp"
@@ -39,7 +39,7 @@ class PlyReader {
   }
 
   VertexPool vertices;
-  PlyPolygons polygons;
+  FilePolygons polygons;
   size_t transparent = 0;  // colours with an alpha below 1
 
  private:
@@ -288,8 +288,8 @@ ImportedScene show_points(const PlyHeader& header, PlyReader<Values> reader, con
       if (element.name == "vertex" && !is_shown_of_points(property)) rest.push_back(property.name);
   report_left_out("properties", std::move(rest), scene.warnings);
   RawPoints points{file.name, std::move(reader.vertices.positions), std::move(reader.vertices.colors)};
-  if (auto cloud = build_cloud(std::move(points), file.point_size, scene.warnings))
-    scene.clouds.push_back(std::move(cloud));
+  if (auto cloud = build_cloud(std::move(points), file.options.point_size, scene.warnings))
+    scene.clouds.push_back({std::move(cloud)});
   return scene;
 }
 
@@ -327,7 +327,7 @@ ImportedScene import_values(const PlyHeader& header, MeshFile& file) {
   for (size_t i = 0; i < lists.size(); ++i) {
     if (lists.size() > 1 && lists[i].positions.empty()) continue;
     scene.instances.push_back({static_cast<int>(scene.meshes.size()), Mat4(1.0), materials[i], {}});
-    scene.meshes.push_back(builder.build(lists[i], file.smooth.value_or(default_smooth)));
+    scene.meshes.push_back(builder.build(lists[i], file.options.smooth.value_or(default_smooth)));
   }
   counts.report(scene.warnings);
   return scene;

@@ -183,7 +183,7 @@ ImportedScene import_stl(MeshFile& file) {
   MeshCounts counts;
   MeshBuilder builder(facets.vertices, counts);
   scene.instances.push_back({0, Mat4(1.0), -1, {}});
-  scene.meshes.push_back(builder.build(facets.triangles, file.smooth.value_or(default_smooth)));
+  scene.meshes.push_back(builder.build(facets.triangles, file.options.smooth.value_or(default_smooth)));
   counts.report(scene.warnings);
   return scene;
 }

@@ -2,85 +2,22 @@
 // colours and normals behind z, which the numbers themselves distinguish.
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "host/core/diagnostic.hpp"
 #include "host/core/free_memory.hpp"
 #include "host/importers/cloud_builder.hpp"
 #include "host/importers/formats.hpp"
-#include "host/importers/malformed.hpp"
 #include "host/importers/mesh_builder.hpp"
-#include "host/importers/text_number.hpp"
+#include "host/importers/number_lines.hpp"
 
 namespace eyeray::engine::importers {
 
 namespace {
 
 constexpr size_t most_columns = 16;
-
-bool ends_line(char c) {
-  return c == '\n' || c == '\r';
-}
-
-// The lines of a text that have content.
-class PointLines {
- public:
-  PointLines(std::string_view text, const std::string& file) : text_(text), file_(file) {}
-
-  // Goes to the next line that is neither empty nor a comment. False at the end of the text.
-  bool next() {
-    if (std::exchange(begun_, true)) at_ = line_end();
-    for (;;) {
-      at_ = skip_spaces(text_, at_);
-      start_ = at_;
-      if (at_ == text_.size()) return false;
-      if (text_[at_] != '#' && !text_.substr(at_).starts_with("//")) return true;
-      at_ = line_end();
-    }
-  }
-
-  // Reads all numbers of the line. InputError at a word that is none.
-  void read(std::vector<double>& numbers) {
-    numbers.clear();
-    for (at_ = start_; skip_blanks();) {
-      if (numbers.size() == most_columns)
-        throw malformed_at(file_, text_, at_, fmt::format("a line has at most {} numbers", most_columns));
-      numbers.push_back(take_number(text_, at_, file_));
-    }
-  }
-
-  // True if the line begins with a number.
-  bool has_number() const {
-    double value = 0;
-    const size_t at = start_ + (text_[start_] == '+');
-    return std::from_chars(text_.data() + at, text_.data() + text_.size(), value).ec !=
-           std::errc::invalid_argument;
-  }
-  std::string_view line() { return text_.substr(start_, line_end() - start_); }
-  [[noreturn]] void fail(const std::string& message) const {
-    throw malformed_at(file_, text_, start_, message);
-  }
-
- private:
-  size_t line_end() const {
-    size_t at = at_;
-    while (at < text_.size() && !ends_line(text_[at])) ++at;
-    return at;
-  }
-  // Goes to the next word of the line. False at the line's end.
-  bool skip_blanks() {
-    while (at_ < text_.size() && is_text_space(text_[at_]) && !ends_line(text_[at_])) ++at_;
-    return at_ < text_.size() && !ends_line(text_[at_]);
-  }
-
-  std::string_view text_;
-  const std::string& file_;
-  size_t at_ = 0;
-  size_t start_ = 0;  // begin of the line
-  bool begun_ = false;
-};
 
 // Decides whether three columns are colours. They are if all are integers from 0 to 255, and some above 1.
 // They are also if all are shares from 0 to 1 that are neither unit vectors, as normals are, nor all 0.
@@ -133,7 +70,7 @@ struct XyzRows {
 };
 
 XyzRows read_rows(const MeshFile& file, std::vector<std::string>& warnings) {
-  PointLines lines(file.bytes, file.name);
+  NumberLines lines(file.bytes, file.name);
   XyzRows rows;
   std::vector<double> numbers;
   bool first_line = true;
@@ -143,7 +80,7 @@ XyzRows read_rows(const MeshFile& file, std::vector<std::string>& warnings) {
           fmt::format("its first line was taken as a heading: {}", printable(lines.line().substr(0, 60))));
       continue;
     }
-    lines.read(numbers);
+    lines.read(numbers, most_columns);
     if (numbers.size() == 1 && rows.columns == 0 && !rows.stated) {
       rows.stated = numbers[0];
       continue;
@@ -193,8 +130,8 @@ ImportedScene import_xyz(MeshFile& file) {
     scene.warnings.push_back(
         fmt::format("{} of its {} columns were left out: {}", rows.columns - shown, rows.columns,
                     shown == 3 ? "only x y z are shown" : "only x y z and a color are shown"));
-  if (auto cloud = build_cloud(std::move(points), file.point_size, scene.warnings))
-    scene.clouds.push_back(std::move(cloud));
+  if (auto cloud = build_cloud(std::move(points), file.options.point_size, scene.warnings))
+    scene.clouds.push_back({std::move(cloud)});
   return scene;
 }
 

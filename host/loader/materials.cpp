@@ -92,7 +92,7 @@ void Materials::check_opaque(reading::TableReader& shape, int index) const {
   const bool transmits = material.medium() || material.thin() || material.shadow_transmittance() > 0;
   if (transmits || material.mask)
     shape.error("material",
-                fmt::format("points may overlap, so their material must be opaque: {}",
+                fmt::format("points and lines may overlap, so their material must be opaque: {}",
                             transmits ? "light passes through this one" : "this one has an `alpha`"));
 }
 

@@ -1,6 +1,6 @@
 #include "host/loader/mesh_imports.hpp"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -20,8 +20,6 @@ std::string one_sentence(const InputError& error) {
   return fmt::format("{}:{}:{}: {}", at.file, at.line, at.column, first.message);
 }
 
-constexpr size_t most_animations_named = 16;
-
 // The warnings for a scene that shows the file.
 std::vector<std::string> warnings_of(const importers::ImportedScene& scene, const fs::path& file) {
   std::vector<std::string> all = scene.warnings;
@@ -38,13 +36,10 @@ std::vector<std::string> warnings_of(const importers::ImportedScene& scene, cons
 
 }  // namespace
 
-std::string no_such_animation(const std::string& wanted, std::span<const std::string> names) {
-  if (names.empty()) return "the file has no animations";
-  std::vector<std::string> all;
-  for (size_t i = 0; i < std::min(names.size(), most_animations_named); ++i)
-    all.push_back(names[i].empty() ? fmt::format("\"{}\"", i) : fmt::format("\"{}\"", printable(names[i])));
-  return fmt::format("the file has no animation \"{}\"; it has {}{}", wanted, fmt::join(all, ", "),
-                     names.size() > all.size() ? ", …" : "");
+std::string no_such(std::string_view kind, const std::string& wanted, std::span<const std::string> names) {
+  if (names.empty()) return fmt::format("the file has no {}s", kind);
+  return fmt::format("the file has no {} \"{}\"; it has {}", kind, printable(wanted),
+                     importers::list_names(names));
 }
 
 void MeshImports::add_file(const fs::path& file) {
@@ -61,11 +56,11 @@ AllowedFolders::File MeshImports::find(const std::string& name, const std::strin
 }
 
 importers::ImportedScene MeshImports::read(const fs::path& file, const Wanted& wanted) {
-  const auto& [smooth, point_size, playing] = wanted.reading;
-  const importers::ImportOptions options{smooth, trees_, &budget_, playing, point_size};
-  if (memory_) return importers::import_bytes(memory_->find(file.string())->second, file.string(), options);
+  if (memory_)
+    return importers::import_bytes(memory_->find(file.string())->second, file.string(), wanted.reading,
+                                   &budget_);
   add_file(file);
-  return importers::import_file(file, options);
+  return importers::import_file(file, wanted.reading, trees_, &budget_);
 }
 
 void MeshImports::import(Entry& entry, const fs::path& file, const Wanted& wanted) {
@@ -99,9 +94,9 @@ MeshImports::Loaded MeshImports::load(const std::string& name, Reading reading, 
   return {&entry.scene, fresh};
 }
 
-MeshImports::Loaded MeshImports::load_alone(const fs::path& file, std::optional<double> point_size) {
-  const Wanted wanted{folders_->find("file", file.filename().string(), file).whole,
-                      {.point_size = point_size, .playing = {seconds_}}};
+MeshImports::Loaded MeshImports::load_alone(const fs::path& file, Reading reading) {
+  reading.playing.seconds = seconds_;
+  const Wanted wanted{folders_->find("file", file.filename().string(), file).whole, std::move(reading)};
   importers::ImportedScene scene = read(file, wanted);
   for (const fs::path& each : scene.files) add_file(each);
   for (std::string& warning : warnings_of(scene, file)) reported_.insert(std::move(warning));
@@ -110,8 +105,9 @@ MeshImports::Loaded MeshImports::load_alone(const fs::path& file, std::optional<
   return {&entry.scene, true};
 }
 
-importers::ImportedScene MeshImports::rest(const fs::path& file) const {
-  return importers::import_file(file, {.allowed_folders = trees_, .playing = {.animation = no_animation}});
+importers::ImportedScene MeshImports::rest(const fs::path& file, Reading reading) const {
+  reading.playing.animation = no_animation;
+  return importers::import_file(file, reading, trees_);
 }
 
 std::vector<importers::PlayedAnimation> MeshImports::played() const {

@@ -7,6 +7,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "host/importers/import.hpp"
@@ -18,8 +19,8 @@ namespace eyeray::engine::loader {
 // The value of `animation` in [[mesh]] that shows a file at rest.
 inline constexpr const char* no_animation = "none";
 
-// The error for an animation that a file lacks. `names`: those of its animations.
-std::string no_such_animation(const std::string& wanted, std::span<const std::string> names);
+// The error for a part of a file that the file lacks. `kind`: "animation". `names`: those of its animations.
+std::string no_such(std::string_view kind, const std::string& wanted, std::span<const std::string> names);
 
 class MeshImports {
  public:
@@ -39,25 +40,18 @@ class MeshImports {
   // Sets the moment at which animated files are shown, in seconds; it is 0 before that.
   void show(double seconds) { seconds_ = seconds; }
 
-  // The options with which a file is read; see importers::ImportOptions.
-  struct Reading {
-    std::optional<double> smooth = {};
-    std::optional<double> point_size = {};
-    importers::Playing playing = {};
-
-    auto operator<=>(const Reading&) const = default;
-  };
+  using Reading = importers::ImportOptions;
 
   // The contents of the file that is called `name` in the file `from`. The pointer stays valid. The moment in
   // `reading.playing` is ignored. If the file cannot be read: Error, one sentence, the same each time.
   Loaded load(const std::string& name, Reading reading, const std::string& from);
 
-  // The contents of a mesh file that is itself the scene; later requests do not return it as fresh.
-  // InputError and Error as import_file.
-  Loaded load_alone(const std::filesystem::path& file, std::optional<double> point_size);
+  // The contents of a mesh file that is itself the scene; later requests do not return it as fresh. The
+  // moment in `reading.playing` is ignored. InputError and Error as import_file.
+  Loaded load_alone(const std::filesystem::path& file, Reading reading);
   // The file without animation, which is read but not shown. InputError, as from import_file, if nothing
   // could be seen.
-  importers::ImportedScene rest(const std::filesystem::path& file) const;
+  importers::ImportedScene rest(const std::filesystem::path& file, Reading reading) const;
 
   // The animations of the files shown: one for each way in which a file is shown.
   std::vector<importers::PlayedAnimation> played() const;

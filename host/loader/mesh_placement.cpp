@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "host/scene/affine.hpp"
 #include "host/scene/triangle.hpp"
@@ -46,6 +47,13 @@ int MeshPlacer::plain_material_index(bool colored) {
   return index;
 }
 
+// The index in the scene of a material of the file, or of its stand-in.
+int MeshPlacer::material_of(const importers::ImportedScene& import, const Placing& placing, int material,
+                            bool colored) {
+  if (placing.material) return *placing.material;
+  return material < 0 ? plain_material_index(colored) : placed_.at(&import).first_material + material;
+}
+
 std::string MeshPlacer::check(size_t index, const Mat4& transform) const {
   if (const std::string why = why_singular(transform); !why.empty())
     return fmt::format("together with the transforms in the file, `transform` cannot be inverted: {}", why);
@@ -80,31 +88,45 @@ std::string MeshPlacer::place(importers::ImportedScene& import, const Placing& p
     Instance placed{file.first_mesh + instance.mesh, transform * instance.transform, 0, position, name};
     if (std::string wrong = check(static_cast<size_t>(placed.mesh), placed.transform); !wrong.empty())
       return wrong;
-    placed.material =
-        material ? *material
-        : instance.material < 0
-            ? plain_material_index(!scene_.meshes[static_cast<size_t>(placed.mesh)].colors.empty())
-            : file.first_material + instance.material;
+    placed.material = material_of(import, placing, instance.material,
+                                  !scene_.meshes[static_cast<size_t>(placed.mesh)].colors.empty());
     into.push_back(std::move(placed));
   }
   return "";
 }
 
-std::string MeshPlacer::place_points(const importers::ImportedScene& import, const Placing& placing,
-                                     std::vector<std::unique_ptr<Shape>>& into) {
-  for (const auto& cloud : import.clouds) {
+std::string MeshPlacer::place_shapes(const importers::ImportedScene& import, const Placing& placing) {
+  const auto add = [&](std::unique_ptr<Shape> shape, std::string_view type, int material) {
+    shape->material = material;
+    shape->type = type;
+    shape->name = placing.name;
+    shape->position = placing.position;
+    shapes_.push_back(std::move(shape));
+  };
+  for (const auto& [cloud, own] : import.clouds) {
     auto points = shapes::make_points(cloud, cloud->radius, placing.transform);
     if (!points)
       return similarity(placing.transform)
                  ? "the transformed points are out of range (coordinates up to 1e12)"
                  : "the file has points, which cannot be sheared or scaled unevenly";
-    points->material = placing.material ? *placing.material : plain_material_index(!cloud->colors.empty());
-    points->type = "points";
-    points->name = placing.name;
-    points->position = placing.position;
-    into.push_back(std::move(points));
+    add(std::move(points), "points", material_of(import, placing, own, !cloud->colors.empty()));
+  }
+  for (const auto& [segments, radius, own] : import.lines) {
+    const int material = material_of(import, placing, own, false);
+    for (const auto& [from, to] : segments) {
+      if (!shapes::fits_capsule(from, to, radius, placing.transform))
+        return "the transformed lines are out of range, or too thin to be computed with";
+      add(shapes::make_capsule(from, to, radius, placing.transform), "capsule", material);
+    }
   }
   return "";
+}
+
+void MeshPlacer::take_shapes(std::string_view type, std::vector<std::unique_ptr<Shape>>& into) {
+  const auto taken = std::stable_partition(shapes_.begin(), shapes_.end(),
+                                           [&](const auto& shape) { return shape->type != type; });
+  std::move(taken, shapes_.end(), std::back_inserter(into));
+  shapes_.erase(taken, shapes_.end());
 }
 
 }  // namespace eyeray::engine::loader

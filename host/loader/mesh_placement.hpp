@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "host/importers/import.hpp"
@@ -27,9 +28,11 @@ class MeshPlacer {
   // its materials when they are first needed. Returns the reason why the file cannot be shown under the
   // transform, or "".
   std::string place(importers::ImportedScene& import, const Placing& placing, std::vector<Instance>& into);
-  // Likewise adds the file's points, as shapes. All of them share the file's data.
-  std::string place_points(const importers::ImportedScene& import, const Placing& placing,
-                           std::vector<std::unique_ptr<Shape>>& into);
+  // Likewise makes shapes of the file's points and lines, whose meshes must be in the scene. All points share
+  // the file's data. The shapes stay here until they are taken.
+  std::string place_shapes(const importers::ImportedScene& import, const Placing& placing);
+  // Moves the shapes of that type, made so far, to the end of `into`.
+  void take_shapes(std::string_view type, std::vector<std::unique_ptr<Shape>>& into);
 
   // The reason why a mesh of the scene cannot be shown under this map, or "".
   std::string check(size_t mesh, const Mat4& transform) const;
@@ -49,11 +52,13 @@ class MeshPlacer {
   void take_meshes(importers::ImportedScene& import, Placed& placed);
   void take_materials(importers::ImportedScene& import, Placed& placed);
   int plain_material_index(bool colored);
+  int material_of(const importers::ImportedScene& import, const Placing& placing, int material, bool colored);
 
   Scene& scene_;
   std::map<const importers::ImportedScene*, Placed> placed_;
   std::vector<Extent> extents_;  // one a mesh of the scene
-  int plain_[2] = {-1, -1};      // materials for meshes without one: without and with colours of their own
+  std::vector<std::unique_ptr<Shape>> shapes_;
+  int plain_[2] = {-1, -1};  // materials for meshes without one: without and with colours of their own
 };
 
 }  // namespace eyeray::engine::loader

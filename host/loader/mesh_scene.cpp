@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "host/loader/mesh_reading.hpp"
 #include "host/scene/affine.hpp"
 
 namespace eyeray::engine::loader {
@@ -42,12 +43,15 @@ void each_point(const importers::ImportedScene& import, const Visit& visit) {
       }
     }
   }
-  for (const auto& cloud : import.clouds) {
-    for (const Vec3& position : cloud->positions) {
-      visit(position - cloud->radius);
-      visit(position + cloud->radius);
-    }
-  }
+  const auto visit_ball = [&](const Vec3& center, double radius) {
+    visit(center - radius);
+    visit(center + radius);
+  };
+  for (const importers::ImportedPoints& points : import.clouds)
+    for (const Vec3& position : points.cloud->positions) visit_ball(position, points.cloud->radius);
+  for (const importers::ImportedLines& lines : import.lines)
+    for (const importers::LineSegment& segment : lines.segments)
+      for (const Vec3& end : {segment.from, segment.to}) visit_ball(end, lines.radius);
 }
 
 Bounds bounds_of(const importers::ImportedScene& import) {
@@ -236,7 +240,7 @@ bool has_room_for_studio(const importers::ImportedScene& framed) {
 
 toml::table mesh_scene(const std::filesystem::path& file, const importers::ImportedScene& import,
                        const importers::ImportedScene& framed, const MeshView& view) {
-  const auto [around, look, formulas, transparent, turntable, point_size] = view;
+  const auto [around, look, formulas, transparent, turntable, reading] = view;
   const importers::ImportedCamera camera =
       import.cameras.empty() ? framing(framed, turntable > 0) : import.cameras.front();
   const bool own_lights = import.lights.empty() && !around;
@@ -248,7 +252,7 @@ toml::table mesh_scene(const std::filesystem::path& file, const importers::Impor
   toml::table root;
   root.insert("camera", table(camera));
   toml::table mesh{{"file", file.filename().string()}};
-  if (point_size) mesh.insert("point_size", *point_size);
+  write_mesh_reading(reading, mesh);
   if (turntable > 0) {
     const Vec3 centre = middle_of(bounds_of(framed));
     mesh.insert("transform",

@@ -4,7 +4,6 @@
 #include <toml++/toml.h>
 
 #include <filesystem>
-#include <optional>
 
 #include "host/importers/import.hpp"
 #include "host/loader/scene_file.hpp"
@@ -17,7 +16,7 @@ struct MeshView {
   bool formulas;             // the scene may have formulas, as a floor needs to fade
   bool transparent = false;  // the picture has an alpha: it shows no floor
   int turntable = 0;  // the frames in which the model turns once about the vertical; 0: it does not turn
-  std::optional<double> point_size = {};  // diameter of points; empty: it follows from their spacing
+  importers::ImportOptions reading = {};  // how the file was read
 };
 
 // True if the floor and the lights around the model are within the range of numbers.

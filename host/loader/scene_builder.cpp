@@ -17,6 +17,7 @@
 #include "host/loader/materials.hpp"
 #include "host/loader/medium.hpp"
 #include "host/loader/mesh_placement.hpp"
+#include "host/loader/mesh_reading.hpp"
 #include "host/loader/path_check.hpp"
 #include "host/loader/photon_check.hpp"
 #include "host/loader/sections.hpp"
@@ -141,7 +142,6 @@ class Builder {
   size_t lights_ = 0;
   std::vector<SourcePosition> light_positions_ = {};  // one for each of scene_.lights
   std::vector<std::pair<const AreaShape*, const toml::table*>> area_lights_ = {};
-  std::vector<std::unique_ptr<Shape>> clouds_ = {};  // points of the mesh files that have just been read
   bool tried_shapes_ = false;
 };
 
@@ -174,10 +174,8 @@ void Builder::add_placed(const toml::table& holder, const Placing& group) {
       if (section.kind == Section::Kind::group && GroupPlan::is_pattern(table)) return;
       add_table(section, table, group);
     });
-    // The points of mesh files follow those of tables: Scene::shapes are in registry order.
-    if (name == "points")
-      for (auto& cloud : std::exchange(clouds_, {}))
-        (building_ ? building_->shapes : scene_.shapes).push_back(std::move(cloud));
+    // The points and lines of mesh files follow the shapes of tables: Scene::shapes are in registry order.
+    placer_.take_shapes(name, building_ ? building_->shapes : scene_.shapes);
     if (&holder == &root_) add_area_lights(name);
   }
 }
@@ -347,24 +345,20 @@ void Builder::add_mesh(reading::TableReader& reader, const Placing& placing) {
   const int material = own_materials ? 0 : materials_.find(reader);
   if (reader.failed()) return;
   if (!meshes_) return reader.error("file", "only a scene in a file can name mesh files");
-  MeshImports::Reading reading{.playing = {.loop = reader.boolean("loop")}};
-  if (reader.has("smooth")) reading.smooth = reader.number("smooth");
-  if (reader.has("point_size")) reading.point_size = reader.number("point_size");
-  if (reader.has("animation")) reading.playing.animation = reader.string("animation");
+  const importers::ImportOptions reading = read_mesh_reading(reader);
   try {
     const auto [import, fresh] = meshes_->load(reader.string("file"), reading, reader.position("file").file);
-    const auto& wanted = reading.playing.animation;
-    if (wanted && *wanted != no_animation && !import->played)
-      return reader.error("animation", no_such_animation(*wanted, import->animations));
+    if (!check_mesh_names(reading, *import, reader)) return;
     if (fresh) {
       for (const std::string& warning : import->warnings) log_.warning(reader.position(), warning);
     }
     const MeshPlacer::Placing placed{placing.to_world, own_materials ? std::nullopt : std::optional(material),
                                      reader.position(), placing.name};
     std::string wrong = placer_.place(*import, placed, building_ ? building_->instances : scene_.instances);
-    if (wrong.empty()) wrong = placer_.place_points(*import, placed, clouds_);
+    if (wrong.empty()) wrong = placer_.place_shapes(*import, placed);
     if (!wrong.empty()) reader.error("transform", wrong);
-    if (!own_materials && !import->clouds.empty()) materials_.check_opaque(reader, material);
+    if (!own_materials && !(import->clouds.empty() && import->lines.empty()))
+      materials_.check_opaque(reader, material);
   } catch (const Error& refused) {
     reader.error("file", refused.what());
   }

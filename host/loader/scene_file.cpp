@@ -1,16 +1,13 @@
 #include "host/loader/scene_file.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <iterator>
 #include <optional>
 #include <vector>
 
 #include "host/core/error.hpp"
-#include "host/core/escaped_text.hpp"
 #include "host/loader/animation.hpp"
 #include "host/loader/document.hpp"
 #include "host/loader/formula_files.hpp"
@@ -18,9 +15,9 @@
 #include "host/loader/image_files.hpp"
 #include "host/loader/mesh_imports.hpp"
 #include "host/loader/mesh_scene.hpp"
+#include "host/loader/mesh_view.hpp"
 #include "host/loader/overrides.hpp"
 #include "host/loader/scene_builder.hpp"
-#include "host/scene/affine.hpp"
 #include "host/scene/integrator.hpp"
 
 namespace eyeray::engine::loader {
@@ -83,110 +80,30 @@ MeshLook usual_look(std::span<const Override> overrides) {
   return plain ? MeshLook::plain : MeshLook::studio;
 }
 
-// The overrides for the view of a mesh alone: their beginnings, and words for them.
-struct ViewKey {
-  std::string_view text, name;
-};
-constexpr ViewKey look_key{"look=", "look"}, camera_key{"camera=", "camera by name"},
-    turntable_key{"turntable=", "turntable"}, point_size_key{"point_size=", "point size"};
-
-// Takes the last override with that key out of the list, and all before it. `value`: the value, without
-// quotes.
-std::optional<Override> take(std::vector<Override>& overrides, const ViewKey& key, std::string& value) {
-  std::optional<Override> last;
-  std::erase_if(overrides, [&](const Override& each) {
-    if (!each.text.starts_with(key.text)) return false;
-    last = each;
-    return true;
-  });
-  if (!last) return last;
-  value = last->text.substr(key.text.size());
-  if (value.size() > 1 && value.front() == '"' && value.back() == '"')
-    value = value.substr(1, value.size() - 2);
-  return last;
-}
-
-MeshLook take_look(std::vector<Override>& overrides) {
-  std::string name;
-  const auto change = take(overrides, look_key, name);
-  if (!change) return usual_look(overrides);
-  const auto found = std::ranges::find(look_names, name);
-  if (found == std::end(look_names))
-    throw Error(ExitCode::bad_input, "{}: a look is {}", as_written(*change), fmt::join(look_names, ", "));
-  return MeshLook(found - std::begin(look_names));
-}
-
-// The frames of a full turn of the model; 0: it does not turn.
-int take_turntable(std::vector<Override>& overrides) {
-  std::string frames;
-  const auto change = take(overrides, turntable_key, frames);
-  if (!change) return 0;
-  const size_t count = as_index(frames).value_or(0);
-  if (count < 2 || count > size_t(most_frames))
-    throw Error(ExitCode::bad_input, "{}: a turntable has 2 to {} frames", as_written(*change), most_frames);
-  return int(count);
-}
-
-// The diameter of points; empty: it follows from their spacing.
-std::optional<double> take_point_size(std::vector<Override>& overrides) {
-  std::string size;
-  const auto change = take(overrides, point_size_key, size);
-  if (!change) return std::nullopt;
-  double value = 0;
-  const auto [end, error] = std::from_chars(size.data(), size.data() + size.size(), value);
-  if (error != std::errc() || end != size.data() + size.size() || !(value > 0 && value <= max_coordinate))
-    throw Error(ExitCode::bad_input, "{}: a point size is a number above 0", as_written(*change));
-  return value;
-}
-
-// Removes all cameras but the one that an override names, or else the first. Several cameras may have one
-// name; then the first with it is meant. A number counts cameras from 0, if none has that name.
-void choose_camera(std::vector<importers::ImportedCamera>& cameras, std::vector<Override>& overrides,
-                   const fs::path& file, DiagnosticLog& log) {
-  std::string wanted;
-  const auto change = take(overrides, camera_key, wanted);
-  std::vector<std::string> names;
-  for (size_t i = 0; i < cameras.size(); ++i)
-    names.push_back(cameras[i].name.empty() ? std::to_string(i)
-                                            : fmt::format("\"{}\"", printable(cameras[i].name)));
-  if (change) {
-    const auto named = std::ranges::find(cameras, wanted, &importers::ImportedCamera::name);
-    size_t index = size_t(named - cameras.begin());
-    if (named == cameras.end()) index = as_index(wanted).value_or(cameras.size());
-    if (wanted.empty() || index >= cameras.size())
-      throw Error(ExitCode::bad_input, "{}: {} has no such camera; it has {}", as_written(*change),
-                  file.string(), names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")));
-    std::swap(cameras[0], cameras[index]);
-  } else if (cameras.size() > 1) {
-    log.warning({}, fmt::format("shows the first of its cameras; --camera NAME shows another: {}",
-                                fmt::join(names, ", ")));
-  }
-  if (cameras.size() > 1) cameras.resize(1);
-}
-
 // The document of a scene that shows the mesh file. Takes the overrides for its view out.
 Document read_mesh(const fs::path& file, std::vector<Override>& overrides, bool formulas, MeshImports& meshes,
                    DiagnosticLog& log) {
-  MeshLook look = take_look(overrides);
-  const int turntable = take_turntable(overrides);
-  const std::optional<double> point_size = take_point_size(overrides);
+  const MeshChoices choices = take_mesh_choices(overrides);
+  MeshLook look = choices.look.value_or(usual_look(overrides));
   log.add_source(file.string(), "");
   meshes.show(requested_seconds(overrides));
-  const MeshImports::Loaded loaded = meshes.load_alone(file, point_size);
+  const MeshImports::Loaded loaded = meshes.load_alone(file, choices.reading);
   // Frame the file at rest, so that the camera does not move during an animation.
   std::optional<importers::ImportedScene> rest;
   if (loaded.scene->played && loaded.scene->cameras.empty()) {
     try {
-      rest = meshes.rest(file);
+      rest = meshes.rest(file, choices.reading);
     } catch (const InputError&) {
       // There is nothing to see at rest, so frame the file at this moment.
       if (loaded.scene->instances.empty()) throw;
     }
   }
   for (const std::string& warning : loaded.scene->warnings) log.warning({}, warning);
-  if (point_size && loaded.scene->clouds.empty())
+  if (choices.reading.point_size && loaded.scene->clouds.empty())
     log.warning({}, "has no points, so --point-size changes nothing");
-  choose_camera(loaded.scene->cameras, overrides, file, log);
+  if (choices.reading.line_width && loaded.scene->lines.empty())
+    log.warning({}, "has no lines, so --line-width changes nothing");
+  choose_camera(loaded.scene->cameras, choices.camera, file, log);
   const bool around = std::ranges::any_of(
       overrides, [](const Override& each) { return each.text.starts_with("environment"); });
   const toml::table image = overridden(overrides, "image.transparent");
@@ -197,9 +114,9 @@ Document read_mesh(const fs::path& file, std::vector<Override>& overrides, bool 
     log.warning({},
                 "reaches beyond 1e10, where a floor and lights around it have no room: it is shown plain");
   }
-  return {
-      mesh_scene(file, *loaded.scene, framed, {around, look, formulas, transparent, turntable, point_size}),
-      {}};
+  return {mesh_scene(file, *loaded.scene, framed,
+                     {around, look, formulas, transparent, choices.turntable, choices.reading}),
+          {}};
 }
 
 // If the scene moves while its shutter is open, sets the function that makes the scene at another moment. It
@@ -230,11 +147,7 @@ Scene load_moment(const fs::path& file, std::span<const Override> overrides, con
     scene.is_mesh_alone = true;
     return scene;
   }
-  for (const Override& each : overrides)
-    for (const ViewKey& key : {look_key, camera_key, turntable_key, point_size_key})
-      if (each.text.starts_with(key.text))
-        throw Error(ExitCode::bad_input, "{}: a {} is for a mesh alone, and {} is a scene", as_written(each),
-                    key.name, file.string());
+  refuse_mesh_choices(overrides, file);
   Document document = read_document(file, folders, log);
   ImageFiles images(folders, document.files, pixels, log);
   MeshImports meshes(folders, std::move(trees), document.files, pixels);

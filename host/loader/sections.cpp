@@ -5,6 +5,7 @@
 
 #include "host/cameras/registry.hpp"
 #include "host/core/diagnostic.hpp"
+#include "host/importers/import.hpp"
 #include "host/lights/registry.hpp"
 #include "host/lights/strength.hpp"
 #include "host/loader/animation.hpp"
@@ -164,9 +165,10 @@ constexpr Key keys_of_parts[] = {
 };
 
 constexpr std::string_view mesh_manual =
-    R"(The ending of the file name selects the format: `.obj` (Wavefront), `.ply`, `.stl`, `.gltf` or `.glb` (glTF
-2.0), and for points `.ply` without faces, `.xyz` or `.pcd`. Points are shown as spheres. The name is relative to the scene file. The file, and all files that it names, must lie in the scene's folder tree
-after following links, or in a folder that `--allow-path` allows. A file is read once. Each table, and each
+    R"(The ending of the file name selects the format: `.obj` (Wavefront), `.ply`, `.stl`, `.off`, `.gltf` or `.glb`
+(glTF 2.0), and for points `.ply` without faces, `.xyz` or `.pcd`. Points are shown as spheres. The name is relative
+to the scene file. The file, and all files that it names, must lie in the scene's folder tree after following links,
+or in a folder that `--allow-path` allows. A file is read once. Each table, and each
 element of a `batch`, is one more instance of it, so thousands of instances need little more memory than one.
 
 ```
@@ -207,10 +209,36 @@ constexpr Key mesh_keys[] = {
      .max = max_coordinate,
      .above_min = true,
      .optional = true},
+    {.name = "line_width",
+     .type = KeyType::number,
+     .doc = "Diameter of the capsules that show the lines of OBJ and glTF, in the file's units. When absent, "
+            "lines "
+            "are left out.",
+     .min = 0,
+     .max = max_coordinate,
+     .above_min = true,
+     .optional = true},
+    {.name = "up",
+     .type = KeyType::choice,
+     .doc = "The axis of the file's coordinates that points up; it becomes +y. Most scans and CAD files have "
+            "`\"z\"`. "
+            "glTF always has `\"y\"`.",
+     .fallback = "\"y\"",
+     .choices = importers::up_names},
     {.name = "animation",
      .type = KeyType::string,
      .doc = "The animation of a glTF file that is shown at the moment of [animation]: its name, or its "
             "number from 0, such as `\"1\"`. When absent, the first. `\"none\"` shows the file at rest.",
+     .optional = true},
+    {.name = "gltf_scene",
+     .type = KeyType::string,
+     .doc = "The scene of a glTF file that is shown: its name, or its number from 0. When absent, the file's "
+            "default.",
+     .optional = true},
+    {.name = "variant",
+     .type = KeyType::string,
+     .doc = "The variant of a glTF file's materials (KHR_materials_variants), such as another colour of a "
+            "product: its name, or its number from 0. When absent, the file's default.",
      .optional = true},
     {.name = "loop",
      .type = KeyType::boolean,

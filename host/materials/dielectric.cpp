@@ -33,9 +33,9 @@ that reaches 1, all light is reflected and no root is taken. The reflected share
 (n₁cosθ₁ − n₂cosθ₂) / (n₁cosθ₁ + n₂cosθ₂) and rₚ = (n₁cosθ₂ − n₂cosθ₁) / (n₁cosθ₂ + n₂cosθ₁). Two equal media
 do not reflect at all.
 
-With `dispersion`, a path that hits the glass continues with the light of one colour channel, chosen at random:
-red is refracted by the index of the C line, `ior` − (`ior` − 1) · `dispersion` / 40, green by `ior`, and blue by that
-of the F line, as far above `ior`.
+With `dispersion`, a path that hits the glass continues with the light of one colour channel, chosen at random.
+Green is refracted by `ior`. Red takes the index of the C line, `ior` − (`ior` − 1) · `dispersion` / 40, and blue that of
+the F line, as far above `ior`.
 
 With `thin` the surface is a pane, which has no inside. The reflections between its two faces add up to R' =
 2R / (1 + R). The rest of the light continues straight. Under `path`, lights shine through panes. The light of

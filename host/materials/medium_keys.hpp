@@ -25,7 +25,7 @@ inline constexpr Key anisotropy_key = {
     .min = -most_anisotropy,
     .max = most_anisotropy};
 
-// Of a shape's medium alone.
+// The medium around all shapes does not have this key.
 inline constexpr Key dispersion_key = {
     .name = "dispersion",
     .type = KeyType::number,

@@ -12,8 +12,8 @@ namespace eyeray::engine::materials {
 inline constexpr std::string_view principled_manual =
     R"(The metallic-roughness model of glTF 2.0, which models come with. It is a coloured body under a clear, glossy
 surface, a metal of that colour, or a blend of both. It may transmit light, and cloth and lacquer may lie on
-top. A thin film may colour what its surface reflects, brushing may lengthen its highlights, and light may come
-through its body evenly.
+top. A thin film may colour its reflections. Brushing may lengthen its highlights. Its body may let light through
+evenly.
 
 ```toml
 [[material]]
@@ -38,9 +38,9 @@ index 1.5. Sheen is a layer of fibres of `sheen_color` above the body, as cloth 
 `raycast` show an approximation: glass where `transmission` is 0.5 or more, and nothing of anisotropy,
 iridescence, dispersion or diffuse transmission.
 
-A film does not change the share that is glass, whose surface reflects by `ior` alone. Dispersion follows one
-colour channel, chosen at random, from the first hit on: red is refracted by the index of the C line, green by
-that of the d line, and blue by that of the F line.
+A film does not change the share that is glass, whose surface reflects by `ior` alone. With `dispersion` a
+path that hits the glass continues with the light of one colour channel, chosen at random. Red is refracted by the index
+of the C line, green by that of the d line, and blue by that of the F line.
 
 **Source.** Khronos: glTF 2.0 Specification, appendix B; KHR_materials_ior, _specular, _clearcoat, _sheen, _transmission, _volume,
 _diffuse_transmission, _anisotropy, _iridescence, _dispersion. Belcour, Barla: A Practical Extension to Microfacet Theory

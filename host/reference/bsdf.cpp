@@ -116,6 +116,7 @@ ViewedBsdf::ViewedBsdf(const Bsdf& bsdf, const Vec3& o, bool adjoint)
       layer_(bsdf.film.share > 0 ? bsdf.film.seen(bsdf.layer, o.z) : bsdf.layer),
       metal_(bsdf.film.share > 0 ? bsdf.film.seen(bsdf.metal, o.z) : bsdf.metal),
       facets_(bsdf.roughness, bsdf.widths),
+      once_o_(facets_.uneven() ? facets_.once(o) : Facets::Once{}),
       coat_(LocalFrame::turned_to(bsdf.coat_normal)),
       coat_o_(coat_.seen(o)),
       adjoint_(adjoint) {
@@ -271,7 +272,7 @@ BsdfValue ViewedBsdf::value(Lobe lobe, const Vec3& i) const {
 GgxAlbedo ViewedBsdf::albedo_of(const Vec3& w) const {
   GgxAlbedo albedo = tables::ggx_albedo(std::abs(w.z), bsdf_.roughness);
   if (facets_.uneven() && w.z != 0) {
-    const Facets::Once once = facets_.once({w.x, w.y, std::abs(w.z)});
+    const Facets::Once once = w == o_ ? once_o_ : facets_.once({w.x, w.y, std::abs(w.z)});
     albedo.once = once.all;
     albedo.edge = once.edge;
   }

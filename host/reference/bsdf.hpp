@@ -97,6 +97,7 @@ class ViewedBsdf {
   Vec3 o_;
   optics::Fresnel layer_, metal_;  // those of bsdf_, as its film makes them towards the viewer
   Facets facets_;
+  Facets::Once once_o_;  // the viewer's, if facets_ are uneven
   LocalFrame coat_;
   Vec3 coat_o_;  // o_ in the frame coat_
   bool adjoint_;

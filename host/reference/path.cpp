@@ -59,8 +59,8 @@ Flight PathSample::fly(const Ray& ray, const MediaStack& media, const std::optio
   return {end, false, left / glm::dot(shares, left)};
 }
 
-// Where a path hits the boundary of a medium that disperses light, it goes on with the light of one channel,
-// chosen in proportion to the light left in each.
+// A path that hits the boundary of a medium with dispersion goes on with the light of one channel, chosen in
+// proportion to the light left in each.
 Vec3 PathSample::dispersed(const std::optional<Hit>& hit, const Flight& flight,
                            const MediaStack& media) const {
   if (!hit || flight.scattered) return Vec3(1);

@@ -15,7 +15,7 @@ struct Bsdf {
   optics::Fresnel metal = {};
   double metallic = 0;     // the share of the surface that mirrors by `metal`
   double roughness = 1;    // roughness of `layer`, `metal`, `glass` and `thin`
-  Vec2 widths{0};          // of their microfacets' slopes along x and along y; 0: by `roughness`
+  Vec2 widths{0};          // widths of the slopes of those microfacets along x and y; 0: by `roughness`
   optics::Film film = {};  // over `layer` and `metal`
   double coat = 0;         // the share of the surface that is coated
   double coat_roughness = 1;

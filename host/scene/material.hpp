@@ -26,8 +26,8 @@ struct Medium {
   double anisotropy = 0;  // g, within ±most_anisotropy
   double dispersion = 0;  // 20 / Abbe number; 0: all colours have one index
 
-  // The index at blue (the F line) less that at the middle of the spectrum (the d line), and that less the
-  // index at red (the C line): (ior − 1) / (2 V), as in Khronos: KHR_materials_dispersion.
+  // The indices at blue and red light (the F and C lines) differ from `ior` (at the d line) by (ior − 1) / (2
+  // V), where V is the Abbe number. Khronos: KHR_materials_dispersion.
   double spread() const { return (ior - 1) * dispersion / 40; }
   // The index for light of these colours: that of red light for red alone, that of blue light for blue alone.
   double index(const Vec3& light) const {
@@ -124,7 +124,7 @@ class Material {
   std::optional<AlphaMask> mask;  // never set if there is a medium
   std::optional<NormalMap> normal_map;
   std::optional<BumpMap> bump_map;           // applied after normal_map
-  std::optional<RoughAxis> rough_axis;       // of a material whose BSDF sets `widths`
+  std::optional<RoughAxis> rough_axis;       // set if the BSDF may set `widths`
   std::optional<NormalMap> coat_normal_map;  // for the coat, which the other maps do not bend
 };
 

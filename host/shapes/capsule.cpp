@@ -53,6 +53,9 @@ constexpr Key keys[] = {
      .max = max_coordinate},
 };
 
+// Least ratio of length and radius, and of radius and length.
+constexpr double least_ratio = 1e-6;
+
 // All points within 1 of the y axis between −half and half.
 class Capsule final : public ObjectShape {
  public:
@@ -124,9 +127,9 @@ std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
   const double radius = table.number("radius");
   if (table.failed()) return nullptr;
   const double length = glm::length(to - from);
-  if (!(length >= 1e-6 * radius)) {
+  if (!(length >= least_ratio * radius)) {
     table.error("to", "the axis has no length: use [[sphere]]");
-  } else if (radius < 1e-6 * length) {
+  } else if (radius < least_ratio * length) {
     table.error("radius", "the capsule is too thin to be computed with (radius below 1e-6 of the length)");
   } else {
     out_of_range(table, transform * placed(from, to, radius));
@@ -138,6 +141,12 @@ std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
 }  // namespace
 
 extern const ShapeType capsule_type{.name = "capsule", .manual = manual, .keys = keys, .parse = parse};
+
+bool fits_capsule(const Vec3& from, const Vec3& to, double radius, const Mat4& transform) {
+  const double length = glm::length(to - from);
+  return length >= least_ratio * radius && radius >= least_ratio * length &&
+         why_out_of_range(transform * placed(from, to, radius)).empty();
+}
 
 std::unique_ptr<Shape> make_capsule(const Vec3& from, const Vec3& to, double radius, const Mat4& transform) {
   return std::make_unique<Capsule>(transform * placed(from, to, radius), half_length(from, to, radius));

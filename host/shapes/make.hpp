@@ -39,6 +39,8 @@ std::unique_ptr<Shape> make_paraboloid(const Vec3& tip, const Vec3& to, double r
                                        const Mat4& transform = Mat4(1.0));
 std::unique_ptr<Shape> make_hyperboloid(const Vec3& from, const Vec3& to, double radius, double to_radius,
                                         double waist, bool open = false, const Mat4& transform = Mat4(1.0));
+// True if there can be such a capsule.
+bool fits_capsule(const Vec3& from, const Vec3& to, double radius, const Mat4& transform = Mat4(1.0));
 std::unique_ptr<Shape> make_capsule(const Vec3& from, const Vec3& to, double radius,
                                     const Mat4& transform = Mat4(1.0));
 

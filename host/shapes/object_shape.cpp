@@ -146,20 +146,23 @@ Mat4 along_axis(const Vec3& from, const Vec3& to, double radius, double low, dou
   return {{x * radius, 0}, {step, 0}, {z * radius, 0}, {from - step * low, 1}};
 }
 
-bool out_of_range(TableReader& table, const Mat4& to_world) {
+std::string why_out_of_range(const Mat4& to_world) {
   bool fits = magnitude(Vec3(to_world[3])) <= max_coordinate;
   for (int axis = 0; axis < 3; ++axis) {
     const double size = magnitude(Vec3(to_world[axis]));
     fits = fits && size >= min_radius && size <= max_coordinate;
   }
-  if (!fits) {
-    table.error("transform", "the shape is out of range (sizes 1e-12 to 1e12, coordinates up to 1e12)");
-  } else if (const std::string why = why_singular(to_world); !why.empty()) {
-    table.error("transform",
-                fmt::format("the shape is too thin for its size: as the transform of a unit shape, {}", why));
-    fits = false;
-  }
-  return !fits;
+  if (!fits) return "the shape is out of range (sizes 1e-12 to 1e12, coordinates up to 1e12)";
+  const std::string why = why_singular(to_world);
+  return why.empty()
+             ? why
+             : fmt::format("the shape is too thin for its size: as the transform of a unit shape, {}", why);
+}
+
+bool out_of_range(TableReader& table, const Mat4& to_world) {
+  const std::string why = why_out_of_range(to_world);
+  if (!why.empty()) table.error("transform", why);
+  return !why.empty();
 }
 
 Vec3 along_turn(const Vec3& p) {

@@ -72,8 +72,10 @@ class ObjectShape : public Shape {
 // of x, where u = ½, is as near to the world's +x as can be; if the segment is parallel to +x, to +z.
 Mat4 along_axis(const Vec3& from, const Vec3& to, double radius, double low, double high);
 
-// Reports at `transform` if the shape is too large, small or far away to be computed with under this map to
-// the world. Returns whether it is.
+// The reason why the shape is too large, small, thin or far away to be computed with under this map to the
+// world, or "".
+std::string why_out_of_range(const Mat4& to_world);
+// Reports that reason at `transform`. Returns whether there is one.
 bool out_of_range(TableReader& table, const Mat4& to_world);
 
 // The derivative by u of a point that rotates about the y axis.

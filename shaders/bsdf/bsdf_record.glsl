@@ -69,7 +69,7 @@ struct Bsdf {
   vec3 translucent;        // albedo of the body for light that it lets through evenly, under the layer
 #endif
 #if HAS_ANISOTROPY
-  vec2 widths;             // of the microfacets' slopes along x and along y; 0: by roughness
+  vec2 widths;             // widths of the microfacets' slopes along x and along y; 0: by roughness
 #endif
 #if HAS_FILM
   Film film;               // over layer and metal, which are as it makes them towards the viewer

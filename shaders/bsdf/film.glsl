@@ -1,6 +1,6 @@
 // A thin film over a surface: light that its two sides reflect interferes. Belcour and Barla, "A Practical Extension to Microfacet Theory
-// for the Modeling of Varying Iridescence" (TOG 2017), with the approximations of KHR_materials_iridescence: Schlick's reflectance at both
-// sides, a real index for metals, and two orders of interference.
+// for the Modeling of Varying Iridescence" (TOG 2017). The approximations are those of KHR_materials_iridescence: Schlick's reflectance at
+// both sides, a real index for metals, and two orders of interference.
 #ifndef FILM_GLSL
 #define FILM_GLSL
 #include "bsdf/fresnel.glsl"
@@ -9,7 +9,7 @@
 SHADER_BEGIN
 
 struct Film {
-  float share;  // of the surface that it covers; 0: there is none
+  float share;  // the share of the surface that it covers; 0: there is none
   float thickness;  // in nanometres
   float ior;
   vec3 layer_f0;  // f0 and f90 without the film

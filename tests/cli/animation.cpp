@@ -210,6 +210,45 @@ TEST_CASE("--point-size changes the picture of a scan; other files have no use f
   CHECK(run_eyeray({"check", "scenes/whitted.toml", "--point-size", "1"}).code == 2);
 }
 
+TEST_CASE("--up, --line-width, --gltf-scene and --variant change how a file alone is shown") {
+  const TemporaryFolder folder;
+  size_t pictures = 0;
+  const auto shown = [&](const std::string& file, const std::vector<std::string>& options) {
+    const std::string picture = folder / fmt::format("{}.pfm", pictures++);
+    std::vector<std::string> all{"render", file, "--look", "plain", "-s", "32x24", "-o", picture};
+    all.insert(all.end(), options.begin(), options.end());
+    const ProcessResult result = run_eyeray(all);
+    CHECK(result.code == 0);
+    CHECK(result.err.find("left out") == std::string::npos);
+    return read_text(picture);
+  };
+  const std::string wires = "scenes/meshes/wires.obj", dots = "scenes/meshes/dots.gltf";
+  const std::string thin = shown(wires, {"--line-width", "0.05"});
+  CHECK(thin != shown(wires, {"--line-width", "0.2"}));
+  CHECK(thin != shown(wires, {"--line-width", "0.05", "--up", "z"}));
+  CHECK(shown(wires, {"--line-width", "0.05", "--up", "y"}) == thin);
+  const std::string bright = shown(dots, {});
+  CHECK(shown(dots, {"--variant", "bright"}) == bright);
+  CHECK(shown(dots, {"--variant", "dark"}) != bright);
+  CHECK(shown(dots, {"--gltf-scene", "large"}) == bright);
+  CHECK(shown(dots, {"--gltf-scene", "small", "--point-size", "0.2"}) !=
+        shown(dots, {"--point-size", "0.2"}));
+
+  const auto complaint = [](std::initializer_list<std::string> options) {
+    std::vector<std::string> all{"check"};
+    all.insert(all.end(), options);
+    return run_eyeray(all);
+  };
+  const ProcessResult variant = complaint({dots, "--variant", "blue"});
+  CHECK(variant.code == 2);
+  CHECK(variant.err.find("the file has no variant \"blue\"; it has \"bright\", \"dark\"") !=
+        std::string::npos);
+  CHECK(complaint({dots, "--up", "z"}).err.find("+y is up in glTF") != std::string::npos);
+  CHECK(complaint({dots, "--line-width", "1"}).err.find("has no lines, so --line-width changes nothing") !=
+        std::string::npos);
+  CHECK(complaint({"scenes/whitted.toml", "--up", "z"}).code == 2);
+}
+
 TEST_CASE("--turntable turns a mesh alone once; a scene has none") {
   const TemporaryFolder folder;
   const auto turn = [&](const std::string& scene, const char* frames) {

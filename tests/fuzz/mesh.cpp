@@ -8,8 +8,8 @@
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   try {
     const std::string bytes(reinterpret_cast<const char*>(data), size);
-    const std::string broken = eyeray::engine::test::broken_promise(
-        eyeray::engine::importers::import_bytes(bytes, INPUT_NAME, {.playing = {.seconds = 0.5}}));
+    const std::string broken = eyeray::engine::test::broken_promise(eyeray::engine::importers::import_bytes(
+        bytes, INPUT_NAME, {.line_width = 0.01, .playing = {.seconds = 0.5}, .variant = "0"}));
     if (broken.empty()) return 0;
     std::fprintf(stderr, "%s: broken promise: %s\n", INPUT_NAME, broken.c_str());
     std::abort();

@@ -2,6 +2,7 @@
 #include "host/image/exif.hpp"
 
 #include <cmath>
+#include <cstring>
 
 #include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
@@ -74,6 +75,54 @@ TEST_CASE("PNG of every kind decodes to the right codes, from the top left") {
     const uint8_t code = std::array<uint8_t, 6>{0, 64, 128, 192, 254, 255}[i];
     CHECK(grey.pixels[i] == Pixel{code, code, code, 255});
   }
+}
+
+TEST_CASE("WebP decodes to the right codes, lossless, with alpha and lossy") {
+  const CodedImage wanted = decode(bytes_of("rgba_interlaced.png"));
+  for (const auto& [file, alpha] : {std::pair("rgb.webp", uint8_t(255)), {"rgba.webp", uint8_t(64)}}) {
+    const CodedImage image = decode(bytes_of(file));
+    REQUIRE(image.width == 3);
+    REQUIRE(image.pixels.size() == wanted.pixels.size());
+    for (size_t i = 0; i < wanted.pixels.size(); ++i) {
+      Pixel pixel = wanted.pixels[i];
+      pixel[3] = alpha;
+      CHECK(image.pixels[i] == pixel);
+    }
+  }
+  // Red grows to the right and green downwards, by 16 a pixel.
+  std::vector<std::string> warnings;
+  const CodedImage lossy = decode(bytes_of("lossy.webp"), warnings);
+  REQUIRE(lossy.pixels.size() == 256);
+  for (size_t i = 0; i < 256; ++i) {
+    CHECK(std::abs(lossy.pixels[i][0] - int(16 * (i % 16))) < 24);
+    CHECK(std::abs(lossy.pixels[i][1] - int(16 * (i / 16))) < 24);
+    CHECK(lossy.pixels[i][3] == 255);
+  }
+  CHECK(warnings.empty());
+  decode(bytes_of("profile.webp"), warnings);
+  CHECK(warnings == std::vector<std::string>{
+                        "a picture: its colour profile (ICCP) is ignored: its colours are read as sRGB"});
+}
+
+TEST_CASE("a WebP that is damaged, or an animation, is refused; its size counts before it is decoded") {
+  CHECK(refusal(bytes_of("animated.webp")) ==
+        "cannot read a picture: it is damaged (it is an animation, of which no frame is chosen)");
+  for (const char* file : {"rgba.webp", "lossy.webp"}) {
+    const std::string whole = bytes_of(file);
+    for (size_t length = 0; length + 2 < whole.size(); ++length)
+      CHECK(refusal(whole.substr(0, length)) != "accepted");
+  }
+  // A picture of one colour may be short, but not if its header states the most pixels that there can be.
+  std::string plain = read_file("tests/fuzz/corpus/image/plain.webp");
+  CHECK(decode(plain).pixels.size() == size_t{1} << 24);
+  CHECK(decode(plain).pixels[77] == Pixel{0x33, 0x66, 0x99, 255});
+  std::memcpy(&plain[21], "\xff\xff\xff\x0f", 4);
+  CHECK(refusal(plain) == "cannot read a picture: it ends early");
+  std::vector<std::string> warnings;
+  PixelBudget few{5};
+  const std::string bytes = bytes_of("rgb.webp");
+  CHECK_THROWS_AS(decode_coded_image(std::as_bytes(std::span(bytes)), "a picture", few, warnings),
+                  TooManyPixels);
 }
 
 TEST_CASE("a PNG may have two bits a pixel and a transparent grey") {
@@ -235,5 +284,5 @@ TEST_CASE("pictures with damaged bytes are decoded or refused") {
 TEST_CASE("a file that is no PNG, JPEG, BMP or TGA is refused, though stb_image could read it") {
   for (const std::string& bytes : {std::string(), std::string("GIF89a"), std::string("P6 1 1 255\nabc"),
                                    std::string("BM"), std::string("#?RADIANCE\n"), std::string(1000, '\0')})
-    CHECK(refusal(bytes) == "cannot read a picture: it is not a PNG, JPEG, BMP or TGA");
+    CHECK(refusal(bytes) == "cannot read a picture: it is not a PNG, JPEG, WebP, BMP or TGA");
 }

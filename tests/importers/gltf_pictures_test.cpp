@@ -42,7 +42,7 @@ TEST_CASE("rules of glTF: samplers, and pictures without uv") {
       std::string(2, '\0') + "\2" + std::string(9, '\0') + std::string("\1\0\1\0\30\0abc", 9);
   image = {{"uri", "data:image/x-tga;base64," + base64(tga)}};
   CHECK(message_of(file) ==
-        "pictures that are neither PNG nor JPEG, decoded by their content: 1, the first images[0]");
+        "pictures that are none of PNG, JPEG and WebP, decoded by their content: 1, the first images[0]");
   image = as_it_was;
   image["mimeType"] = "image/gif";
   CHECK(message_of(file) ==
@@ -63,7 +63,7 @@ TEST_CASE("rules of glTF: samplers, and pictures without uv") {
   // The pixels of the picture count among those of all images of the scene.
   file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] = 0;
   PixelBudget few{5};
-  CHECK_THROWS_WITH_AS(import_bytes(file.gltf(), "a.gltf", {.pixels = &few}),
+  CHECK_THROWS_WITH_AS(import_bytes(file.gltf(), "a.gltf", {}, &few),
                        "a.gltf: error: cannot read images[0]: it has 3×2 pixels; of the 2^28 that all images "
                        "of a scene may have together, 5 are left",
                        InputError);

@@ -84,7 +84,7 @@ TEST_CASE("rules of glTF: each broken rule gives its message") {
          file.json.erase("scene");
          file.json["scenes"].push_back(Json::object());
        },
-       "it has no default scene: the first of 2 is shown"},
+       "it has no default scene: the first of 2 is shown; `gltf_scene` or --gltf-scene shows another: 0, 1"},
       {"no scenes",
        [](GltfFile& file) {
          file.json.erase("scene");
@@ -193,9 +193,9 @@ TEST_CASE("rules of glTF: each broken rule gives its message") {
          file.json["nodes"][1]["camera"] = 0;
          file.json["cameras"] = {{{"type", "perspective"},
                                   {"perspective", {{"yfov", 1}, {"znear", 1}}},
-                                  {"orthographic", {{"xmag", 1}, {"ymag", 1}}}}};
+                                  {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0}, {"zfar", 9}}}}};
        },
-       error + "cameras[0] is both perspective and orthographic"},
+       "cameras that are faulty, so they cannot be shown: 1, the first cameras[0]"},
       // Lights.
       {"a light as it should be", light({{"type", "point"}, {"color", {0.5, 0, 1}}, {"intensity", 0}}), ""},
       {"an intensity below 0", light({{"type", "point"}, {"intensity", -1}}),

@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "host/image/image_file.hpp"
+#include "host/image/srgb.hpp"
 #include "support.hpp"
 
 using namespace eyeray::engine;
@@ -140,7 +141,7 @@ TEST_CASE("materials outside the folder tree are not read") {
     const ImportedScene refused = import_file(file);
     CHECK(refused.materials.empty());
     CHECK(warns(refused, "lies outside the file's folder; --allow-path DIR allows other ones"));
-    CHECK(import_file(file, {.allowed_folders = {folder.path()}}).materials.size() == 1);
+    CHECK(import_file(file, {}, std::array{folder.path()}).materials.size() == 1);
   }
 }
 
@@ -255,7 +256,7 @@ TEST_CASE("options of maps may omit numbers; -s and -o transform the picture") {
           square_of(folder, "map_Kd -s 2 " + option + " " + name + "\nbump -s 2 -bm 3 my picture.png");
       CHECK(scene.warnings == std::vector<std::string>{
                                   "left out: the option " + option.substr(0, option.find(' ')) + " of maps",
-                                  "left out: bump maps"});
+                                  "left out: bump maps that are neither grey nor normal maps"});
       CHECK(scene.meshes[0].uv[2] == Vec2(2, 1));
       CHECK(scene.files.back() == folder / "my picture.png");
     }
@@ -326,8 +327,35 @@ TEST_CASE("maps of roughness, metalness and sheen multiply their values; a bluis
 
   for (const char* bump : {"map_Bump -bm 1 blue.png", "bump blue.png", "norm blue.png"})
     CHECK(square_of(folder, bump).materials[0]->normal_map);
-  const ImportedScene heights = square_of(folder, "map_Bump grey.png");
-  CHECK_FALSE(heights.materials[0]->normal_map);
-  CHECK(warns(heights, "left out: bump maps"));
-  CHECK(warns(square_of(folder, "norm blue.png\nbump blue.png"), "left out: bump maps"));
+  CHECK(warns(square_of(folder, "norm blue.png\nbump blue.png"), "left out: bump maps beside normal maps"));
+}
+
+TEST_CASE("a grey bump map becomes the normal map of its slopes, which -bm multiplies") {
+  const Folder folder;
+  // 10 codes higher at each step to the right, and 20 at each step up.
+  image::Image ramp(8, 4, 3);
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 8; ++column)
+      for (int i = 0; i < 3; ++i)
+        ramp.samples()[size_t(3 * (8 * row + column) + i)] =
+            float(image::linear_from_srgb((10 * column + 20 * (3 - row)) / 255.0));
+  image::write_image(folder / "ramp.png", ramp);
+  const auto normal = [&](const std::string& statement, const Vec2& uv) {
+    const ImportedScene scene = square_of(folder, statement + " ramp.png");
+    CHECK(scene.warnings.empty());
+    REQUIRE(scene.materials[0]->normal_map);
+    return glm::normalize(scene.materials[0]->normal_map->texture->at(uv) * 2.0 - 1.0);
+  };
+  const Vec2 inside(0.5625, 0.625);  // a texel's middle, with neighbours on all sides
+  for (const auto& [statement, strength] : {std::pair("bump", 1.0),
+                                            {"map_Bump -bm 3", 3.0},
+                                            {"map_bump -bm -5", -5.0},
+                                            {"bump -clamp on -bm 2", 2.0}}) {
+    CAPTURE(statement);
+    const Vec3 wanted = glm::normalize(Vec3(-strength * 10 / 255, -strength * 20 / 255, 1));
+    CHECK(glm::length(normal(statement, inside) - wanted) < 0.01);
+  }
+  // A clamped picture is flat along u beyond its edge; a repeated one falls back to its other side.
+  CHECK(normal("bump -clamp on -bm 4", {0.9375, 0.625}).x == doctest::Approx(-4 * 5 / 255.0).epsilon(0.15));
+  CHECK(normal("bump -bm 4", {0.9375, 0.625}).x > 0.3);
 }

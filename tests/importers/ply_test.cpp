@@ -7,7 +7,7 @@ using namespace eyeray::engine::test;
 
 namespace {
 
-const Vec2 outline[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+const Vec2 ply_outline[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
 
 std::string header(const std::string& format, const std::string& rest) {
   return "ply\nformat " + format + " 1.0\ncomment made by a test\n" + rest + "end_header\n";
@@ -21,8 +21,8 @@ void check_ply_square(const ImportedScene& scene) {
   CHECK(scene.instances[0].material == -1);
 }
 
-const char* const types[] = {"char", "uchar", "short", "ushort", "int",   "uint",   "float",   "double",
-                             "int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64"};
+const char* const ply_types[] = {"char", "uchar", "short", "ushort", "int",   "uint",   "float",   "double",
+                                 "int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64"};
 
 std::string ascii(const std::string& vertices, const std::string& faces) {
   return header("ascii",
@@ -38,16 +38,16 @@ TEST_CASE("every type of coordinate, index and list length is read, in every byt
                            std::pair("binary_big_endian", std::endian::big)}) {
     const char* const format = pair.first;
     const std::endian order = pair.second;
-    for (const std::string coordinate : types) {
-      for (const std::string index : types) {
-        for (const std::string length : types) {
+    for (const std::string coordinate : ply_types) {
+      for (const std::string index : ply_types) {
+        for (const std::string length : ply_types) {
           if (length.starts_with("float") || length == "double") continue;
           CAPTURE(format);
           CAPTURE(coordinate);
           CAPTURE(index);
           CAPTURE(length);
           Bytes data(order);
-          for (const Vec2& p : outline)
+          for (const Vec2& p : ply_outline)
             data.add_as(coordinate, p.x).add_as(coordinate, p.y).add_as(coordinate, 0);
           data.add_as(length, 4);
           for (int i = 0; i < 4; ++i) data.add_as(index, i);
@@ -220,7 +220,7 @@ TEST_CASE("a header that claims absurd counts is refused") {
       // Elements without properties take no bytes, and no time.
       CHECK(contains(
           refusal(header(format, "element vertex 0" + xyz + "element nothing " + count + "\n"), "a.ply"),
-          "no visible triangles or points"));
+          "no visible triangles, points or lines"));
       CHECK(contains(
           refusal(header(format, "element vertex 0" + xyz + "element face " + count + "\n"), "a.ply"),
           "no list of vertex_indices"));

@@ -18,7 +18,7 @@ const PointCloud& only_cloud(const ImportedScene& scene) {
   CHECK(scene.meshes.empty());
   CHECK(scene.instances.empty());
   REQUIRE(scene.clouds.size() == 1);
-  return *scene.clouds[0];
+  return *scene.clouds[0].cloud;
 }
 
 glm::vec3 linear(int red, int green, int blue) {
@@ -108,10 +108,11 @@ TEST_CASE("an OBJ without faces shows all its vertices, one with faces only thes
   CHECK(only_cloud(points).colors[0].x == 1);
   CHECK(only_cloud(points).colors[1] == glm::vec3(1));
   CHECK(points.warnings.empty());
-  CHECK(warns(import_sound(vertices + "l 1 2\n", "a.obj"), "1 lines and points were left out"));
+  CHECK(warns(import_sound(vertices + "l 1 2\n", "a.obj"),
+              "1 lines were left out: `line_width` or --line-width shows them"));
   const ImportedScene mesh = import_sound(vertices + "f 1 2 3\np 1\np 2\n", "a.obj");
   CHECK(mesh.clouds.empty());
-  CHECK(warns(mesh, "2 lines and points were left out"));
+  CHECK(warns(mesh, "2 points were left out"));
 }
 
 TEST_CASE("XYZ: comments, a heading, a count, and line ends of every kind are no points") {
@@ -179,7 +180,8 @@ TEST_CASE("points that are not finite are left out and counted") {
   const ImportedScene scene = import_sound("0 0 0\nnan nan nan\n1 0 0\n0 inf 0\n0 2 0\n0 0 1e13\n", "a.xyz");
   CHECK(only_cloud(scene).positions == three_points);
   CHECK(warns(scene, "3 of its 6 points were left out: their coordinates are not finite or beyond 1e12"));
-  CHECK(contains(refusal("nan nan nan\n", "a.xyz"), "no visible triangles or points; 1 of its 1 points"));
+  CHECK(contains(refusal("nan nan nan\n", "a.xyz"),
+                 "no visible triangles, points or lines; 1 of its 1 points"));
 }
 
 TEST_CASE("the radius follows from the spacing, unless a size is given") {
@@ -229,7 +231,7 @@ TEST_CASE("a wrong file of points is refused where it is wrong") {
   CHECK(refusal("0 0 0\n1 0 0 7\n", "a.xyz")
             .starts_with("a.xyz:2:1: error: this line has 4 numbers, but the first point has 3"));
   CHECK(contains(refusal("x y z\nsecond heading\n", "a.xyz"), "a.xyz:2:1: error: this is not a number"));
-  CHECK(contains(refusal("", "a.xyz"), "no visible triangles or points"));
+  CHECK(contains(refusal("", "a.xyz"), "no visible triangles, points or lines"));
   CHECK(contains(refusal("1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17\n", "a.xyz"), "at most 16 numbers"));
 
   const auto pcd = [](const std::string& from, const std::string& to) {

@@ -103,7 +103,7 @@ TEST_CASE("a fault in a mesh is an error at its key") {
         "2:8: error: ../outside.obj lies outside the scene's folder; --allow-path DIR allows other ones");
   CHECK(message("file = ''") == "2:8: error: `file` needs the name of a file");
   CHECK(contains(message("file = 'scene.toml'"),
-                 "a mesh file's name must end in .obj, .ply, .stl, .gltf, .glb, .xyz or .pcd"));
+                 "a mesh file's name must end in .obj, .ply, .stl, .off, .gltf, .glb, .xyz or .pcd"));
   CHECK(message("smooth = 3") == "1:1: error: [[mesh]] needs `file`, a string");
   CHECK(message("file = 'a.obj'\nsmooth = 181") ==
         "3:10: error: `smooth` must be a number from 0 to 180, not 181");
@@ -112,7 +112,7 @@ TEST_CASE("a fault in a mesh is an error at its key") {
         "3:13: error: the transformed vertices are out of range (coordinates up to 1e12)");
   CHECK(message("file = 'a.obj'\nradius = 3") ==
         "3:1: error: unknown key `radius` in [[mesh]]; its keys are name, file, material, transform, smooth, "
-        "point_size, animation, loop, batch, repeat");
+        "point_size, line_width, up, animation, gltf_scene, variant, loop, batch, repeat");
   CHECK(contains(message("file = 'a.obj'\nbatch = { radius = [3] }"),
                  "unknown key `radius` in the batch of [[mesh]]"));
   CHECK_THROWS_AS(parse_scene("[[mesh]]\nfile = 'a.obj'", "memory.toml"), InputError);
@@ -256,6 +256,91 @@ TEST_CASE(
   const std::string obj = folder.write("a.obj", square);
   CHECK_THROWS_WITH(load_scene(obj, std::vector<Override>{{"camera=0"}}),
                     ("-D camera=0: " + obj + " has no such camera; it has none").c_str());
+}
+
+TEST_CASE(
+    "scenes and variants of glTF are chosen in [[mesh]] and for a file alone; unknown names are errors") {
+  const Folder folder;
+  const std::string gltf = folder.write("a.gltf", R"({"asset": {"version": "2.0"}, "scene": 0,
+    "scenes": [{"name": "near", "nodes": [0]}, {"nodes": [1, 2, 3]}],
+    "extensionsUsed": ["KHR_mesh_quantization", "KHR_materials_variants"],
+    "extensions": {"KHR_materials_variants": {"variants": [{"name": "red"}, {"name": "glow"}]}},
+    "nodes": [{"mesh": 0}, {"mesh": 0, "translation": [7, 0, 0]}, {"camera": 0, "translation": [1, 0, 0]},
+              {"camera": 1, "name": "bad"}],
+    "cameras": [{"type": "perspective", "perspective": {"yfov": 0.5, "znear": 1}},
+                {"type": "perspective", "perspective": {"yfov": 5, "znear": 1}}],
+    "materials": [{"name": "red"}, {"name": "glow"}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0, "extensions": {"KHR_materials_variants":
+                {"mappings": [{"material": 1, "variants": [1]}]}}}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5121, "type": "VEC3", "count": 3, "min": [0, 0, 0],
+                   "max": [1, 1, 0]}],
+    "bufferViews": [{"buffer": 0, "byteLength": 12, "byteStride": 4}],
+    "buffers": [{"byteLength": 12, "uri": "data:application/octet-stream;base64,AAAAAAEAAAAAAQAA"}]})");
+  const auto check = [](const Scene& scene, double x, const std::string& material) {
+    REQUIRE(scene.instances.size() == 1);
+    CHECK(scene.instances[0].transform[3].x == x);
+    CHECK(scene.materials[size_t(scene.instances[0].material)]->name == material);
+  };
+  const auto alone = [&](const std::vector<Override>& overrides) { return load_scene(gltf, overrides); };
+  check(alone({{"look=plain"}}), 0, "red");
+  check(alone({{"look=plain"}, {"gltf_scene=1"}, {"variant=glow"}, {"camera=0"}}), 7, "glow");
+  CHECK(alone({{"gltf_scene=1"}, {"camera=0"}}).camera.eye.x == 1);
+  CHECK(alone({}).camera.eye.x != 1);
+  const auto complaint = [&](const std::vector<Override>& overrides) {
+    try {
+      load_scene(gltf, overrides);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  CHECK(contains(complaint({{"gltf_scene=far"}}), "the file has no scene \"far\"; it has \"near\", 1"));
+  CHECK(
+      contains(complaint({{"variant=blue"}}), "the file has no variant \"blue\"; it has \"red\", \"glow\""));
+  CHECK(contains(complaint({{"gltf_scene=1"}, {"camera=bad"}}),
+                 "cameras[1].perspective has a yfov that is out of range"));
+
+  const auto in_scene = [&](const std::string& keys) {
+    return folder.write("scene.toml", light + "[[mesh]]\nfile = 'a.gltf'\n" + keys);
+  };
+  check(load_scene(in_scene("gltf_scene = '1'\nvariant = 'glow'\n")), 7, "glow");
+  CHECK(contains(refusal(in_scene("gltf_scene = 'far'\nvariant = 'blue'\n")),
+                 "the file has no scene \"far\"; it has \"near\", 1"));
+  CHECK(contains(refusal(in_scene("variant = 'blue'\n")), "it has \"red\", \"glow\""));
+}
+
+TEST_CASE("`up` turns a file upright: its axis points along +y, and nothing is mirrored") {
+  const Folder folder;
+  // A triangle in the plane x = 0 whose longest side is along z, and points in the same positions.
+  folder.write("a.obj", "v 0 0 0\nv 0 1 0\nv 0 0 5\nf 1 2 3\n");
+  folder.write("a.xyz", "0 0 0\n0 1 0\n0 0 5\n");
+  const auto corner = [&](const std::string& up, const Vec3& at) {
+    const Scene scene = load_scene(folder.write(
+        "scene.toml",
+        light + fmt::format(
+                    "[[mesh]]\nfile = 'a.obj'\nup = '{}'\ntransform = [{{ translate = [1, 0, 0] }}]\n", up)));
+    REQUIRE(scene.instances.size() == 1);
+    const Mat4& map = scene.instances[0].transform;
+    CHECK(glm::determinant(map) == 1);
+    return Vec3(map * Vec4(at, 1)) - Vec3(1, 0, 0);
+  };
+  CHECK(corner("y", {1, 2, 3}) == Vec3(1, 2, 3));
+  CHECK(corner("z", {1, 2, 3}) == Vec3(1, 3, -2));
+  CHECK(corner("-z", {1, 2, -3}) == Vec3(1, 3, 2));
+  CHECK(corner("x", {1, 2, 3}) == Vec3(-2, 1, 3));
+  CHECK(corner("-x", {-1, 2, 3}) == Vec3(2, 1, 3));
+  CHECK(corner("-y", {1, -2, 3}) == Vec3(1, 2, -3));
+
+  const Scene points =
+      load_scene(folder / "a.xyz", std::vector<Override>{{"up=z"}, {"point_size=0.5"}, {"look=plain"}});
+  REQUIRE(points.shapes.size() == 1);
+  CHECK(points.shapes[0]->bounds().max.y == 5.25);
+  CHECK(points.shapes[0]->bounds().min.z == -1.25);
+  CHECK_THROWS_WITH(load_scene(folder / "a.obj", std::vector<Override>{{"up=w", "--up w"}}),
+                    "--up w: the axis that is up is y, z, x, -y, -z, -x");
+  folder.write("a.gltf", "{}");
+  CHECK(contains(refusal(folder.write("scene.toml", light + "[[mesh]]\nfile = 'a.gltf'\nup = 'z'\n")),
+                 "+y is up in glTF, by its specification"));
 }
 
 TEST_CASE("a mesh alone that leaves no room for a studio is shown plain, with a warning") {

@@ -49,6 +49,56 @@ double width(const Shape& shape) {
 
 }  // namespace
 
+TEST_CASE("[[mesh]] shows lines as capsules, among those of the scene, with its material and transform") {
+  const Folder folder;
+  folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2 3\n");
+  const auto text = [](const std::string& keys) {
+    return R"(
+[[light]]
+type = "directional"
+direction = [0, -1, -1]
+[[material]]
+name = "m"
+type = "phong"
+[[material]]
+name = "glass"
+type = "dielectric"
+[[sphere]]
+center = [0, 0, 0]
+radius = 1
+material = "m"
+[[capsule]]
+from = [0, 0, 0]
+to = [0, 9, 0]
+radius = 0.5
+material = "m"
+[[mesh]]
+file = "a.obj"
+name = "wires"
+)" + keys;
+  };
+  const Scene scene = load_scene(folder.write(
+      "scene.toml", text("line_width = 0.5\nmaterial = 'm'\ntransform = [{ scale = [2, 4, 2] }]\n")));
+  REQUIRE(scene.shapes.size() == 4);
+  CHECK(scene.shapes[0]->type == "sphere");
+  for (size_t i = 1; i < 4; ++i) CHECK(scene.shapes[i]->type == "capsule");
+  CHECK(scene.shapes[1]->bounds().max.y == doctest::Approx(9.5));
+  CHECK(scene.shapes[2]->bounds().max.x == doctest::Approx(2.5));
+  CHECK(scene.shapes[2]->bounds().max.y == doctest::Approx(1));
+  CHECK(scene.shapes[3]->bounds().max.y == doctest::Approx(5));
+  CHECK(scene.shapes[3]->material == scene.shapes[0]->material);
+  const auto why = [&](const std::string& keys) { return complaint(folder.write("scene.toml", text(keys))); };
+  CHECK(contains(why("line_width = 0.5\nmaterial = 'glass'\n"), "points and lines may overlap"));
+  CHECK(contains(why("line_width = 0.5\ntransform = [{ scale = 1e13 }]\n"),
+                 "the transformed lines are out of range"));
+  CHECK(contains(why("line_width = 0\n"), "`line_width` must be a number above 0"));
+  CHECK(
+      load_scene(folder / "a.obj", std::vector<Override>{{"line_width=0.1"}, {"look=plain"}}).shapes.size() ==
+      2);
+  CHECK(contains(complaint(folder / "a.obj", std::vector<Override>{{"line_width=-1"}}),
+                 "a line width is a number above 0"));
+}
+
 TEST_CASE("[[mesh]] shows files of points as one shape each, behind those of all other kinds") {
   const Folder folder;
   folder.write("scan.xyz", grid(" 200 10 30"));
@@ -107,10 +157,12 @@ TEST_CASE("points need an opaque material and a transform that keeps spheres") {
   const std::string points = "[[points]]\npoints = [[0, 0, 0]]\nradius = 1\nmaterial = \"m\"\n";
   for (const std::string& table : {mesh, points}) {
     CHECK(refused(table, "type = \"phong\"") == "accepted");
-    CHECK(contains(refused(table, "type = \"dielectric\""),
-                   "points may overlap, so their material must be opaque: light passes through this one"));
-    CHECK(contains(refused(table, "type = \"phong\"\nalpha = 0.5"),
-                   "points may overlap, so their material must be opaque: this one has an `alpha`"));
+    CHECK(contains(
+        refused(table, "type = \"dielectric\""),
+        "points and lines may overlap, so their material must be opaque: light passes through this one"));
+    CHECK(
+        contains(refused(table, "type = \"phong\"\nalpha = 0.5"),
+                 "points and lines may overlap, so their material must be opaque: this one has an `alpha`"));
     CHECK(contains(refused(table + "transform = [{ scale = [1, 2, 1] }]\n", "type = \"phong\""),
                    "cannot be sheared or scaled unevenly"));
     CHECK(contains(refused(table + "transform = [{ translate = [1e12, 0, 0] }]\n", "type = \"phong\""),

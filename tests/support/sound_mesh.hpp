@@ -51,8 +51,10 @@ inline std::string broken_promise(const Mesh& mesh) {
 inline std::string broken_promise(const importers::ImportedScene& scene) {
   for (const Mesh& mesh : scene.meshes)
     if (const std::string broken = broken_promise(mesh); !broken.empty()) return broken;
-  if (scene.instances.empty() && scene.clouds.empty() && !scene.played) return "no instances";
-  for (const auto& cloud : scene.clouds) {
+  if (scene.instances.empty() && scene.clouds.empty() && scene.lines.empty() && !scene.played)
+    return "no instances";
+  for (const auto& [cloud, material] : scene.clouds) {
+    if (material < -1 || material >= int(scene.materials.size())) return "material of points";
     if (cloud->positions.empty()) return "no points";
     if (!cloud->colors.empty() && cloud->colors.size() != cloud->positions.size())
       return "number of points' colours";
@@ -62,6 +64,15 @@ inline std::string broken_promise(const importers::ImportedScene& scene) {
       for (int i = 0; i < 3; ++i)
         if (!(color[i] >= 0 && color[i] <= 1)) return "colour of a point out of range";
     if (!(cloud->radius >= min_radius && std::isfinite(cloud->radius))) return "radius of points";
+  }
+  for (const auto& [segments, radius, material] : scene.lines) {
+    if (segments.empty()) return "no segments";
+    if (material < -1 || material >= int(scene.materials.size())) return "material of lines";
+    for (const auto& [from, to] : segments) {
+      if (!finite(from) || !finite(to)) return "line not finite";
+      if (!(magnitude(to - from) >= 1e-6 * radius && radius >= 1e-6 * magnitude(to - from)))
+        return "size of a line";
+    }
   }
   for (const Instance& instance : scene.instances) {
     if (instance.mesh < 0 || size_t(instance.mesh) >= scene.meshes.size()) return "mesh of an instance";

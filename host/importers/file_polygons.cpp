@@ -1,4 +1,4 @@
-#include "host/importers/ply_polygons.hpp"
+#include "host/importers/file_polygons.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace eyeray::engine::importers {
 
-void add_values_of_faces(PlyPolygons& polygons, VertexPool& vertices, std::vector<std::string>& warnings) {
+void add_values_of_faces(FilePolygons& polygons, VertexPool& vertices, std::vector<std::string>& warnings) {
   if (!polygons.uv.empty()) polygons.uv.resize(polygons.corners.size(), Vec2(double(NAN)));
   if (!polygons.colors.empty()) polygons.colors.resize(polygons.sizes.size(), Vec3(1));
   if (!polygons.pictures.empty()) polygons.pictures.resize(polygons.sizes.size());
@@ -22,7 +22,7 @@ void add_values_of_faces(PlyPolygons& polygons, VertexPool& vertices, std::vecto
   if (!polygons.uv.empty()) vertices.uv = std::move(polygons.uv);
 }
 
-std::vector<RawTriangles> triangulate(const PlyPolygons& polygons, const VertexPool& vertices,
+std::vector<RawTriangles> triangulate(const FilePolygons& polygons, const VertexPool& vertices,
                                       size_t pictures, bool own_uv, MeshCounts& counts,
                                       const std::string& file) {
   const auto known = [&](uint32_t corner) { return corner < vertices.positions.size(); };
