@@ -202,8 +202,12 @@ void add_shape(std::string& text, const Scene& scene, const Shape& shape) {
   } else if (const auto* disk = std::get_if<DiskForm>(&form)) {
     append(text, "disc {{0,y,1,{} {} {}}}\n", disk->inner, matrix(disk->to_world), material);
   } else if (const auto* capsule = std::get_if<CapsuleForm>(&form)) {
-    append(text, "merge {{cylinder {{-y*{0},y*{0},1}} sphere {{-y*{0},1}} sphere {{y*{0},1}} {1} {2}}}\n",
-           capsule->half, matrix(capsule->to_world), material);
+    if (capsule->low == capsule->high)
+      append(text, "merge {{cylinder {{-y*{0},y*{0},1}} sphere {{-y*{0},1}} sphere {{y*{0},1}} {1} {2}}}\n",
+             capsule->half, matrix(capsule->to_world), material);
+    else
+      append(text, "sphere_sweep {{linear_spline 2,-y*{0},{1},y*{0},{2} {3} {4}}}\n", capsule->half,
+             capsule->low, capsule->high, matrix(capsule->to_world), material);
   } else if (const auto* shape_quadric = std::get_if<QuadricForm>(&form)) {
     append(text, "{} {} {}}}\n", quadric(*shape_quadric), matrix(shape_quadric->to_world), material);
   } else if (const auto* torus = std::get_if<TorusForm>(&form)) {

@@ -159,13 +159,16 @@ std::string nearest_name(std::string_view word, std::span<const std::string_view
       64;  // no name of ours is longer, and the distance costs the product of the lengths
   constexpr size_t most_candidates = 1000;
   if (word.empty() || word.size() > longest) return "";
-  size_t best = std::max<size_t>(1, word.size() / 3) + 1;
+  size_t best = std::max<size_t>(1, word.size() / 3) + 1, most_alike = 0;
   std::string_view nearest;
   for (const std::string_view candidate : candidates.first(std::min(candidates.size(), most_candidates))) {
     if (candidate.size() > longest) continue;
     const size_t distance = edit_distance(word, candidate);
-    if (distance < best) {
+    // If two names are as near, the one counts that begins as the word does.
+    const auto alike = size_t(std::ranges::mismatch(word, candidate).in1 - word.begin());
+    if (distance < best || (distance == best && !nearest.empty() && alike > most_alike)) {
       best = distance;
+      most_alike = alike;
       nearest = candidate;
     }
   }

@@ -64,6 +64,8 @@ std::string defines(const records::PackedScene& scene, const Used& used, const S
   define("TRIANGLE_METHOD", fmt::format("{}u", scene.frame.triangle_method));
   define("HAS_COLORS", int(scene.own_colors));
   define("HAS_PIECES", int(scene.pieces));
+  define("HAS_ROUND_CONES", int(scene.round_cones));
+  define("HAS_LATHES", int(scene.lathes));
   define("HAS_SECOND_UV", int(scene.second_uv));
   define("HAS_SMOOTH", int(any_smooth(scene)));
   define("HAS_EMISSION", int(any_emits(scene)));

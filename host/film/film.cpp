@@ -84,9 +84,9 @@ void Film::add(const Rect& part, std::span<const PixelSample> samples,
   });
 }
 
-void Film::finish(const Rect& part) {
+void Film::set_finished(const Rect& part, bool finished) {
   for (int y = part.y; y < part.y + part.height; ++y)
-    for (int x = part.x; x < part.x + part.width; ++x) pixels_[index(x, y)].finished = 1;
+    for (int x = part.x; x < part.x + part.width; ++x) pixels_[index(x, y)].finished = finished;
 }
 
 Outliers Film::leave_out_outliers() {

@@ -60,8 +60,8 @@ class Film {
            std::span<const AuxiliarySample> auxiliaries = {});
   // The means of rows [first, first + count).
   Rows rows(int first, int count) const;
-  // Marks the pixels of `part`: they take no more samples.
-  void finish(const Rect& part);
+  // Marks the pixels of `part`: whether they take no more samples.
+  void set_finished(const Rect& part, bool finished);
   bool finished(int x, int y) const { return pixel(x, y).finished; }
   uint64_t samples() const;  // summed over all pixels
   // Leaves out groups of samples that are outliers (film/outliers.hpp) among those of 4 × 4 pixels. Their

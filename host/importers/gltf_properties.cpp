@@ -242,6 +242,10 @@ const Property* find(Members table, std::string_view name, bool extension) {
   return found == table.end() ? nullptr : &*found;
 }
 
+bool is_read(std::string_view extension) {
+  return find(shapes::material, extension, true) || is_listed(extension, known_extensions);
+}
+
 // The value if it is an integer of at least 0; else nothing.
 std::optional<double> as_count(const Json& value) {
   const double number = value.is_number() ? value.get<double>() : -1;
@@ -293,7 +297,7 @@ class PropertyCheck {
       const std::string here = location + "." + printable(name);
       if (const Property* row = find(table, name, true)) {
         check_value(value, here, *row);
-      } else if (is_listed(name, known_extensions)) {
+      } else if (is_read(name)) {
         breaches_.add("extensions of objects to which they do not apply, left out", here);
       }
     }
@@ -362,8 +366,7 @@ class PropertyCheck {
 }  // namespace
 
 bool is_known_extension(std::string_view name) {
-  return find(shapes::material, name, true) || is_listed(name, known_extensions) ||
-         is_listed(name, harmless_extensions);
+  return is_read(name) || is_listed(name, harmless_extensions);
 }
 
 void check_properties(const Json& document, GltfBreaches& breaches) {

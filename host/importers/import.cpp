@@ -11,6 +11,7 @@
 #include "host/importers/formats.hpp"
 #include "host/importers/malformed.hpp"
 #include "host/materials/make.hpp"
+#include "host/scene/affine.hpp"
 
 namespace eyeray::engine::importers {
 

@@ -39,15 +39,15 @@ bool check_mesh_names(const importers::ImportOptions& options, const importers::
                       reading::TableReader& reader) {
   const auto check = [&](const char* key, const std::optional<std::string>& wanted, const char* kind,
                          const std::vector<std::string>& names) {
-    const bool found = !wanted || importers::find_named(names, *wanted);
-    if (!found) reader.error(key, no_such(kind, *wanted, names));
-    return found;
+    const bool known = !wanted || importers::find_named(names, *wanted);
+    if (!known) reader.error(key, no_such(kind, *wanted, names));
+    return known;
   };
   const auto& animation = options.playing.animation;
   const bool plays = animation && *animation != no_animation;
-  return check("animation", plays ? animation : std::nullopt, "animation", import.animations) &
-         check("gltf_scene", options.gltf_scene, "scene", import.scenes) &
-         check("variant", options.variant, "variant", import.variants);
+  bool found = check("animation", plays ? animation : std::nullopt, "animation", import.animations);
+  found = check("gltf_scene", options.gltf_scene, "scene", import.scenes) && found;
+  return check("variant", options.variant, "variant", import.variants) && found;
 }
 
 }  // namespace eyeray::engine::loader

@@ -52,6 +52,7 @@ class Builder {
         variables_(read_let(root, log)),
         values_{.formulas = sources.formulas,
                 .images = sources.images,
+                .fonts = sources.fonts,
                 .textures = textures::types(),
                 .variables = &variables_},
         meshes_(sources.meshes),

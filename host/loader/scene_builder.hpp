@@ -5,6 +5,7 @@
 
 #include "host/core/diagnostic_log.hpp"
 #include "host/loader/mesh_imports.hpp"
+#include "host/reading/font_source.hpp"
 #include "host/reading/formula_source.hpp"
 #include "host/reading/image_source.hpp"
 #include "host/scene/scene.hpp"
@@ -16,6 +17,7 @@ struct SceneSources {
   reading::ImageSource* images = nullptr;
   MeshImports* meshes = nullptr;
   reading::FormulaSource* formulas = nullptr;
+  reading::FontSource* fonts = nullptr;
 };
 
 // The scene without Scene::file, files and warnings. It is complete only if the log has no errors.

@@ -10,6 +10,7 @@
 #include "host/core/error.hpp"
 #include "host/loader/animation.hpp"
 #include "host/loader/document.hpp"
+#include "host/loader/font_files.hpp"
 #include "host/loader/formula_files.hpp"
 #include "host/loader/formula_refusal.hpp"
 #include "host/loader/image_files.hpp"
@@ -26,15 +27,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Makes the scene of a document. `images`, `meshes` and `formulas`: the files that it may use, or null for
-// none. `trusted`: true if it may define functions.
+// Makes the scene of a document. `images`, `meshes`, `formulas` and `fonts`: the files that it may use, or
+// null for none. `trusted`: true if it may define functions.
 Scene finish(Document document, const fs::path& file, std::span<const Override> overrides, ImageFiles* images,
-             MeshImports* meshes, FormulaFiles* formulas, bool trusted, DiagnosticLog& log) {
+             MeshImports* meshes, FormulaFiles* formulas, FontFiles* fonts, bool trusted,
+             DiagnosticLog& log) {
   apply_overrides(document.root, overrides, log);
   Animation animation = apply_animation(document.root, log);
   if (!trusted) refuse_formulas(document.root, log);
   if (meshes) meshes->show(seconds(animation));
-  Scene scene = build_scene(document.root, {images, meshes, formulas}, log);
+  Scene scene = build_scene(document.root, {images, meshes, formulas, fonts}, log);
   if (log.has_errors()) throw InputError(log.sorted());
   if (meshes) {
     const double rate = animation.frames_per_second;
@@ -47,6 +49,7 @@ Scene finish(Document document, const fs::path& file, std::span<const Override> 
   if (images) scene.files.insert(scene.files.end(), images->files().begin(), images->files().end());
   if (meshes) scene.files.insert(scene.files.end(), meshes->files().begin(), meshes->files().end());
   if (formulas) scene.files.insert(scene.files.end(), formulas->files().begin(), formulas->files().end());
+  if (fonts) scene.files.insert(scene.files.end(), fonts->files().begin(), fonts->files().end());
   scene.warnings = log.sorted();
   return scene;
 }
@@ -143,7 +146,8 @@ Scene load_moment(const fs::path& file, std::span<const Override> overrides, con
     std::vector<Override> others(overrides.begin(), overrides.end());
     Document document = read_mesh(file, others, trust.formulas, meshes, log);
     ImageFiles images(folders, document.files, pixels, log);
-    Scene scene = finish(std::move(document), file, others, &images, &meshes, nullptr, trust.formulas, log);
+    Scene scene =
+        finish(std::move(document), file, others, &images, &meshes, nullptr, nullptr, trust.formulas, log);
     scene.is_mesh_alone = true;
     return scene;
   }
@@ -152,7 +156,9 @@ Scene load_moment(const fs::path& file, std::span<const Override> overrides, con
   ImageFiles images(folders, document.files, pixels, log);
   MeshImports meshes(folders, std::move(trees), document.files, pixels);
   FormulaFiles formulas(folders, document.files, log);
-  return finish(std::move(document), file, overrides, &images, &meshes, &formulas, trust.formulas, log);
+  FontFiles fonts(folders, document.files, log);
+  return finish(std::move(document), file, overrides, &images, &meshes, &formulas, &fonts, trust.formulas,
+                log);
 }
 
 Scene parse_moment(std::string_view text, const std::string& name, std::span<const Override> overrides,
@@ -162,7 +168,7 @@ Scene parse_moment(std::string_view text, const std::string& name, std::span<con
   MeshImports meshes(files, pixels);
   Document document = parse_document(text, name, log);
   return finish(std::move(document), name, overrides, nullptr, files.empty() ? nullptr : &meshes, nullptr,
-                formulas, log);
+                nullptr, formulas, log);
 }
 
 }  // namespace

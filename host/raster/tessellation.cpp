@@ -31,12 +31,12 @@ Mat4 sphere_map(const SphereForm& form) {
   return glm::translate(Mat4(1.0), form.center) * Mat4(form.axes * form.radius);
 }
 
-// An arc of the unit circle around (0, middle), from angle `from` to `to` above the horizontal. Ends that
-// belong on the axis are exactly on it.
-Polyline meridian(double middle, double from, double to, double tolerance) {
-  Polyline line = arc({0, middle}, 1, from, to, tolerance);
-  if (from == -half_turn / 2) line.points.front() = {0, middle - 1};
-  if (to == half_turn / 2) line.points.back() = {0, middle + 1};
+// An arc of the circle around (0, middle), from angle `from` to `to` above the horizontal. Ends that belong
+// on the axis are exactly on it.
+Polyline meridian(double middle, double from, double to, double tolerance, double radius = 1) {
+  Polyline line = arc({0, middle}, radius, from, to, tolerance);
+  if (from == -half_turn / 2) line.points.front() = {0, middle - radius};
+  if (to == half_turn / 2) line.points.back() = {0, middle + radius};
   return line;
 }
 
@@ -170,8 +170,9 @@ struct Tessellator {
   }
   Result operator()(const CapsuleForm& form) const {
     const double each = own(form.to_world) / 2;
-    const Polyline profile =
-        joined({meridian(-form.half, -half_turn / 2, 0, each), meridian(form.half, 0, half_turn / 2, each)});
+    const double side = form.half > 0 ? std::asin((form.low - form.high) / (2 * form.half)) : 0;
+    const Polyline profile = joined({meridian(-form.half, -half_turn / 2, side, each, form.low),
+                                     meridian(form.half, side, half_turn / 2, each, form.high)});
     return Piece{sweep(profile, false, circle(1, each)), form.to_world};
   }
   Result operator()(const QuadricForm& form) const {

@@ -203,6 +203,13 @@ std::shared_ptr<const ImageTexture> TableReader::load_image(std::string_view key
   return image;
 }
 
+std::shared_ptr<const std::string> TableReader::load_font(std::string_view key) {
+  if (!table_->source.sources.fonts) return error(key, "only a scene in a file can have fonts"), nullptr;
+  auto font = table_->source.sources.fonts->load(string(key), position(key));
+  table_->failed = table_->failed || !font;
+  return font;
+}
+
 void TableReader::error(std::string_view key, std::string message, std::initializer_list<size_t> element) {
   const Table::Row& row = table_->row(key);
   if (row.failed) return;

@@ -49,6 +49,8 @@ class TableReader {
   TexturePtr texture(std::string_view key) const;
   // `wanted` with the texels of the file that the key names; null, with an error, if they cannot be had.
   std::shared_ptr<const ImageTexture> load_image(std::string_view key, ImageTexture wanted);
+  // The bytes of the font file that the key names; null, with an error, if they cannot be had.
+  std::shared_ptr<const std::string> load_font(std::string_view key);
   Vec2 scale2(std::string_view key) const;
   Vec3 scale3(std::string_view key) const;
   Mat4 transform(std::string_view key) const;

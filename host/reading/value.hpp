@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "host/core/diagnostic_log.hpp"
+#include "host/reading/font_source.hpp"
 #include "host/reading/formula_source.hpp"
 #include "host/reading/image_source.hpp"
 #include "host/reading/number_expression.hpp"
@@ -27,6 +28,7 @@ using Value = std::variant<bool, int64_t, std::array<int64_t, 2>, double, std::s
 struct ValueSources {
   FormulaSource* formulas = nullptr;                  // loads the files of formulas; null: none may be named
   ImageSource* images = nullptr;                      // loads the images of textures; null: none may be named
+  FontSource* fonts = nullptr;                        // loads the files of fonts; null: none may be named
   std::span<const TextureType* const> textures = {};  // the kinds, among them that of plain colors
   const Variables* variables = nullptr;  // variables of expressions; null: numbers cannot be expressions
 };

@@ -52,6 +52,8 @@ struct PackedScene {
   bool bent_normals = false;  // whether any material bends the normals of its surface
   bool own_colors = false;    // whether any of `vertices`, or any points, have colours
   bool pieces = false;        // whether any shape has several primitives
+  bool lathes = false;        // whether any patch has texture coordinates of its own, as those of a lathe do
+  bool round_cones = false;   // whether any capsule has two radii
   bool second_uv = false;     // whether any of `vertices` have second texture coordinates
   // The factor by which rounding in a shape's object space grows in world space: |linear| · |inverse|, the
   // largest of all shapes.

@@ -104,6 +104,7 @@ Vec3 rough_diffuse(const Vec3& color, double r, const Vec3& o, const Vec3& i) {
   const double s = glm::dot(i, o) - i.z * o.z;
   const double single = a * (1 + r * (s > 0 ? s / std::max(i.z, o.z) : s));
   const double mean = a * (1 + r * (2.0 / 3 - 28 / (15 * M_PI)));
+  if (mean == 1) return color / M_PI;  // the roughness is too small to count
   const Vec3 several = color * color * mean / (1.0 - color * (1 - mean));
   return (color * single + several * (1 - albedo(i.z)) * (1 - albedo(o.z)) / (1 - mean)) / M_PI;
 }

@@ -75,6 +75,7 @@ Vec3 PathSample::dispersed(const std::optional<Hit>& hit, const Flight& flight,
   if (!disperses || all == 0) return Vec3(1);
   const double random = pair_of(channel_pair).x * all;
   const int channel = random < light.x ? 0 : random < light.x + light.y ? 1 : 2;
+  if (light[channel] == 0) return Vec3(1);  // light that rounding alone has left
   Vec3 factor(0);
   factor[channel] = all / light[channel];
   return factor;

@@ -11,9 +11,11 @@ constexpr int widest_filled_gap = 4;
 
 }  // namespace
 
-AdaptiveSampling::AdaptiveSampling(double target, uint64_t first_judgement, const film::Film& sums)
+AdaptiveSampling::AdaptiveSampling(double target, uint64_t first_judgement, bool resumes,
+                                   const film::Film& sums)
     : target_(target),
       first_judgement_(first_judgement),
+      resumes_(resumes),
       blocks_(sums.width(), sums.height()),
       active_(size_t(blocks_.columns) * size_t(blocks_.rows)) {
   for (int y = 0; y < blocks_.rows; ++y)
@@ -33,7 +35,7 @@ void AdaptiveSampling::judge(film::Film& sums, const std::vector<double>& noise)
   for (int y = 0; y < rows; ++y) {
     char* const blocks = row_of_blocks(y);
     std::vector<char> stay(blocks, blocks + columns);
-    for (int x = 0; x < columns; ++x) stay[size_t(x)] = blocks[x] && noisy_around(x, y);
+    for (int x = 0; x < columns; ++x) stay[size_t(x)] = (blocks[x] || resumes_) && noisy_around(x, y);
     for (int x = 0, last = -1; x < columns; ++x) {
       if (!stay[size_t(x)]) continue;
       const bool fill = last >= 0 && x - last - 1 <= widest_filled_gap &&
@@ -42,7 +44,7 @@ void AdaptiveSampling::judge(film::Film& sums, const std::vector<double>& noise)
       last = x;
     }
     for (int x = 0; x < columns; ++x)
-      if (blocks[x] && !stay[size_t(x)]) sums.finish(blocks_.block(x, y));
+      if (blocks[x] != stay[size_t(x)]) sums.set_finished(blocks_.block(x, y), !stay[size_t(x)]);
     std::ranges::copy(stay, blocks);
   }
   left_ = std::ranges::count(active_, 1);

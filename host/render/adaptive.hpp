@@ -10,19 +10,21 @@
 namespace eyeray::engine::render {
 
 // Blocks (film/noise.hpp) finish when their noise and their neighbours' is no more than the target. They are
-// judged seldom, when the number of samples a pixel is a power of two: stopping as soon as the samples happen
-// to agree would bias the picture (Kirk and Arvo, "Unbiased sampling techniques for image synthesis",
-// SIGGRAPH 1991).
+// judged seldom, when the number of samples a pixel is a power of two. To stop as soon as the samples happen
+// to agree would bias the picture: Kirk and Arvo, "Unbiased sampling techniques for image synthesis"
+// (SIGGRAPH 1991).
 class AdaptiveSampling {
  public:
   // Starts with the blocks of `sums` that are not finished. `first_judgement`: the least samples a pixel at
-  // which blocks finish, a power of two.
-  AdaptiveSampling(double target, uint64_t first_judgement, const film::Film& sums);
+  // which blocks finish, a power of two. `resumes`: whether finished blocks go on if they are found noisy
+  // later.
+  AdaptiveSampling(double target, uint64_t first_judgement, bool resumes, const film::Film& sums);
 
   bool judges_after(uint64_t samples) const {
     return samples >= first_judgement_ && std::has_single_bit(samples);
   }
-  // Finishes the blocks that have little enough noise. `noise`: that of each block, row by row.
+  // Finishes the blocks that have little enough noise, and resumes others if it may. `noise`: that of each
+  // block, row by row.
   void judge(film::Film& sums, const std::vector<double>& noise);
   bool finished() const { return left_ == 0; }
   // Rectangles, in pixels of the band, of the unfinished blocks in rows [row, row + height). judge() leaves
@@ -38,6 +40,7 @@ class AdaptiveSampling {
 
   double target_;
   uint64_t first_judgement_;
+  bool resumes_;
   film::NoiseBlocks blocks_;  // blocks of the band
   std::vector<char> active_;  // blocks, row by row
   int64_t left_ = 0;

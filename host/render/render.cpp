@@ -222,7 +222,8 @@ class Driver {
 
   void look_for_what_is_left() {
     const uint64_t first = options_.noise_left ? first_judgement_of_noise_left : first_judgement;
-    if (options_.noise > 0) adaptive_.emplace(options_.noise, first, film_);
+    const bool resumes = bool(options_.noise_left);
+    if (options_.noise > 0) adaptive_.emplace(options_.noise, first, resumes, film_);
   }
 
   // To be called between two samples of the band: returns whether it needs another one, and estimates the

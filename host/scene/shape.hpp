@@ -117,9 +117,11 @@ struct DiskForm {  // y = 0, inner ≤ the distance from the origin ≤ 1
   Mat4 to_world;
   double inner;
 };
-struct CapsuleForm {  // within 1 of the y axis from −half to half
+// Balls around the points of the y axis at −half and half, and the cone that touches both.
+struct CapsuleForm {
   Mat4 to_world;
   double half;
+  double low, high;  // the balls' radii; the larger is 1
 };
 // square · (x², y², z²) + product · (xy, xz, yz) + linear · (x, y, z) + constant ≤ 0 within `clip`. If
 // `open`, only the surface, without the faces of `clip`.

@@ -21,7 +21,7 @@ class DenoisedOutput final : public Output {
   void write(size_t plane, const image::Image& rows) override;
   void finish_color() override;
   void finish(const film::ChannelValues& values, Result& result) override { output_.finish(values, result); }
-  // Whether the denoiser estimates the noise that is left.
+  // True if the denoiser estimates the noise that is left.
   bool estimates() const { return denoiser_ == Denoiser::own; }
   // The noise that is left in each block (film::NoiseBlocks) once these rows, which are all, are denoised.
   // Requires estimates().
@@ -45,8 +45,9 @@ class DenoisedOutput final : public Output {
   double shown_as_one_ = 1;  // the luminance that the picture shows as 1
   double noise_wanted_ = 0;  // Request::noise
   double error_ = 0;
-  std::vector<double> noise_;              // the noise that is left in each block
-  double seconds_ = 0, last_seconds_ = 0;  // of all denoising, and of the finished picture's
+  std::vector<double> noise_;  // the noise that is left in each block
+  double seconds_ = 0;         // spent on all denoising
+  double last_seconds_ = 0;    // spent on the finished picture
 };
 
 }  // namespace eyeray::engine::session

@@ -5,6 +5,7 @@
 
 #include "host/records/packer.hpp"
 #include "host/scene/affine.hpp"
+#include "host/shapes/bezier.hpp"
 #include "host/shapes/bezier_clipping.hpp"
 #include "host/shapes/make.hpp"
 #include "host/shapes/registry.hpp"
@@ -58,8 +59,8 @@ constexpr Key keys[] = {
      .max = max_coordinate},
 };
 
-// The thickness of a net: the height of the largest triangle of control points that contains the two farthest
-// apart, over the distance of these two. 0 if all lie on a line.
+}  // namespace
+
 double thickness(const BezierNet& net) {
   double longest = 0;
   Vec3 a(0.0), b(0.0);
@@ -75,92 +76,81 @@ double thickness(const BezierNet& net) {
   for (const Vec3& p : net) height = std::max(height, glm::length(glm::cross((b - a) / longest, p - a)));
   return height / longest;
 }
-constexpr double least_thickness = 1e-5;
 
-class Bezier final : public Shape {
- public:
-  Bezier(const BezierNet& net, bool mirrored) : net_(net), mirrored_(mirrored) {}
+std::optional<Intersection> Bezier::intersect(const Ray& ray) const {
+  return clip_bezier(net_, ray);
+}
 
-  std::optional<Intersection> intersect(const Ray& ray) const override { return clip_bezier(net_, ray); }
+SurfacePoint Bezier::surface(const Ray&, const Intersection& hit) const {
+  const BezierPoint at = bezier_point(net_, hit.u, hit.v);
+  const Vec2 size = uv_.to - uv_.from;
+  SurfacePoint surface;
+  surface.position = at.position;
+  surface.position_error = 0;
+  for (const Vec3& p : net_) surface.position_error = std::max(surface.position_error, 1e-13 * magnitude(p));
+  surface.normal_geometric = normal(at, {hit.u, hit.v}) * (mirrored_ ? -1.0 : 1.0);
+  surface.normal = surface.normal_geometric;
+  surface.uv = inner_uv(uv_.from + Vec2(hit.u, hit.v) * size);
+  surface.along_u = at.along_u / size.x;
+  surface.along_v = at.along_v / size.y;
+  return surface;
+}
 
-  SurfacePoint surface(const Ray&, const Intersection& hit) const override {
-    const BezierPoint at = bezier_point(net_, hit.u, hit.v);
-    SurfacePoint surface;
-    surface.position = at.position;
-    surface.position_error = 0;
-    for (const Vec3& p : net_)
-      surface.position_error = std::max(surface.position_error, 1e-13 * magnitude(p));
-    surface.normal_geometric = normal(at, {hit.u, hit.v}) * (mirrored_ ? -1.0 : 1.0);
-    surface.normal = surface.normal_geometric;
-    surface.uv = inner_uv({hit.u, hit.v});
-    surface.along_u = at.along_u;
-    surface.along_v = at.along_v;
-    return surface;
+Bounds Bezier::bounds() const {
+  Bounds bounds;
+  for (const Vec3& p : net_) bounds.include(p);
+  return bounds;
+}
+
+void Bezier::pack_of(records::Packer& packer, int of_material) const {
+  // The values that all pieces share.
+  Bounds all = bounds();
+  const Vec3 middle = (all.min + all.max) * 0.5;
+  double radius = 0;
+  for (const Vec3& p : net_) radius = std::max(radius, glm::length(p - middle));
+  std::array<float, 48> numbers;
+  for (size_t i = 0; i < 16; ++i) {
+    const Vec3 p = packer.relative(net_[i]);
+    for (int axis = 0; axis < 3; ++axis) numbers[3 * i + size_t(axis)] = float(p[axis]);
   }
+  std::vector<shader::uvec4> words;
+  for (size_t i = 0; i < 48; i += 4)
+    words.push_back(records::to_bits({numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3]}));
+  words.push_back(records::to_bits(records::to_vec4(packer.relative(middle), radius)));
+  const Vec2 uv = uv_.to - uv_.from;
+  words.push_back(records::to_bits({float(uv_.from.x), float(uv_.from.y), float(uv.x), float(uv.y)}));
+  const uint32_t extra = packer.add_vertices(words);
 
-  Bounds bounds() const override {
-    Bounds bounds;
-    for (const Vec3& p : net_) bounds.include(p);
-    return bounds;
+  for (const BezierPiece& piece : bezier_pieces(net_)) {
+    // A hit may lie as far beyond a border as rounding moves it.
+    const double room = 0x1p-18 * (magnitude(packer.relative(middle)) + radius);
+    const auto& [from, to] = piece.range;
+    // Iterations for both ends; for 24 arcs, each with its middle and its next end; for 4 roots.
+    packer.add_iterations(2 * 4 + 24 * (1 + 4 + 4) + 4 * 40);
+    packer.add_iteration_limit();
+    packer.add_piece(records::Packer::primitive(
+                         shader::KIND_bezier, of_material,
+                         shader::vec4(float(from.x), float(to.x), float(from.y), float(to.y)),
+                         records::to_vec4(packer.relative(piece.middle), piece.radius + room),
+                         records::to_vec4(piece.normal, mirrored_ ? -piece.beyond : piece.beyond), extra),
+                     {piece.bounds.min - room, piece.bounds.max + room});
   }
+}
 
-  ShapeForm form() const override { return BezierForm{net_}; }
-  bool counts_crossings() const override { return true; }
-  // The degree of its equation in x, y and z.
-  int most_crossings() const override { return 2 * 3 * 3; }
-
-  double thickness_margin() const override { return thickness(net_) / least_thickness; }
-
-  void pack(records::Packer& packer) const override {
-    // The values that all pieces share.
-    Bounds all = bounds();
-    const Vec3 middle = (all.min + all.max) * 0.5;
-    double radius = 0;
-    for (const Vec3& p : net_) radius = std::max(radius, glm::length(p - middle));
-    std::array<float, 48> numbers;
-    for (size_t i = 0; i < 16; ++i) {
-      const Vec3 p = packer.relative(net_[i]);
-      for (int axis = 0; axis < 3; ++axis) numbers[3 * i + size_t(axis)] = float(p[axis]);
-    }
-    std::vector<shader::uvec4> words;
-    for (size_t i = 0; i < 48; i += 4)
-      words.push_back(records::to_bits({numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3]}));
-    words.push_back(records::to_bits(records::to_vec4(packer.relative(middle), radius)));
-    const uint32_t extra = packer.add_vertices(words);
-
-    for (const BezierPiece& piece : bezier_pieces(net_)) {
-      // A hit may lie as far beyond a border as rounding moves it.
-      const double room = 0x1p-18 * (magnitude(packer.relative(middle)) + radius);
-      const auto& [from, to] = piece.range;
-      // Iterations for both ends; for 24 arcs, each with its middle and its next end; for 4 roots.
-      packer.add_iterations(2 * 4 + 24 * (1 + 4 + 4) + 4 * 40);
-      packer.add_iteration_limit();
-      packer.add_piece(records::Packer::primitive(
-                           shader::KIND_bezier, material,
-                           shader::vec4(float(from.x), float(to.x), float(from.y), float(to.y)),
-                           records::to_vec4(packer.relative(piece.middle), piece.radius + room),
-                           records::to_vec4(piece.normal, mirrored_ ? -piece.beyond : piece.beyond), extra),
-                       {piece.bounds.min - room, piece.bounds.max + room});
-    }
+// The normal at a point. If the derivatives are parallel there, as where an edge is one point, the normal
+// is that of a point next to it, towards the middle.
+Vec3 Bezier::normal(const BezierPoint& at, const Vec2& uv) const {
+  Vec3 n = glm::cross(at.along_u, at.along_v);
+  const double size = glm::dot(at.along_u, at.along_u) + glm::dot(at.along_v, at.along_v);
+  for (double step = 1e-6; !(glm::dot(n, n) > 1e-18 * size * size) && step < 1; step *= 10) {
+    const BezierPoint near = bezier_point(net_, uv.x + (0.5 - uv.x) * step, uv.y + (0.5 - uv.y) * step);
+    n = glm::cross(near.along_u, near.along_v);
+    if (glm::dot(n, n) > 0) return unit(n);
   }
+  return glm::dot(n, n) > 0 ? unit(n) : Vec3(0, 0, 1);
+}
 
- private:
-  // The normal at a point. If the derivatives are parallel there, as where an edge is one point, the normal
-  // is that of a point next to it, towards the middle.
-  Vec3 normal(const BezierPoint& at, const Vec2& uv) const {
-    Vec3 n = glm::cross(at.along_u, at.along_v);
-    const double size = glm::dot(at.along_u, at.along_u) + glm::dot(at.along_v, at.along_v);
-    for (double step = 1e-6; !(glm::dot(n, n) > 1e-18 * size * size) && step < 1; step *= 10) {
-      const BezierPoint near = bezier_point(net_, uv.x + (0.5 - uv.x) * step, uv.y + (0.5 - uv.y) * step);
-      n = glm::cross(near.along_u, near.along_v);
-      if (glm::dot(n, n) > 0) return unit(n);
-    }
-    return glm::dot(n, n) > 0 ? unit(n) : Vec3(0, 0, 1);
-  }
-
-  BezierNet net_;
-  bool mirrored_;
-};
+namespace {
 
 BezierNet transformed(BezierNet net, const Affine& map) {
   for (Vec3& p : net) p = map.point(p);
@@ -178,7 +168,7 @@ std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
   }
   BezierNet net;
   std::copy(list.begin(), list.end(), net.begin());
-  if (!(thickness(net) >= least_thickness)) {
+  if (!(thickness(net) >= least_bezier_thickness)) {
     table.error("points", "the patch has no area: its control points coincide or lie on one line");
     return nullptr;
   }
@@ -188,7 +178,7 @@ std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
     table.error("transform", "the transformed control points are out of range (coordinates up to 1e12)");
     return nullptr;
   }
-  if (!(thickness(world) >= least_thickness)) {
+  if (!(thickness(world) >= least_bezier_thickness)) {
     table.error("transform", "the transform leaves the patch without area");
     return nullptr;
   }

@@ -42,7 +42,7 @@ std::unique_ptr<Shape> make_hyperboloid(const Vec3& from, const Vec3& to, double
 // True if there can be such a capsule.
 bool fits_capsule(const Vec3& from, const Vec3& to, double radius, const Mat4& transform = Mat4(1.0));
 std::unique_ptr<Shape> make_capsule(const Vec3& from, const Vec3& to, double radius,
-                                    const Mat4& transform = Mat4(1.0));
+                                    const Mat4& transform = Mat4(1.0), std::optional<double> to_radius = {});
 
 // A x² + B y² + C z² + D xy + E xz + F yz + G x + H y + J z + K.
 struct QuadricValues {
@@ -59,8 +59,10 @@ std::unique_ptr<Shape> make_polygon(const PlanarRegion& region, const Mat4& tran
                                     const std::optional<Vec3>& u_axis = {});
 std::unique_ptr<Shape> make_parallelogram(const Vec3& origin, const Vec3& edge_u, const Vec3& edge_v,
                                           const Mat4& transform = Mat4(1.0));
+// uv of the caps are distances from `origin`, else from the first vertex. `holes` may be any outlines that do
+// not cross: those within an odd number of others are holes.
 std::unique_ptr<Shape> make_prism(const PlanarRegion& region, const Vec3& extrusion,
-                                  const Mat4& transform = Mat4(1.0));
+                                  const Mat4& transform = Mat4(1.0), const std::optional<Vec3>& origin = {});
 std::unique_ptr<Shape> make_torus(const Vec3& center, const Vec3& axis, double major_radius,
                                   double minor_radius, const Mat4& transform = Mat4(1.0));
 // e and n: 0.1 to 2.

@@ -118,6 +118,15 @@ void ObjectShape::pack(records::Packer& packer) const {
 }
 
 void ObjectShape::pack_with(records::Packer& packer, const std::vector<float>& parameters) const {
+  packer.add(record_with(packer, material, parameters));
+}
+
+shader::Primitive ObjectShape::record(records::Packer& packer, int of_material) const {
+  return record_with(packer, of_material, parameters_);
+}
+
+shader::Primitive ObjectShape::record_with(records::Packer& packer, int of_material,
+                                           const std::vector<float>& parameters) const {
   const auto row = [](const Affine& map, int i, const Vec3& offset) {
     return records::to_vec4({map.linear[0][i], map.linear[1][i], map.linear[2][i]}, offset[i]);
   };
@@ -133,8 +142,8 @@ void ObjectShape::pack_with(records::Packer& packer, const std::vector<float>& p
   packer.add_iterations(steps_);
   if (steps_ > 0) packer.add_iteration_limit();
   packer.add_map_growth(growth(to_world_, to_object_));
-  packer.add(records::Packer::primitive(kind_, material, row(to_object_, 0, center),
-                                        row(to_object_, 1, center), row(to_object_, 2, center), extra));
+  return records::Packer::primitive(kind_, of_material, row(to_object_, 0, center),
+                                    row(to_object_, 1, center), row(to_object_, 2, center), extra);
 }
 
 Mat4 along_axis(const Vec3& from, const Vec3& to, double radius, double low, double high) {

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "host/records/records.hpp"
 #include "host/scene/affine.hpp"
 #include "host/scene/shape.hpp"
 #include "host/shapes/registry.hpp"
@@ -17,6 +18,9 @@ class ObjectShape : public Shape {
   std::vector<Span> spans(const Ray& ray) const final;
   Bounds bounds() const override;
   void pack(records::Packer& packer) const override;
+  // Adds the data of the shape's primitive to the packer, and returns the primitive: for shapes that consist
+  // of several such.
+  shader::Primitive record(records::Packer& packer, int of_material) const;
 
  protected:
   // The hits of a line with the shape, in any order. The meaning of their u and v depends on the shape.
@@ -47,6 +51,8 @@ class ObjectShape : public Shape {
   void pack_with(records::Packer& packer, const std::vector<float>& parameters) const;
 
  private:
+  shader::Primitive record_with(records::Packer& packer, int of_material,
+                                const std::vector<float>& parameters) const;
   // The arguments and results are in object space. The ray starts near the shape; its t may be negative.
   virtual Crossings crossings(const Ray& ray) const = 0;
   // The nearest crossing beyond t = `from`.

@@ -59,10 +59,20 @@ inline constexpr Key holes_key{.name = "holes",
                                .min = -max_coordinate,
                                .max = max_coordinate};
 
+// The reason why a region is none. `outline` 0 is the outer one, and `other` the outline that it crosses.
+struct RegionFault {
+  size_t outline = 0;
+  std::optional<size_t> vertex = {};
+  size_t other = 0;
+  std::string message = {};
+};
+// The first fault of a region: its outlines must be flat, have an area and at least 3 vertices each, no two
+// at the same point. They must neither cross nor touch themselves or each other. If `nested`, holes must lie
+// within the outer outline, beside each other.
+std::optional<RegionFault> find_fault(const PlanarRegion& region, bool nested);
+
 // The region in a table with these keys. If it is invalid, returns nothing and reports one error, at the
-// vertex that is to blame. Its outlines must be flat, have an area and at least 3 vertices each, no two at
-// the same point. They must neither cross nor touch themselves or each other. Holes must lie within the outer
-// outline, beside each other.
+// vertex that is to blame.
 std::optional<PlanarRegion> read_region(TableReader& table);
 
 }  // namespace eyeray::engine::shapes

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
+#include <optional>
 
-#include "host/core/parallel_for.hpp"
 #include "host/records/packer.hpp"
 #include "host/scene/affine.hpp"
-#include "host/scene/box_bvh.hpp"
 #include "host/shapes/keys.hpp"
 #include "host/shapes/make.hpp"
+#include "host/shapes/pieces.hpp"
 #include "host/shapes/registry.hpp"
 #include "host/shapes/sphere_roots.hpp"
 
@@ -63,26 +62,23 @@ class Points final : public Shape {
       : cloud_(std::move(cloud)), radius_(radius * map.scale), map_(map) {
     for (const Vec3& p : cloud_->positions) bounds_.include(map_.point(p));
     bounds_ = {bounds_.min - radius_, bounds_.max + radius_};
-    reach_ = std::max(magnitude(bounds_.min), magnitude(bounds_.max));
+    search_.emplace(
+        cloud_->positions.size(),
+        [this](uint32_t i) {
+          const Vec3 at = center(i);
+          return Bounds{at - radius_, at + radius_};
+        },
+        bounds_);
   }
 
   std::optional<Intersection> intersect(const Ray& ray) const override {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    std::optional<Intersection> nearest;
-    const BoxRay boxes(ray, box_rounding * (magnitude(ray.o) + reach_));
-    search().search(boxes, infinity, [&](uint32_t i, double limit) {
-      const Vec3 at = center(i);
-      const double entry = boxes.entry({at - radius_, at + radius_});
-      const auto roots = entry < infinity ? sphere_roots(at, radius_, ray) : std::nullopt;
-      if (!roots) return limit;
-      double t = roots->first > 0 ? roots->first : roots->second;
-      if (!(t > 0) || !std::isfinite(t)) return limit;
-      t = std::max(t, entry);
-      if (nearest && !(t < nearest->t || (t == nearest->t && i < nearest->part))) return limit;
-      nearest = Intersection{.t = t, .part = i};
-      return t;
+    return search_->nearest(ray, [&](uint32_t i) -> std::optional<Intersection> {
+      const auto roots = sphere_roots(center(i), radius_, ray);
+      if (!roots) return std::nullopt;
+      const double t = roots->first > 0 ? roots->first : roots->second;
+      if (!(t > 0) || !std::isfinite(t)) return std::nullopt;
+      return Intersection{.t = t};
     });
-    return nearest;
   }
 
   SurfacePoint surface(const Ray& ray, const Intersection& hit) const override {
@@ -120,30 +116,11 @@ class Points final : public Shape {
  private:
   Vec3 center(size_t i) const { return map_.point(cloud_->positions[i]); }
 
-  // The BVH of the spheres. It is built when the first ray comes: only the reference sends rays.
-  const BoxBvh& search() const {
-    std::call_once(built_, [&] {
-      // The thread that builds must not take on rays of other threads, which wait for it here.
-      parallel_for_alone(0, 1, [&](int) {
-        bvh_ = BoxBvh(
-            uint32_t(cloud_->positions.size()),
-            [&](uint32_t i) {
-              const Vec3 at = center(i);
-              return Bounds{at - radius_, at + radius_};
-            },
-            Acceleration::bvh);
-      });
-    });
-    return bvh_;
-  }
-
   std::shared_ptr<const PointCloud> cloud_;
   double radius_;
   Similarity map_;  // cloud to world
   Bounds bounds_;
-  double reach_ = 0;
-  mutable std::once_flag built_;
-  mutable BoxBvh bvh_;
+  std::optional<PieceSearch> search_;
 };
 
 std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {

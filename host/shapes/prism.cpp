@@ -71,32 +71,41 @@ struct PrismForm {
   double height;
   Vec3 u_cap, v_cap;  // u = u_cap · (x, z, 1) on the cap at y = 1
 
-  PrismForm(const PlanarRegion& region, const Vec3& extrusion);
+  // uv of the caps are distances from `origin`.
+  PrismForm(const PlanarRegion& region, const Vec3& extrusion, const Vec3& origin);
   std::vector<float> parameters() const;
 };
 
-PrismForm::PrismForm(const PlanarRegion& region, const Vec3& extrusion) : height(glm::length(extrusion)) {
+PrismForm::PrismForm(const PlanarRegion& region, const Vec3& extrusion, const Vec3& origin)
+    : height(glm::length(extrusion)) {
   // Axes that are right-handed seen from the tip, and the bounds along them.
   const Vec3 flat_normal = region.normal();
   const auto [u, v] = plane_axes(glm::dot(flat_normal, extrusion) < 0 ? -flat_normal : flat_normal);
-  const Vec3 first = region.outer[0];
-  const auto in_plane = [&, u = u, v = v](const Vec3& p) {
-    return Vec2(glm::dot(u, p - first), glm::dot(v, p - first));
+  std::vector<std::vector<Vec2>> flat;
+  const auto lay_flat = [&, u = u, v = v](const Outline& written) {
+    flat.emplace_back();
+    for (const Vec3& p : written) flat.back().emplace_back(glm::dot(u, p - origin), glm::dot(v, p - origin));
   };
-  Vec2 low(0), high(0);
-  for (const Vec3& vertex : region.outer) {
-    low = glm::min(low, in_plane(vertex));
-    high = glm::max(high, in_plane(vertex));
-  }
+  lay_flat(region.outer);
+  for (const Outline& hole : region.holes) lay_flat(hole);
+  Vec2 low = flat[0][0], high = low;
+  for (const auto& outline : flat)
+    for (const Vec2& point : outline) {
+      low = glm::min(low, point);
+      high = glm::max(high, point);
+    }
   const Vec2 middle = (low + high) * 0.5, half = (high - low) * 0.5;
   to_world = Mat4(Vec4(u * half.x, 0), Vec4(extrusion * 0.5, 0), Vec4(v * half.y, 0),
-                  Vec4(first + u * middle.x + v * middle.y + extrusion * 0.5, 1));
+                  Vec4(origin + u * middle.x + v * middle.y + extrusion * 0.5, 1));
   u_cap = {half.x, 0, middle.x};
   v_cap = {0, half.y, middle.y};
 
-  const auto add = [&](const Outline& written, bool hole) {
-    std::vector<Vec2> outline;
-    for (const Vec3& vertex : written) outline.push_back(in_plane(vertex));
+  for (size_t k = 0; k < flat.size(); ++k) {
+    // Within an odd number of other outlines it is that of a hole.
+    std::vector<Vec2> outline = flat[k];
+    bool hole = false;
+    for (size_t other = 0; other < flat.size(); ++other)
+      if (other != k && winding(flat[other], outline[0]) != 0) hole = !hole;
     if ((signed_area(outline) < 0) != hole) std::reverse(outline.begin() + 1, outline.end());
     double length = 0;
     for (size_t i = 0; i < outline.size(); ++i) {
@@ -108,9 +117,7 @@ PrismForm::PrismForm(const PlanarRegion& region, const Vec3& extrusion) : height
     }
     for (Vec2& point : outline) point = (point - middle) / half;
     outlines.push_back(std::move(outline));
-  };
-  add(region.outer, false);
-  for (const Outline& hole : region.holes) add(hole, true);
+  }
 }
 
 std::vector<float> PrismForm::parameters() const {
@@ -206,7 +213,8 @@ std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
     table.error("extrusion", "the prism has no volume: its extrusion lies in the outline's plane");
     return nullptr;
   }
-  if (out_of_range(table, transform * PrismForm(*region, extrusion).to_world)) return nullptr;
+  if (out_of_range(table, transform * PrismForm(*region, extrusion, region->outer[0]).to_world))
+    return nullptr;
   return make_prism(*region, extrusion, transform);
 }
 
@@ -214,8 +222,9 @@ std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
 
 extern const ShapeType prism_type{.name = "prism", .manual = manual, .keys = keys, .parse = parse};
 
-std::unique_ptr<Shape> make_prism(const PlanarRegion& region, const Vec3& extrusion, const Mat4& transform) {
-  return std::make_unique<Prism>(PrismForm(region, extrusion), transform);
+std::unique_ptr<Shape> make_prism(const PlanarRegion& region, const Vec3& extrusion, const Mat4& transform,
+                                  const std::optional<Vec3>& origin) {
+  return std::make_unique<Prism>(PrismForm(region, extrusion, origin.value_or(region.outer[0])), transform);
 }
 
 }  // namespace eyeray::engine::shapes

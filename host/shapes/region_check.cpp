@@ -1,4 +1,5 @@
-// Checks the outlines that a scene's author writes: the reader of planar_region.hpp.
+// Checks outlines: those that a scene's author writes, by the reader of planar_region.hpp, and those of
+// fonts.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -26,14 +27,16 @@ double distance(const Vec2& p, const Vec2& from, const Vec2& to) {
 
 class RegionCheck {
  public:
-  RegionCheck(TableReader& table, const PlanarRegion& region) : table_(table) {
+  explicit RegionCheck(const PlanarRegion& region) {
     outlines_.push_back(&region.outer);
     for (const Outline& hole : region.holes) outlines_.push_back(&hole);
   }
 
   // Each step relies on those before it.
-  bool run() {
-    return has_vertices() && is_distinct() && has_area() && is_flat() && is_simple() && is_nested();
+  std::optional<RegionFault> run(bool nested) {
+    const bool passes =
+        has_vertices() && is_distinct() && has_area() && is_flat() && is_simple() && (!nested || is_nested());
+    return passes ? std::nullopt : std::optional(fault_);
   }
 
  private:
@@ -48,19 +51,13 @@ class RegionCheck {
     Vec2 to;
   };
 
-  // Reports an error at a vertex, or at an outline. Always returns false.
+  // Notes a fault at an outline, or at a vertex. Always returns false.
   bool fail(size_t outline, std::string message) {
-    if (outline == 0)
-      table_.error("vertices", std::move(message));
-    else
-      table_.error("holes", std::move(message), {outline - 1});
+    fault_ = {outline, std::nullopt, outline, std::move(message)};
     return false;
   }
   bool fail(const Corner& at, std::string message) {
-    if (at.outline == 0)
-      table_.error("vertices", std::move(message), {at.vertex});
-    else
-      table_.error("holes", std::move(message), {at.outline - 1, at.vertex});
+    fault_ = {at.outline, at.vertex, at.outline, std::move(message)};
     return false;
   }
 
@@ -191,11 +188,12 @@ class RegionCheck {
     const bool swap = std::pair(a.start.outline, a.start.vertex) > std::pair(b.start.outline, b.start.vertex);
     const Edge &first = swap ? b : a, &second = swap ? a : b;
     const size_t other = first.start.outline;
-    return fail(
-        second.start,
-        fmt::format("{} crosses or touches {}: its edge from vertex {} crosses that from vertex {}",
-                    name(second.start.outline), other == second.start.outline ? "itself" : name(other),
-                    second.start.vertex + 1, first.start.vertex + 1));
+    fail(second.start,
+         fmt::format("{} crosses or touches {}: its edge from vertex {} crosses that from vertex {}",
+                     name(second.start.outline), other == second.start.outline ? "itself" : name(other),
+                     second.start.vertex + 1, first.start.vertex + 1));
+    fault_.other = other;
+    return false;
   }
 
   // Two consecutive edges may touch only at the vertex between them.
@@ -219,7 +217,7 @@ class RegionCheck {
     return true;
   }
 
-  TableReader& table_;
+  RegionFault fault_;
   std::vector<const Outline*> outlines_;
   double size_ = 0;
   Vec3 normal_{0};
@@ -228,11 +226,25 @@ class RegionCheck {
 
 }  // namespace
 
+std::optional<RegionFault> find_fault(const PlanarRegion& region, bool nested) {
+  return RegionCheck(region).run(nested);
+}
+
 std::optional<PlanarRegion> read_region(TableReader& table) {
   PlanarRegion region{table.vec3_list("vertices"), table.outlines("holes")};
-  if (!table.valid("vertices") || !table.valid("holes") || !RegionCheck(table, region).run())
-    return std::nullopt;
-  return region;
+  if (!table.valid("vertices") || !table.valid("holes")) return std::nullopt;
+  const auto fault = find_fault(region, true);
+  if (!fault) return region;
+  const auto& [outline, vertex, other, message] = *fault;
+  if (outline == 0 && vertex)
+    table.error("vertices", message, {*vertex});
+  else if (outline == 0)
+    table.error("vertices", message);
+  else if (vertex)
+    table.error("holes", message, {outline - 1, *vertex});
+  else
+    table.error("holes", message, {outline - 1});
+  return std::nullopt;
 }
 
 }  // namespace eyeray::engine::shapes

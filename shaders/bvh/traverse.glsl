@@ -50,11 +50,11 @@ uint iteration_limit(TraversalState state) {
 #endif
 }
 
-// The nearest hit with t > 0: of exactly equal ones that of the lowest id, and of a shape's several primitives that of the lowest uv.x. So
-// neither the order of traversal nor that of the slots matters.
+// The nearest hit with t > 0: of exactly equal ones that of the lowest id, and of a shape's several primitives that of the lowest uv.x, then of the
+// lowest uv.y. So neither the order of traversal nor that of the slots matters.
 void update_closest_hit(INOUT(TraversalState) state, float t, vec2 uv, uint slot, uint id, uint instance) {
 #if HAS_PIECES
-  bool precedes = id < state.hit.id || (id == state.hit.id && uv.x < state.hit.uv.x);
+  bool precedes = id < state.hit.id || (id == state.hit.id && (uv.x < state.hit.uv.x || (uv.x == state.hit.uv.x && uv.y < state.hit.uv.y)));
 #else
   bool precedes = id < state.hit.id;
 #endif

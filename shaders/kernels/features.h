@@ -10,6 +10,12 @@
 #ifndef HAS_PIECES  // a shape has several primitives of one id
 #define HAS_PIECES 1
 #endif
+#ifndef HAS_ROUND_CONES  // a capsule has two radii
+#define HAS_ROUND_CONES 1
+#endif
+#ifndef HAS_LATHES  // a patch has texture coordinates of its own, as those of a lathe do
+#define HAS_LATHES 1
+#endif
 #ifndef HAS_SECOND_UV  // a mesh's vertices have second texture coordinates, which an image may read
 #define HAS_SECOND_UV 1
 #endif

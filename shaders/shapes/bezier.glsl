@@ -1,5 +1,6 @@
 // A piece of the bicubic patch Σ B_i(v)·B_j(u)·p_ij, 0 ≤ u, v ≤ 1. The layer render/ lays out as many as host/shapes/bezier_net.cpp makes.
-// extra: the first of 13 vertices: p_00 … p_33, three floats each, u running faster; then the patch's middle, the radius of a ball around it
+// extra: the first of 14 vertices: p_00 … p_33, three floats each, u running faster; then the patch's middle, the radius of a ball around it.
+// The last one has the least texture coordinates and their growth: those of a lathe are not u and v.
 #ifndef BEZIER_GLSL
 #define BEZIER_GLSL
 #include "shapes/bezier/section.glsl"
@@ -202,8 +203,14 @@ Surface bezier_surface(Primitive s, Ray ray, Hit hit) {
   surface.p = o + at.p;
   surface.normal_geometric = bezier_is_turned(s) ? -n : n;
   surface.normal = surface.normal_geometric;
+#if HAS_LATHES
+  vec4 field = bits_to_floats(load_vertex(s.extra + 13u));
+  surface.uv = inner_uv(vec2(field.x + field.z * hit.uv.x, field.y + field.w * hit.uv.y));
+  set_tangents(surface, at.du / field.z, at.dv / field.w);
+#else
   surface.uv = inner_uv(hit.uv);
   set_tangents(surface, at.du, at.dv);
+#endif
   vec3 reach = abs3(surface.p) + abs3(o);
   surface.offset = 8.0f * EPSILON * dot3(abs3(n), reach) + 48.0f * EPSILON * patch_ball.w;
   vec2 inner = inner_step(surface, hit.uv, edge_room(ray, max_component(reach) + 6.0f * patch_ball.w, surface.offset));

@@ -50,6 +50,7 @@ const Library libraries[] = {
     {std::regex(R"(embree[34]/.*)"), {"bvh", "contenders"}, {"bvh"}},
     {std::regex(R"(stb.*)"), {"image"}, {}},
     {std::regex(R"((png|zlib)\.h)"), {"core", "image"}, {}},
+    {std::regex(R"(ft2build\.h|freetype/.*)"), {"shapes"}, {}},
 };
 
 bool is_shader(const std::string& include) {

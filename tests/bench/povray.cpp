@@ -133,6 +133,12 @@ from = [0, -3, 0]
 to = [0, 3, 0]
 radius = 2
 material = "m"
+[[capsule]]
+from = [0, -3, 0]
+to = [0, 3, 0]
+radius = 2
+to_radius = 1
+material = "m"
 [[torus]]
 center = [1, 2, 3]
 axis = [0, 1, 0]
@@ -188,6 +194,7 @@ material = "m"
   CHECK(has(text,
             "merge {cylinder {-y*1.5,y*1.5,1} sphere {-y*1.5,1} sphere {y*1.5,1} matrix "
             "<2,0,0,0,2,0,0,0,2,0,0,0> texture {M0}}"));
+  CHECK(has(text, "sphere_sweep {linear_spline 2,-y*1.5,1,y*1.5,0.5 matrix <2,0,0,0,2,0,0,0,2,0,0,0>"));
   CHECK(
       has(text,
           "intersection {quadric {<1,0,-0.25>,<0,0.5,0>,<0,-0.25,0>,-0.125} box {<-1,-1,-1>,<1,1,1>} matrix "

@@ -161,9 +161,8 @@ TEST_CASE(
       "reject-fireflies\n");
   CHECK(run_eyeray(
             {"render", folder.scene(), "--reject-fireflies", "--shard", "1/2", "-o", folder / "no.eyeray"})
-            .err ==
-        "eyeray: error: fireflies are found from a pixel's neighbours, which are in other shards: "
-        "leave out reject-fireflies\n");
+            .err.ends_with("eyeray: error: fireflies are found from a pixel's neighbours, which are in other "
+                           "shards: leave out reject-fireflies\n"));
 }
 
 TEST_CASE("--stats counts the paths that max_depth cut off, the same by each executor") {

@@ -48,7 +48,7 @@ FIGURES = [
     ("scene-file.md", "values, {} deep", "core/json_depth.hpp", "deepest_json"),
     ("scene-file.md", "| instances in a glTF file | {} |", "importers/gltf.cpp", "most_instances"),
     ("scene-file.md", "| decoded by Draco | {} numbers", "importers/gltf_draco.cpp", "most_values_a_byte"),
-    ("scene-file.md", "and at least {} |\n| corners", "importers/gltf_draco.cpp", "most_values_always"),
+    ("scene-file.md", "vertices a byte of the file, and at least {} |", "importers/gltf_draco.cpp", "most_values_always"),
     ("scene-file.md", "| corners of a concave face | {};", "importers/polygon.hpp", "most_ear_corners"),
     ("scene-file.md", "| materials that light passes through | {} |", "loader/materials.cpp", "most_media"),
     ("security.md", "| text | {} |", "loader/formula_files.cpp", "most_bytes"),

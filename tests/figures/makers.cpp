@@ -138,8 +138,11 @@ const std::map<std::string, MakeShape> makers = {
      }},
     {"capsule",
      [](Random& random, double size) {
-       return shapes::make_capsule({0, -0.7, 0}, {0, 0.7, 0}, random.log_uniform(0.1, 0.7),
-                                   some_map(random, size));
+       // Half of them are round cones, some of them with a tip.
+       const double radius = random.log_uniform(0.1, 0.7), high = random.uniform(-0.1, 0.7);
+       const bool is_round = random.below(2) == 0;
+       return shapes::make_capsule({0, -0.7, 0}, {0, 0.7, 0}, radius, some_map(random, size),
+                                   is_round ? std::max(high, 0.0) : radius);
      }},
     {"quadric",
      [](Random& random, double size) {

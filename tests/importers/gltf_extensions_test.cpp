@@ -28,7 +28,8 @@ std::map<std::string, std::string> extensions_of_manual() {
 TEST_CASE("the manual's table of extensions is what the importer does") {
   const std::map<std::string, std::string> manual = extensions_of_manual();
   CHECK(manual.size() > 40);
-  for (const auto& [name, treatment] : manual) {
+  for (const auto& row : manual) {
+    const std::string &name = row.first, &treatment = row.second;
     CAPTURE(name);
     CAPTURE(treatment);
     GltfFile file;

@@ -229,9 +229,9 @@ TEST_CASE("omitted parts are named once, with their count") {
   lines["mode"] = 1;
   file.json["meshes"][0]["primitives"].push_back(lines);
   const ImportedScene scene = import_sound(file.gltf(), "a.gltf");
-  CHECK(scene.warnings ==
-        std::vector<std::string>{"left out: the extension KHR_materials_volume_scatter (1), occlusion maps (2), "
-                                 "lines, which `line_width` or --line-width shows (1)"});
+  CHECK(scene.warnings == std::vector<std::string>{
+                              "left out: the extension KHR_materials_volume_scatter (1), occlusion maps (2), "
+                              "lines, which `line_width` or --line-width shows (1)"});
 }
 
 TEST_CASE("EXT_texture_webp: the WebP counts more than the picture for other readers") {

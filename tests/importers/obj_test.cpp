@@ -347,10 +347,12 @@ TEST_CASE("a grey bump map becomes the normal map of its slopes, which -bm multi
     return glm::normalize(scene.materials[0]->normal_map->texture->at(uv) * 2.0 - 1.0);
   };
   const Vec2 inside(0.5625, 0.625);  // a texel's middle, with neighbours on all sides
-  for (const auto& [statement, strength] : {std::pair("bump", 1.0),
-                                            {"map_Bump -bm 3", 3.0},
-                                            {"map_bump -bm -5", -5.0},
-                                            {"bump -clamp on -bm 2", 2.0}}) {
+  for (const auto& row : {std::pair("bump", 1.0),
+                          {"map_Bump -bm 3", 3.0},
+                          {"map_bump -bm -5", -5.0},
+                          {"bump -clamp on -bm 2", 2.0}}) {
+    const char* const statement = row.first;
+    const double strength = row.second;
     CAPTURE(statement);
     const Vec3 wanted = glm::normalize(Vec3(-strength * 10 / 255, -strength * 20 / 255, 1));
     CHECK(glm::length(normal(statement, inside) - wanted) < 0.01);

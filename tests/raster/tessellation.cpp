@@ -55,6 +55,8 @@ std::vector<std::pair<std::string, std::unique_ptr<Shape>>> curved_shapes(const 
   add("paraboloid", shapes::make_paraboloid({0, -1, 0}, {0, 1, 0}, 0.8, false, map));
   add("hyperboloid", shapes::make_hyperboloid({0, -1, 0}, {0, 1, 0}, 0.9, 0.7, 0.4, false, map));
   add("capsule", shapes::make_capsule({0, -0.7, 0}, {0, 0.7, 0}, 0.5, map));
+  add("round cone", shapes::make_capsule({0, -0.7, 0}, {0, 0.7, 0}, 0.5, map, 0.2));
+  add("round cone with a tip", shapes::make_capsule({0, -0.7, 0}, {0, 0.7, 0}, 0.1, map, 0.6));
   add("disk", shapes::make_disk({0, 0, 0}, {0, 1, 0.3}, 1, 0.4, map));
   add("torus", shapes::make_torus({0, 0, 0}, {0, 1, 0}, 0.8, 0.3, map));
   for (const double e : {0.1, 0.5, 1.0, 1.7, 2.0})

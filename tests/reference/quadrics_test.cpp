@@ -1,6 +1,7 @@
 // Disks, capsules and quadrics, against numbers worked out by hand.
 #include <numbers>
 
+#include "tests/support/random.hpp"
 #include "tests/support/scenes.hpp"
 
 #include "tests/support/doctest.hpp"
@@ -122,6 +123,66 @@ TEST_CASE("capsule: side, ends, and the seams between them") {
   CHECK(near(distance(*capsule, {{0, 1, 0}, {0, 1, 0}}), 2, 1e-14));
   CHECK(near(capsule->bounds().min, Vec3(-1, -1, -1), 1e-14));
   CHECK(near(capsule->bounds().max, Vec3(1, 3, 1), 1e-14));
+}
+
+TEST_CASE("round cone: side, balls, tip, and a ball that contains the other") {
+  const auto round = make_capsule({0, 0, 0}, {0, 2, 0}, 1, Mat4(1.0), 0.5);
+  check_heights(*round, 0, 0, {-1, 2.5});
+  check_heights(*round, 0.3, 0, {-std::sqrt(1 - 0.09), 2 + std::sqrt(0.25 - 0.09)});
+  // The side is 0.25 y + cosine · r = 1.
+  const double cosine = std::sqrt(1 - 0.0625), angle = std::acos(-0.25);
+  const double side = (1 - 0.9 * cosine) / 0.25;
+  check_heights(*round, 0.9, 0, {-std::sqrt(1 - 0.81), side});
+  check_heights(*round, 1.001, 0, {});
+  const SurfacePoint point = surface_hit(*round, {{0.9, 9, 0}, downwards});
+  CHECK(near(point.normal, Vec3(cosine, 0.25, 0), 1e-14));
+  CHECK(near(point.uv.x, 0.5, 1e-15));
+  const double whole = angle + 0.5 * (std::numbers::pi - angle) + 2 * cosine;
+  CHECK(near(point.uv.y, (angle + cosine * (side - 0.9 * 0.25 / cosine)) / whole, 1e-13));
+  CHECK(near(surface_hit(*round, {{0, 9, 0}, downwards}).uv.y, 1, 1e-14));
+  CHECK(near(round->bounds().max, Vec3(1, 2.5, 1), 1e-14));
+  CHECK(near(round->bounds().min, Vec3(-1, -1, -1), 1e-14));
+
+  // A ray along the side, and one that is steeper than the side.
+  CHECK(near(distance(*round, {Vec3(cosine, 0.25, 0) * 2.0, Vec3(-cosine, -0.25, 0)}), 1, 1e-14));
+  CHECK(near(distance(*round, {{0, 0, 0}, {0, 1, 0.1}}), (4 + std::sqrt(16 - 15.15)) / 2.02, 1e-13));
+
+  const auto tip = make_capsule({0, 0, 0}, {0, 2, 0}, 1, Mat4(1.0), 0);
+  check_heights(*tip, 0, 0, {-1, 2});
+  const auto ball = make_capsule({0, 0, 0}, {0, 2, 0}, 1, Mat4(1.0), 3.5);
+  check_heights(*ball, 0, 0, {-1.5, 5.5});
+  check_heights(*ball, 2.1, 0, {2 - 2.8, 2 + 2.8});
+}
+
+TEST_CASE("round cone: a point of its surface is as far from one ball, and farther from all others") {
+  Random random{3};
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 from = random.point(1), to = random.point(1);
+    const double low = random.uniform(0.05, 1), high = random.uniform(0, 1);
+    const auto shape = make_capsule(from, to, low, Mat4(1.0), high);
+    const Vec3 o = random.direction() * 5.0;
+    const Ray ray{o, unit(glm::mix(from, to, random.uniform(0, 1)) - o)};
+    const SurfacePoint point = surface_hit(*shape, ray);
+    // The distance from the ball at a share of the axis is convex.
+    const auto distance_at = [&](double s, const Vec3& p) {
+      return glm::length(p - glm::mix(from, to, s)) - glm::mix(low, high, s);
+    };
+    const auto least = [&](const Vec3& p) {
+      double a = 0, b = 1;
+      for (int step = 0; step < 100; ++step) {
+        const double s = a + (b - a) / 3, t = b - (b - a) / 3;
+        if (distance_at(s, p) < distance_at(t, p))
+          b = t;
+        else
+          a = s;
+      }
+      return distance_at((a + b) / 2, p);
+    };
+    CAPTURE(i);
+    CHECK(std::fabs(least(point.position)) < 1e-9);
+    CHECK(near(least(point.position + point.normal * 0.1), 0.1, 1e-9));
+    CHECK(glm::dot(point.normal, ray.d) <= 1e-9);
+  }
 }
 
 TEST_CASE("quadric: a saddle, two sheets, and a ball cut off by a box") {

@@ -171,8 +171,8 @@ TEST_CASE("adaptive sampling gives the same picture in bands with their own bloc
 TEST_CASE("the unfinished area is covered once, by few rectangles") {
   film::Film sums;
   sums.reset(100, 50, film::parse_channels("noise"));
-  sums.finish({16, 8, 32, 16});
-  const AdaptiveSampling adaptive(target, 64, sums);
+  sums.set_finished({16, 8, 32, 16}, true);
+  const AdaptiveSampling adaptive(target, 64, false, sums);
   std::vector<int> covered(100 * 50);
   for (const auto& [row, height] : {std::pair{0, 11}, {11, 26}, {37, 13}}) {
     const std::vector<Rect> parts = adaptive.left(row, height);
@@ -187,4 +187,23 @@ TEST_CASE("the unfinished area is covered once, by few rectangles") {
   for (int y = 0; y < 50; ++y)
     for (int x = 0; x < 100; ++x)
       REQUIRE(covered[size_t(y * 100 + x)] == !(x >= 16 && x < 48 && y >= 8 && y < 24));
+}
+
+TEST_CASE("a finished block goes on if it is found noisy later and may resume") {
+  for (const bool resumes : {false, true}) {
+    film::Film sums;
+    sums.reset(80, 8, film::parse_channels("noise"));
+    AdaptiveSampling adaptive(target, 16, resumes, sums);
+    std::vector<double> noise(10, 2 * target);
+    for (size_t i = 0; i < 5; ++i) noise[i] = target / 2;
+    adaptive.judge(sums, noise);
+    CHECK(sums.finished(0, 0));
+    CHECK(!sums.finished(79, 0));
+    std::ranges::fill(noise, target / 2);
+    noise[0] = 2 * target;
+    adaptive.judge(sums, noise);
+    CHECK(sums.finished(0, 0) == !resumes);
+    CHECK(sums.finished(79, 0));
+    CHECK(adaptive.finished() == !resumes);
+  }
 }

@@ -114,17 +114,28 @@ double critical_z(int tests) {
 
 // Tests samples by their counts in cells of (angle, turn), and in one cell for light that goes to the wrong
 // side and is lost.
-void check_samples(const std::vector<double>& roughnesses, const std::vector<double>& cosines, int samples) {
+// `all`: also the examples that take long because their densities are narrow, or that sample as another one
+// does.
+void check_samples(const std::vector<double>& roughnesses, const std::vector<double>& cosines, int samples,
+                   bool all) {
+  const auto tested = [&](double roughness) {
+    std::vector<Named> chosen = examples(roughness);
+    if (!all)
+      std::erase_if(chosen, [](const Named& each) {
+        return each.name == "brushed glass" || each.name == "brushed pane" || each.bsdf.film.share > 0;
+      });
+    return chosen;
+  };
   const records::PackedScene scene = scene_with_albedos();
   const shader::Binding binding(twin::view_of(scene));
   Random random(3);
   constexpr int rows = 24, columns = 32;
   const Vec2 size(M_PI / rows, 2 * M_PI / columns);
-  const int tests = int(roughnesses.size() * cosines.size() * examples(1).size());
+  const int tests = int(roughnesses.size() * cosines.size() * tested(1).size());
   const double critical = critical_z(tests);
   double worst_sum = 0, worst_z = -10;
   for (const double roughness : roughnesses) {
-    for (const Named& example : examples(roughness)) {
+    for (const Named& example : tested(roughness)) {
       const std::string& name = example.name;
       const Bsdf& bsdf = example.bsdf;
       for (const double cosine : cosines) {
@@ -254,12 +265,12 @@ TEST_CASE("a viewer behind the normal is seen at the smallest cosine at which al
 }
 
 TEST_CASE("a shader's samples follow the reference's density, which integrates to 1: chi-squared") {
-  check_samples({0.35, 1.0}, {1.0, 0.6, grazing}, 60'000);
+  check_samples({0.35, 1.0}, {1.0, 0.6, grazing}, 60'000, false);
 }
 
 TEST_CASE("a shader's samples follow the reference's density at more roughnesses and angles" *
           doctest::test_suite("long")) {
-  check_samples({0.2, 0.5, 1.0}, {1.0, 0.75, 0.35, 0.1, grazing}, 1'000'000);
+  check_samples({0.2, 0.5, 1.0}, {1.0, 0.75, 0.35, 0.1, grazing}, 1'000'000, true);
 }
 
 TEST_CASE("no BSDF scatters more light than it gets") {

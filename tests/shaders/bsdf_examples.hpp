@@ -61,6 +61,7 @@ inline Bsdf brushed(Bsdf bsdf) {
   return bsdf;
 }
 inline Bsdf filmed(Bsdf bsdf, double thickness, double ior, double share = 1) {
+  bsdf.layered = 1 - bsdf.metallic;  // or the film over a layer that is not there would count
   bsdf.film = {.share = share, .thickness = thickness, .ior = ior};
   return bsdf;
 }

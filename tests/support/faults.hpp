@@ -55,7 +55,7 @@ inline constexpr Fault faults[] = {
      "path.depth + 1u < frame.max_depth"},
     {"checker", "textures/checker.glsl", "floor(point.uv.x * checks.x)", "ceil(point.uv.x * checks.x)"},
     {"noise", "textures/pattern.glsl", "t * (t * 6.0f - 15.0f) + 10.0f", "t * (t * 6.0f - 15.0f) + 10.1f"},
-    {"normal_map", "materials/bent_normal.glsl", "t * x + b * y", "t * x - b * y"},
+    {"normal_map", "materials/bent_normal.glsl", "frame.s * x + frame.t * y", "frame.s * x - frame.t * y"},
     {"coat_normal", "materials/bent_normal.glsl", "bent.coat_normal = surface.normal;",
      "bent.coat_normal = bent.normal;"},
     {"bump", "materials/bent_normal.glsl", "(2.0f * material.bump_width)", "(1.99f * material.bump_width)"},
@@ -116,7 +116,7 @@ inline constexpr Fault faults[] = {
     {"photon_heading", "integrators/photon_source.glsl", "cosine_direction(heading)",
      "cosine_direction(vec2(heading.x * heading.x, heading.y))"},
     {"photon_aim", "lights/photon_aim.glsl", "/ (2.0f * PI * sum)", "/ (2.01f * PI * sum)"},
-    {"photon_index", "integrators/photon.glsl", " / squared_index(path.media)", ""},
+    {"photon_index", "integrators/photon.glsl", " / squared_index(path.media, path.throughput)", ""},
     {"photon_behind", "integrators/sppm.glsl", "before ? n : -n", "n"},
     // Random numbers.
     {"random", "math/rng.glsl", "2891336453u", "2891336455u"},

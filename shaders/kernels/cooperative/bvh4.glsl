@@ -261,7 +261,7 @@ TraversalState trace_cooperatively(Ray own, float t_max) {
     }
     traverse_bvh4();
 
-    // The lowest id among equally near hits wins, then the lowest uv.x, as in `update_closest_hit`. The hit goes back to the lane that had
+    // The lowest id among equally near hits wins, then the lowest uv.x and uv.y, as in `update_closest_hit`. The hit goes back to the lane that had
     // the ray.
     int nearest_t = least(floatBitsToInt(state.hit.t));
     bool nearest = floatBitsToInt(state.hit.t) == nearest_t;
@@ -271,8 +271,11 @@ TraversalState trace_cooperatively(Ray own, float t_max) {
 #if HAS_PIECES
     first_of_them = first_of_them && floatBitsToUint(state.hit.uv.x) == u;
 #endif
-    uint slot = least(first_of_them ? state.hit.slot : NONE);
     uint v = least(first_of_them ? floatBitsToUint(state.hit.uv.y) : NONE);
+#if HAS_PIECES
+    first_of_them = first_of_them && floatBitsToUint(state.hit.uv.y) == v;
+#endif
+    uint slot = least(first_of_them ? state.hit.slot : NONE);
     uint occluded = sum(state.occluded);
     uint tracer = (rank % AT_ONCE) * 4u;
     uint t_back = from_member(uint(nearest_t), tracer);

@@ -9,6 +9,8 @@
 #define TRIANGLE_METHOD 0u
 #define HAS_COLORS 0
 #define HAS_PIECES 0
+#define HAS_ROUND_CONES 0
+#define HAS_LATHES 0
 #define HAS_SECOND_UV 0
 #define HAS_SMOOTH 0
 #define HAS_EMISSION 0
@@ -28,11 +30,15 @@
 #define HAS_FRONT_ONLY 0
 #define HAS_SHEEN 0
 #define HAS_THIN 0
+#define HAS_TRANSLUCENT 0
+#define HAS_ANISOTROPY 0
+#define HAS_FILM 0
 #define HAS_TRANSMISSION 0
 #define HAS_PANES 0
 #define ANY_PANE false
 #define ANY_INTERFACE false
 #define HAS_MEDIA 0
+#define HAS_DISPERSION 0
 #define HAS_ABSORPTION 0
 #define HAS_SCATTERING 0
 #define HAS_MEDIUM_EXTENT 0
@@ -190,6 +196,12 @@
 #define TEXTURES_OF_normal_map(X)
 #define TEXTURES_OF_bump(X)
 #define TEXTURES_OF_coat_normal(X)
+#define TEXTURES_OF_diffuse_transmission(X) X(constant, 0u, false)
+#define TEXTURES_OF_diffuse_transmission_color(X) X(constant, 0u, false)
+#define TEXTURES_OF_anisotropy(X) X(constant, 0u, false)
+#define TEXTURES_OF_anisotropy_direction(X)
+#define TEXTURES_OF_iridescence(X) X(constant, 0u, false)
+#define TEXTURES_OF_iridescence_thickness(X) X(constant, 0u, false)
 #define TEXTURES_OF_alpha(X) X(constant, 0u, false)
 #define CLOSED_SHAPES(X)
 #define IMMEDIATE_LEAVES(X)
