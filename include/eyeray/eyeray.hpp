@@ -287,7 +287,7 @@ enum class Backend {
 };
 
 enum class Denoiser {
-  own,                 // eyeray's: exact in its means, the same bits on every machine
+  own,                 // eyeray's, which keeps the mean brightness
   open_image_denoise,  // Intel's library, if it is installed
 };
 

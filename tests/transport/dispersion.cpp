@@ -34,7 +34,7 @@ double transmitted(double angle, double ior) {
 
 }  // namespace
 
-TEST_CASE("dispersion: a lamp in glass is seen in one colour where only that colour is refracted to it") {
+TEST_CASE("dispersion: a light in glass is seen in one colour where only that colour is refracted to it") {
   constexpr double angle = M_PI / 3, abbe = 4, ior = 1.5;
   // n_F − n_C = (n_d − 1) / V: red is seen by the C line, green by the d line, blue by the F line.
   const double half = (ior - 1) / abbe / 2, indices[] = {ior - half, ior, ior + half};
