@@ -44,9 +44,16 @@ struct LeftOut {
   bool first_half;  // whether the channel `half` has them
 };
 
+// A sample to add to the sums of its pixel.
+struct AddedSample {
+  const PixelSample& sample;
+  const AuxiliarySample& auxiliary;
+  uint64_t number;  // the number of the pixel's samples before it
+};
+
 struct OfSamples {
   int sums = 0;  // number of float64 sums a pixel; each starts at 0
-  void (*add)(const PixelSample& sample, const AuxiliarySample& auxiliary, double* sums) = nullptr;
+  void (*add)(const AddedSample& added, double* sums) = nullptr;
   // Writes the values of a pixel whose samples have all been added; 0 for a pixel without samples. Null: the
   // value is the noise of the pixel's block (Film::noise), and its one sum is that of squared luminances.
   void (*mean)(const PixelTotals& totals, const double* sums, float* values) = nullptr;

@@ -32,20 +32,19 @@ float share(float value) {
   return std::clamp(value, 0.0f, 1.0f);
 }
 
-void add_reflected_and_refracted(const PixelSample& sample, const AuxiliarySample&, double* sums) {
-  sums[0] += sample.reflected;
-  sums[1] += sample.refracted;
+void add_reflected_and_refracted(const AddedSample& added, double* sums) {
+  sums[0] += added.sample.reflected;
+  sums[1] += added.sample.refracted;
 }
 
-// Adds to the sums of a mean over the first half of the samples. After its three sums comes the number of all
-// samples.
-void add_to_half(const Vec3& value, double* sums) {
-  if (in_first_half(uint64_t(sums[3]++)))
+// Adds to the sums of a mean over the first half of the samples.
+void add_to_half(const Vec3& value, uint64_t number, double* sums) {
+  if (in_first_half(number))
     for (int i = 0; i < 3; ++i) sums[i] += value[i];
 }
 
-void means_of_half(const PixelTotals&, const double* sums, float* values) {
-  const auto samples = double(std::max(uint64_t{1}, first_half_of(uint64_t(sums[3]))));
+void means_of_half(const PixelTotals& totals, const double* sums, float* values) {
+  const auto samples = double(std::max(uint64_t{1}, first_half_of(totals.samples)));
   for (int i = 0; i < 3; ++i) values[i] = float(sums[i] / samples);
 }
 
@@ -159,8 +158,8 @@ constexpr ChannelType types[] = {
      .shown_as = image::FalseColor::scalar,
      .values = OfSamples{
          .sums = 1,
-         .add = [](const PixelSample& sample, const AuxiliarySample&,
-                   double* sums) { *sums += luminance(sample.color) * luminance(sample.color); },
+         .add = [](const AddedSample& added,
+                   double* sums) { *sums += luminance(added.sample.color) * luminance(added.sample.color); },
          .leave_out = [](const LeftOut& left,
                          double* sums) { *sums = squares_without(*sums, luminance(left.sum), left); }}},
     {.name = "brightest",
@@ -168,8 +167,8 @@ constexpr ChannelType types[] = {
      .shown_as = image::FalseColor::depth,
      .values = OfSamples{
          .sums = 1,
-         .add = [](const PixelSample& sample, const AuxiliarySample&,
-                   double* sums) { *sums = std::max(*sums, double(float(luminance(sample.color)))); },
+         .add = [](const AddedSample& added,
+                   double* sums) { *sums = std::max(*sums, double(float(luminance(added.sample.color)))); },
          .mean = [](const PixelTotals&, const double* sums, float* values) { *values = float(*sums); }}},
     {.name = "noisy",
      .components = 3,
@@ -185,8 +184,9 @@ constexpr ChannelType types[] = {
      .shown_as = image::FalseColor::color,
      .values = OfSamples{.sums = 3,
                          .add =
-                             [](const PixelSample& sample, const AuxiliarySample&, double* sums) {
-                               for (int i = 0; i < 3; ++i) sums[i] += sample.color[i] * sample.color[i];
+                             [](const AddedSample& added, double* sums) {
+                               for (int i = 0; i < 3; ++i)
+                                 sums[i] += added.sample.color[i] * added.sample.color[i];
                              },
                          .mean = variances_of_means,
                          .leave_out =
@@ -198,9 +198,9 @@ constexpr ChannelType types[] = {
      .components = 3,
      .component_names = {"R", "G", "B"},
      .shown_as = image::FalseColor::color,
-     .values = OfSamples{.sums = 4,
-                         .add = [](const PixelSample& sample, const AuxiliarySample&,
-                                   double* sums) { add_to_half(sample.color, sums); },
+     .values = OfSamples{.sums = 3,
+                         .add = [](const AddedSample& added,
+                                   double* sums) { add_to_half(added.sample.color, added.number, sums); },
                          .mean = means_of_half,
                          .leave_out =
                              [](const LeftOut& left, double* sums) {
@@ -214,8 +214,8 @@ constexpr ChannelType types[] = {
      .shown_as = image::FalseColor::color,
      .values = OfSamples{.sums = 3,
                          .add =
-                             [](const PixelSample&, const AuxiliarySample& auxiliary, double* sums) {
-                               for (int i = 0; i < 3; ++i) sums[i] += auxiliary.albedo[i];
+                             [](const AddedSample& added, double* sums) {
+                               for (int i = 0; i < 3; ++i) sums[i] += added.auxiliary.albedo[i];
                              },
                          .mean = means_of_three},
      .needs = Needs::auxiliary},
@@ -224,8 +224,8 @@ constexpr ChannelType types[] = {
      .shown_as = image::FalseColor::direction,
      .values = OfSamples{.sums = 3,
                          .add =
-                             [](const PixelSample&, const AuxiliarySample& auxiliary, double* sums) {
-                               for (int i = 0; i < 3; ++i) sums[i] += auxiliary.normal[i];
+                             [](const AddedSample& added, double* sums) {
+                               for (int i = 0; i < 3; ++i) sums[i] += added.auxiliary.normal[i];
                              },
                          .mean = means_of_three},
      .needs = Needs::auxiliary},
@@ -233,41 +233,42 @@ constexpr ChannelType types[] = {
      .components = 3,
      .component_names = {"R", "G", "B"},
      .shown_as = image::FalseColor::color,
-     .values = OfSamples{.sums = 4,
-                         .add = [](const PixelSample&, const AuxiliarySample& auxiliary,
-                                   double* sums) { add_to_half(auxiliary.albedo, sums); },
+     .values = OfSamples{.sums = 3,
+                         .add = [](const AddedSample& added,
+                                   double* sums) { add_to_half(added.auxiliary.albedo, added.number, sums); },
                          .mean = means_of_half},
      .needs = Needs::auxiliary},
     {.name = "half_normal",
      .components = 3,
      .shown_as = image::FalseColor::direction,
-     .values = OfSamples{.sums = 4,
-                         .add = [](const PixelSample&, const AuxiliarySample& auxiliary,
-                                   double* sums) { add_to_half(auxiliary.normal, sums); },
+     .values = OfSamples{.sums = 3,
+                         .add = [](const AddedSample& added,
+                                   double* sums) { add_to_half(added.auxiliary.normal, added.number, sums); },
                          .mean = means_of_half},
      .needs = Needs::auxiliary},
     {.name = "coverage",
      .components = 1,
      .shown_as = image::FalseColor::scalar,
-     .values = OfSamples{.sums = 1,
-                         .add = [](const PixelSample& sample, const AuxiliarySample&,
-                                   double* sums) { *sums += 1 - sample.background; },
-                         .mean = [](const PixelTotals& totals, const double* sums,
-                                    float* values) { *values = share(mean_of(*sums, totals)); }},
+     .values = OfSamples{
+         .sums = 1,
+         .add = [](const AddedSample& added, double* sums) { *sums += 1 - added.sample.background; },
+         .mean = [](const PixelTotals& totals, const double* sums,
+                    float* values) { *values = share(mean_of(*sums, totals)); }},
      .needs = Needs::coverage,
      .of_corners = OfCorners::mean},
     {.name = "half_coverage",
      .components = 1,
      .shown_as = image::FalseColor::scalar,
-     .values = OfSamples{.sums = 4,
-                         .add = [](const PixelSample& sample, const AuxiliarySample&,
-                                   double* sums) { add_to_half(Vec3(1 - sample.background), sums); },
-                         .mean =
-                             [](const PixelTotals& totals, const double* sums, float* values) {
-                               float means[3];
-                               means_of_half(totals, sums, means);
-                               *values = share(means[0]);
-                             }},
+     .values = OfSamples{
+         .sums = 3,
+         .add = [](const AddedSample& added,
+                   double* sums) { add_to_half(Vec3(1 - added.sample.background), added.number, sums); },
+         .mean =
+             [](const PixelTotals& totals, const double* sums, float* values) {
+               float means[3];
+               means_of_half(totals, sums, means);
+               *values = share(means[0]);
+             }},
      .needs = Needs::coverage},
     {.name = "nodes",
      .components = 1,

@@ -76,10 +76,10 @@ void Film::add(const Rect& part, std::span<const PixelSample> samples,
     pixel.hits += sample.hits;
     pixel.rays += sample.rays;
     pixel.flags |= sample.flags | auxiliary.flags;
-    ++pixel.samples;
+    const AddedSample added{sample, auxiliary, pixel.samples++};
     for (size_t c = 0; c < channels_.size(); ++c) {
       const OfSamples& values = *channels_[c]->of_samples();
-      if (values.add) values.add(sample, auxiliary, &sums_[c][at * size_t(values.sums)]);
+      if (values.add) values.add(added, &sums_[c][at * size_t(values.sums)]);
     }
   });
 }

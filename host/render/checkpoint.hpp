@@ -13,6 +13,8 @@
 //            40 each the sums of the band's pixels, top row first: red, green, blue (float64), hits, rays,
 //                    flags, samples and in the highest bit whether it takes no more (uint32)
 //            8 each  the sums of each channel (the identity names them), of the same pixels (float64)
+//            4 each  with --reject-fireflies, the colours' sums of each group of samples of the same pixels
+//                    (float32)
 //            4       CRC-32 of the sums
 //
 // FILE.rows holds the finished rows above the band (film/row_store.hpp); a picture of one band has none.
