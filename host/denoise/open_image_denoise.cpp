@@ -19,7 +19,7 @@ using image::Image;
 
 // The parts of the library's C interface that are used, as its oidn.h declares them.
 struct Library {
-  using Handle = struct Opaque*;
+  using Handle = void*;  // a device or a filter
   Handle (*new_device)(int type) = nullptr;
   void (*commit_device)(Handle device) = nullptr;
   int (*device_error)(Handle device, const char** message) = nullptr;
