@@ -1,7 +1,5 @@
 #include "host/loader/font_files.hpp"
 
-#include <algorithm>
-
 #include "host/core/error.hpp"
 #include "host/core/input_file.hpp"
 
@@ -16,8 +14,8 @@ constexpr size_t most_fonts = 64;
 
 std::shared_ptr<const std::string> FontFiles::load(const std::string& name, const SourcePosition& position) {
   try {
-    const auto [path, whole] = folders_.find("font", name, position.file, sources_);
-    if (std::ranges::find(files_, path) == files_.end()) files_.push_back(path);
+    const auto [path, whole] = files_.find("font", name, position);
+    files_.add(path);
     const auto found = fonts_.find(whole);
     if (found != fonts_.end()) return found->second;
     if (fonts_.size() == most_fonts)

@@ -1,7 +1,5 @@
 #include "host/loader/formula_files.hpp"
 
-#include <algorithm>
-
 #include "host/core/error.hpp"
 #include "host/core/input_file.hpp"
 
@@ -16,9 +14,8 @@ constexpr size_t most_bytes = size_t{1} << 16;
 std::optional<formula::FormulaText> FormulaFiles::load(const std::string& name,
                                                        const SourcePosition& position) {
   try {
-    const auto [path, whole] = folders_.find("file", name, position.file, sources_);
-    const bool fresh = std::ranges::find(files_, path) == files_.end();
-    if (fresh) files_.push_back(path);
+    const auto [path, whole] = files_.find("file", name, position);
+    const bool fresh = files_.add(path);
     formula::FormulaText text{read_input_file(path, "the formula", most_bytes), {path.string(), 1, 1}};
     drop_byte_order_mark(text.text);
     if (fresh) log_.add_source(path.string(), text.text);

@@ -30,22 +30,14 @@ std::shared_ptr<const ImageTexture> with_settings(ImageTexture from, const Image
 
 }  // namespace
 
-AllowedFolders::File ImageFiles::find(const std::string& name, const SourcePosition& position) {
-  return folders_.find("image", name, position.file, sources_);
-}
-
-void ImageFiles::take_note(const std::filesystem::path& path) {
-  if (std::ranges::find(files_, path) == files_.end()) files_.push_back(path);
-}
-
 std::optional<image::Image> ImageFiles::load_light(const std::string& name, const SourcePosition& position) {
   try {
-    const auto [path, whole] = find(name, position);
+    const auto [path, whole] = files_.find("image", name, position);
     if (image::image_format(path) == image::ImageFormat::png)
       throw Error(ExitCode::bad_input,
                   "{}: a .png stores colours for a screen, not light; use a .hdr, .exr or .pfm",
                   path.string());
-    take_note(path);
+    files_.add(path);
     std::vector<std::string> warnings;
     image::Image light = read_light(path, warnings);
     for (const std::string& warning : warnings) log_.warning(position, warning);
@@ -58,11 +50,11 @@ std::optional<image::Image> ImageFiles::load_light(const std::string& name, cons
 
 std::shared_ptr<const ImageTexture> ImageFiles::load(ImageTexture wanted, const SourcePosition& position) {
   try {
-    const auto [path, whole] = find(wanted.name, position);
+    const auto [path, whole] = files_.find("image", wanted.name, position);
     const auto [entry, fresh] = images_.try_emplace(whole);
     auto& [variants, refused] = entry->second;
     if (fresh) {
-      take_note(path);
+      files_.add(path);
       try {
         std::vector<std::string> warnings;
         variants.push_back(with_settings(load_image_texture(path, budget_, warnings), wanted));

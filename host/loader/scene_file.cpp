@@ -17,6 +17,7 @@
 #include "host/loader/mesh_imports.hpp"
 #include "host/loader/mesh_scene.hpp"
 #include "host/loader/mesh_view.hpp"
+#include "host/loader/named_files.hpp"
 #include "host/loader/overrides.hpp"
 #include "host/loader/scene_builder.hpp"
 #include "host/scene/integrator.hpp"
@@ -27,16 +28,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Makes the scene of a document. `images`, `meshes`, `formulas` and `fonts`: the files that it may use, or
-// null for none. `trusted`: true if it may define functions.
-Scene finish(Document document, const fs::path& file, std::span<const Override> overrides, ImageFiles* images,
-             MeshImports* meshes, FormulaFiles* formulas, FontFiles* fonts, bool trusted,
-             DiagnosticLog& log) {
+// Makes the scene of a document. `sources`: the files that it may use; `named` has those of `sources` that
+// are no meshes, or is null for none. `trusted`: true if it may define functions.
+Scene finish(Document document, const fs::path& file, std::span<const Override> overrides,
+             const SceneSources& sources, const NamedFiles* named, bool trusted, DiagnosticLog& log) {
+  MeshImports* const meshes = sources.meshes;
   apply_overrides(document.root, overrides, log);
   Animation animation = apply_animation(document.root, log);
   if (!trusted) refuse_formulas(document.root, log);
   if (meshes) meshes->show(seconds(animation));
-  Scene scene = build_scene(document.root, {images, meshes, formulas, fonts}, log);
+  Scene scene = build_scene(document.root, sources, log);
   if (log.has_errors()) throw InputError(log.sorted());
   if (meshes) {
     const double rate = animation.frames_per_second;
@@ -46,10 +47,8 @@ Scene finish(Document document, const fs::path& file, std::span<const Override> 
   scene.animation = animation;
   scene.file = file;
   scene.files = std::move(document.files);
-  if (images) scene.files.insert(scene.files.end(), images->files().begin(), images->files().end());
+  if (named) scene.files.insert(scene.files.end(), named->files().begin(), named->files().end());
   if (meshes) scene.files.insert(scene.files.end(), meshes->files().begin(), meshes->files().end());
-  if (formulas) scene.files.insert(scene.files.end(), formulas->files().begin(), formulas->files().end());
-  if (fonts) scene.files.insert(scene.files.end(), fonts->files().begin(), fonts->files().end());
   scene.warnings = log.sorted();
   return scene;
 }
@@ -145,20 +144,22 @@ Scene load_moment(const fs::path& file, std::span<const Override> overrides, con
     MeshImports meshes(folders, std::move(trees), {file}, pixels);
     std::vector<Override> others(overrides.begin(), overrides.end());
     Document document = read_mesh(file, others, trust.formulas, meshes, log);
-    ImageFiles images(folders, document.files, pixels, log);
-    Scene scene =
-        finish(std::move(document), file, others, &images, &meshes, nullptr, nullptr, trust.formulas, log);
+    NamedFiles named(folders, document.files);
+    ImageFiles images(named, pixels, log);
+    Scene scene = finish(std::move(document), file, others, {.images = &images, .meshes = &meshes}, &named,
+                         trust.formulas, log);
     scene.is_mesh_alone = true;
     return scene;
   }
   refuse_mesh_choices(overrides, file);
   Document document = read_document(file, folders, log);
-  ImageFiles images(folders, document.files, pixels, log);
+  NamedFiles named(folders, document.files);
+  ImageFiles images(named, pixels, log);
   MeshImports meshes(folders, std::move(trees), document.files, pixels);
-  FormulaFiles formulas(folders, document.files, log);
-  FontFiles fonts(folders, document.files, log);
-  return finish(std::move(document), file, overrides, &images, &meshes, &formulas, &fonts, trust.formulas,
-                log);
+  FormulaFiles formulas(named, log);
+  FontFiles fonts(named, log);
+  return finish(std::move(document), file, overrides, {&images, &meshes, &formulas, &fonts}, &named,
+                trust.formulas, log);
 }
 
 Scene parse_moment(std::string_view text, const std::string& name, std::span<const Override> overrides,
@@ -167,8 +168,8 @@ Scene parse_moment(std::string_view text, const std::string& name, std::span<con
   image::PixelBudget pixels;
   MeshImports meshes(files, pixels);
   Document document = parse_document(text, name, log);
-  return finish(std::move(document), name, overrides, nullptr, files.empty() ? nullptr : &meshes, nullptr,
-                nullptr, formulas, log);
+  return finish(std::move(document), name, overrides, {.meshes = files.empty() ? nullptr : &meshes}, nullptr,
+                formulas, log);
 }
 
 }  // namespace

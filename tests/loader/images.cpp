@@ -94,7 +94,8 @@ TEST_CASE("names are relative to the file that contains them; each file is read 
   DiagnosticLog log;
   const AllowedFolders allowed(main, {});
   PixelBudget budget;
-  ImageFiles files(allowed, {main, part}, budget, log);
+  NamedFiles named(allowed, {main, part});
+  ImageFiles files(named, budget, log);
   ImageTexture wanted;
   wanted.name = "a.png";
   const auto first = files.load(wanted, {part, 1, 1});
@@ -107,7 +108,7 @@ TEST_CASE("names are relative to the file that contains them; each file is read 
   CHECK(nearest->filter == Filter::nearest);
   CHECK(first->filter == Filter::bilinear);
   CHECK(nearest->texels == first->texels);
-  CHECK(files.files().size() == 1);
+  CHECK(named.files().size() == 1);
 }
 
 TEST_CASE("an override's image is relative to the scene") {
@@ -171,7 +172,8 @@ TEST_CASE("all images of a scene share one budget of pixels; each setting of an 
   log.add_source(main, read_file(main));
   const AllowedFolders allowed(main, {});
   PixelBudget budget{10};
-  ImageFiles files(allowed, {main}, budget, log);
+  NamedFiles named(allowed, {main});
+  ImageFiles files(named, budget, log);
   ImageTexture wanted;
   wanted.name = "a.png";
   CHECK(files.load(wanted, {main, 4, 21}));
