@@ -315,6 +315,7 @@ void check_verified(uint64_t seed) {
   }
   verify::Options options;
   options.executor.gpu.constants = row.level[storage] == 0;
+  options.executor.gpu.timeout_seconds = 600;  // compilers are slow on a busy machine
   options.max_explained = 0.05;
   const compare::Report report = verify::verify_scene({scene, fmt::format("seed {}", seed), "", ""}, options);
   INFO(text);
