@@ -325,6 +325,8 @@ void add_verify(CLI::App& app, Run& run) {
                    "square root or division is not exact.")
       ->option_text("N=0")
       ->check(whole_within(0, 64));
+  command->add_flag("--denoise", how.denoise,
+                    "Also compare the pictures without their noise, as for scenes with denoise = true.");
   command->add_flag("--raster", how.raster,
                     "Also compare the hits of camera rays with the device's rasteriser.");
   command

@@ -94,6 +94,10 @@ std::string Report::diagnosis() const {
   if (own_gates_pass())
     return "the scene's own gates pass, so its expected look has changed, by the scene or by a change in all "
            "executors; --update keeps the new picture";
+  Report noisy = *this;
+  noisy.denoised.clear();
+  if (noisy.passes())
+    return "only denoised pictures fail: check shaders/denoise, its kernel, or the denoisers on the host";
   std::string text = side(*this);
   for (const ReferenceResult& result : against_reference) {
     const std::string found = first_wrong_value(result);

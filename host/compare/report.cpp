@@ -47,6 +47,22 @@ std::string describe(const ExactResult& result) {
       c.worst.pixel.x, c.worst.pixel.y, name(c.worst.seam));
 }
 
+void add_failures(std::vector<std::string>& failures, const DenoisedResult& result) {
+  if (!result.equals_other())
+    failures.push_back(fmt::format("gate A: {} and {}, denoised: {} of {} pixels differ in their bits",
+                                   result.other, result.value, result.different, result.pixels));
+  if (result.agrees_with_reference()) return;
+  const std::string sides = fmt::format("gate B: {} against the reference, denoised", result.value);
+  if (result.wrong > 0)
+    failures.push_back(
+        fmt::format("{}: {} of {} pixels differ by more than the tolerance; the worst is {},{}", sides,
+                    result.wrong, result.pixels, result.worst.x, result.worst.y));
+  else
+    failures.push_back(
+        fmt::format("{}: rounding may decide {} of {} pixels, which is more than the {} allowed", sides,
+                    result.undecided, result.pixels, result.may_be_undecided()));
+}
+
 std::string describe(const RasterResult& result) {
   return fmt::format(
       "gate R: {} against the rasteriser: {} of {} pixels are not explained by the geometry; the first is "
@@ -111,6 +127,7 @@ std::vector<std::string> Report::failures() const {
       failures.push_back(
           fmt::format("gate D: {} against the reference: {}", result.value, describe(c.paired_sum)));
   }
+  for (const DenoisedResult& result : denoised) add_failures(failures, result);
   for (const RasterResult& result : raster)
     if (!result.passes()) failures.push_back(describe(result));
   if (golden && !golden->passes()) {

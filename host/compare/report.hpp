@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "host/compare/against_reference.hpp"
+#include "host/compare/denoised_result.hpp"
 #include "host/compare/exact.hpp"
 #include "host/compare/metrics.hpp"
 #include "host/compare/raster_result.hpp"
@@ -96,8 +97,9 @@ struct Report {
   std::vector<Participant> participants;
   std::vector<ExactResult> exact;
   std::vector<ReferenceResult> against_reference;
-  std::vector<RasterResult> raster;    // gate R for every participant; empty if not requested
-  std::optional<PhotonTally> photons;  // set if the scene's integrator emits any
+  std::vector<DenoisedResult> denoised;  // for each executor of the shaders; empty if not requested
+  std::vector<RasterResult> raster;      // gate R for every participant; empty if not requested
+  std::optional<PhotonTally> photons;    // set if the scene's integrator emits any
   std::optional<GoldenResult> golden;
   // The names of the indices in first hits, such as `sphere "left eye", scene.toml:12`, for the indices that
   // a report names.

@@ -109,6 +109,18 @@ Json json(const ReferenceResult& result) {
   return object;
 }
 
+Json json(const DenoisedResult& result) {
+  return {{"value", result.value},
+          {"other", result.other.empty() ? Json() : Json(result.other)},
+          {"passed", result.passes()},
+          {"pixels", result.pixels},
+          {"different_pixels", result.different},
+          {"wrong_pixels", result.wrong},
+          {"undecided_pixels", result.undecided},
+          {"largest_in_tolerances", result.largest},
+          {"worst", {result.worst.x, result.worst.y}}};
+}
+
 Json json(const RasterResult& result) {
   Json explained = Json::object(), not_drawn = Json::object();
   for (int i = 0; i < raster_cause_count; ++i) explained[name(RasterCause(i))] = result.explained[size_t(i)];
@@ -171,6 +183,7 @@ Json json(const Report& report) {
           {"executors", list(report.participants)},
           {"gate_a", list(report.exact)},
           {"gates_b_c", list(report.against_reference)},
+          {"denoised", list(report.denoised)},
           {"gate_r", list(report.raster)},
           {"photons", report.photons ? Json{{"sent", report.photons->sent},
                                             {"diverged", report.photons->diverged},

@@ -98,6 +98,23 @@ void add(std::string& text, const Report& report, const ReferenceResult& result)
   if (result.metrics) line(text, "    {}", to_text(*result.metrics));
 }
 
+void add(std::string& text, const DenoisedResult& result) {
+  if (!result.other.empty())
+    line(text, "  gate A {} {} = {}, denoised: {} of {} pixels differ in their bits",
+         result.equals_other() ? "passed" : "FAILED", result.other, result.value, result.different,
+         result.pixels);
+  line(text,
+       "  gate B {} {} = reference, denoised: {} of {} pixels differ by more than the tolerance, the largest "
+       "by "
+       "{:.3g} tolerances; {} undecided",
+       result.agrees_with_reference() ? "passed" : "FAILED", result.value, result.wrong, result.pixels,
+       result.largest, result.undecided);
+  if (result.agrees_with_reference()) return;
+  line(text, "    worst pixel {},{}", result.worst.x, result.worst.y);
+  line(text, "      {:9} {:.9g}", result.value, fmt::join(result.worst_value, " "));
+  line(text, "      reference {:.9g}", fmt::join(result.worst_reference, " "));
+}
+
 std::string numbered(const std::map<std::string, uint64_t>& counts) {
   std::string text;
   for (const auto& [what, count] : counts)
@@ -215,6 +232,7 @@ std::string to_text(const Report& report) {
       add(text, report, result);
     }
   }
+  for (const DenoisedResult& result : report.denoised) add(text, result);
   if (!report.raster.empty()) add_drawing(text, report.raster[0]);
   for (const RasterResult& result : report.raster) add(text, report, result);
   if (report.golden) add(text, report, *report.golden);

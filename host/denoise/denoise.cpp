@@ -12,8 +12,6 @@
 #include "host/denoise/alpha.hpp"
 #include "host/denoise/block_means.hpp"
 #include "host/denoise/choice.hpp"
-#include "host/denoise/distances.hpp"
-#include "host/denoise/regression.hpp"
 #include "host/scene/luminance.hpp"
 
 namespace eyeray::engine::denoise {
@@ -21,28 +19,17 @@ namespace {
 
 using image::Image;
 
-// The weight of differences in two fits: one keeps details, and one averages more.
-constexpr float careful_strictness = 2.5f, bold_strictness = 0.4f;
-constexpr int feature_radius = 5;          // radius of the window in which features lose their noise
-constexpr float feature_variance = 1e-4f;  // added to the variance of features, which are from −1 to 1
-constexpr float least_albedo = 0.02f;      // the least that colours are divided by
-constexpr float dot_brightness = 16;       // the least brightness of a dot, relative to its surroundings
-constexpr float dot_doubt = 0.2f;          // the least standard error of a dot, relative to its brightness
+constexpr float least_albedo = 0.02f;  // the least that colours are divided by
+constexpr float dot_brightness = 16;   // the least brightness of a dot, relative to its surroundings
+constexpr float dot_doubt = 0.2f;      // the least standard error of a dot, relative to its brightness
 constexpr int scaling_radius = 5;  // radius of the windows in which variances are compared with the halves
-
-// Calls body(x, y) for the first pixel of each tile.
-template <typename Body>
-void for_each_tile(const Planes& planes, const Body& body) {
-  const int across = (planes.width() + tile_width - 1) / tile_width;
-  const int down = (planes.height() + tile_height - 1) / tile_height;
-  parallel_for(0, across * down, [&](int i) { body(i % across * tile_width, i / across * tile_height); });
-}
 
 // One picture while its noise is removed.
 class Denoising {
  public:
-  explicit Denoising(const NoisyPicture& picture)
+  Denoising(const NoisyPicture& picture, Stages& stages)
       : picture_(picture),
+        stages_(stages),
         width_(picture.color.width()),
         height_(picture.color.height()),
         planes_(picture.coverage.sample_count() > 0 ? 4 : 3),
@@ -66,17 +53,7 @@ class Denoising {
     const float least = least_variance(lights.first);
 
     Halves careful(width_, height_, planes_), bold(width_, height_, planes_);
-    for_each_tile(valid_, [&](int x, int y) {
-      Distances distances(window_radius);
-      const auto fit = [&](const Planes& half, Planes& one, Planes& other) {
-        fit_tile(half, features, distances, careful_strictness, x, y, one);
-        fit_tile(half, features, distances, bold_strictness, x, y, other);
-      };
-      distances.compute(lights.second, light_variances.second, least, valid_, x, y);
-      fit(colors.first, careful.first, bold.first);
-      distances.compute(lights.first, light_variances.first, least, valid_, x, y);
-      fit(colors.second, careful.second, bold.second);
-    });
+    stages_.fit({colors, features, lights, light_variances, least, valid_}, careful, bold);
     choose_best(colors, variances, valid_, 0, 3, bold, careful);
     if (planes_ == 4) choose_best(colors, variances, valid_, 3, 4, bold, careful);
     return result_of(careful);
@@ -249,13 +226,7 @@ class Denoising {
     const Planes variances = blurred(squares, 2);
 
     Planes features(width_, height_, feature_count);
-    for_each_tile(valid_, [&](int x, int y) {
-      Distances distances(feature_radius);
-      distances.compute(halves.second, variances, feature_variance, valid_, x, y);
-      average_tile(halves.first, distances, x, y, features);
-      distances.compute(halves.first, variances, feature_variance, valid_, x, y);
-      average_tile(halves.second, distances, x, y, features);
-    });
+    stages_.average({halves, variances, valid_}, features);
     features.extend();
     return features;
   }
@@ -303,6 +274,7 @@ class Denoising {
   }
 
   const NoisyPicture& picture_;
+  Stages& stages_;
   const int width_, height_;
   const int planes_;  // 3 for the colour, and one for the alpha of a transparent picture
   Planes valid_;      // 1 for pixels that take part
@@ -310,8 +282,13 @@ class Denoising {
 
 }  // namespace
 
+DenoisedPicture denoise(const NoisyPicture& picture, Stages& stages) {
+  return Denoising(picture, stages).run();
+}
+
 DenoisedPicture denoise(const NoisyPicture& picture) {
-  return Denoising(picture).run();
+  ProcessorStages stages;
+  return denoise(picture, stages);
 }
 
 }  // namespace eyeray::engine::denoise

@@ -1,35 +1,13 @@
 // Removes the noise of a picture by paths.
 #pragma once
 
-#include "host/image/image.hpp"
+#include "host/denoise/stages.hpp"
+#include "host/image/noisy_picture.hpp"
 
 namespace eyeray::engine::denoise {
 
-// The inputs of denoising: images of the same size. All but `samples` and `variance` are means over a pixel's
-// samples, or over the first half of them (`half_…`, core/halves.hpp). Albedo and normal belong to the first
-// surface that scatters light.
-struct NoisyPicture {
-  image::Image color;        // linear RGB
-  image::Image half_color;   // linear RGB
-  image::Image variance;     // the variance of `color`, that is of the mean, in 3 channels
-  image::Image albedo;       // 3 channels, 0 to 1
-  image::Image half_albedo;  // 3 channels
-  image::Image normal;       // 3 channels
-  image::Image half_normal;  // 3 channels
-  image::Image samples;      // the number of the pixel's samples, in 1 channel
-  // The alpha by which the colour is multiplied, in 1 channel; empty unless the picture is transparent.
-  image::Image coverage;
-  image::Image half_coverage;
-};
-
-struct DenoisedPicture {
-  image::Image color;  // linear RGB; of a transparent picture, multiplied by an alpha that follows
-  // An estimate of each pixel's error of luminance, in 1 channel: NaN where the colour is not finite. Blurred
-  // details do not count. Empty if the denoiser estimates no errors.
-  image::Image errors;
-  // The mean of these errors over the pixels that were denoised, relative to their mean luminance.
-  double error = 0;
-};
+using image::DenoisedPicture;
+using image::NoisyPicture;
 
 // In a window around each pixel, the colour is a linear function of albedo and normal, found by weighted
 // least squares. A neighbour has more weight, the less the two differ beyond their noise. Each half of the
@@ -46,6 +24,10 @@ struct DenoisedPicture {
 //
 // After Bitterli, Rousselle, Moon, Iglesias-Guitián, Adler, Mitchell, Jarosz and Novák, "Nonlinearly Weighted
 // First-order Regression for Denoising Monte Carlo Renderings" (EGSR 2016).
+//
+// `stages` computes the stages that take long. Every choice has the same bits.
+DenoisedPicture denoise(const NoisyPicture& picture, Stages& stages);
+// The same by this machine's processor.
 DenoisedPicture denoise(const NoisyPicture& picture);
 
 }  // namespace eyeray::engine::denoise

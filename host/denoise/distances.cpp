@@ -1,5 +1,6 @@
 #include "host/denoise/distances.hpp"
 
+#include "host/denoise/shader_functions.hpp"
 #include "host/denoise/wide_vectors.hpp"
 
 namespace eyeray::engine::denoise {
@@ -8,16 +9,13 @@ namespace {
 constexpr int patch = 2 * patch_radius + 1;
 constexpr int high = tile_height + 2 * patch_radius;
 constexpr int wide = tile_width + 8;  // a whole number of vectors; the last two columns are not used
-constexpr float own_part = 0.25f;
-constexpr float far_away = 1e30f;
 
 }  // namespace
 
 IN_WIDE_VECTORS void Distances::compute(const Planes& values, const Planes& variances, float least,
                                         const Planes& valid, int x, int y) {
   const int planes = values.count();
-  const float mean = 1.0f / float(planes * patch * patch);
-  const float own_mean = own_part / float(planes);
+  const float mean = shader::share_of_patch(planes), own_mean = shader::share_of_own(planes);
   const int rows = std::min(tile_height, values.height() - y);
   const int left = x - patch_radius, top = y - patch_radius;
   float differences[high][wide];
@@ -32,11 +30,7 @@ IN_WIDE_VECTORS void Distances::compute(const Planes& values, const Planes& vari
           const float* const b = values.at(plane, left + dx, top + j + dy);
           const float* const va = variances.at(plane, left, top + j);
           const float* const vb = variances.at(plane, left + dx, top + j + dy);
-          for (int i = 0; i < wide; ++i) {
-            const float apart = a[i] - b[i];
-            const float noise = va[i] + std::min(va[i], vb[i]);
-            row[i] += (apart * apart - noise) / (least + noise);
-          }
+          for (int i = 0; i < wide; ++i) row[i] += shader::patch_difference(a[i], b[i], va[i], vb[i], least);
         }
         const float* const here = valid.at(0, left, top + j);
         const float* const there = valid.at(0, left + dx, top + j + dy);
@@ -52,10 +46,8 @@ IN_WIDE_VECTORS void Distances::compute(const Planes& values, const Planes& vari
           for (int i = 0; i < tile_width; ++i) out[i] += sums[j + k][i];
         const float* const own = &differences[j + patch_radius][patch_radius];
         const float* const counts = valid.at(0, x + dx, y + j + dy);
-        for (int i = 0; i < tile_width; ++i) {
-          const float distance = std::max(0.0f, std::max(out[i] * mean, own[i] * own_mean));
-          out[i] = distance + (1 - counts[i]) * far_away;
-        }
+        for (int i = 0; i < tile_width; ++i)
+          out[i] = shader::patch_distance(out[i] * mean, own[i] * own_mean, counts[i]);
       }
     }
   }

@@ -2,15 +2,15 @@
 #pragma once
 
 #include "host/denoise/distances.hpp"
+#include "host/denoise/stages.hpp"
 
 namespace eyeray::engine::denoise {
 
-constexpr int feature_count = 6;  // albedo and normal
-
 // Fits the `colors`, at most 4 planes, in the window of each pixel of a tile as a linear function of
 // `features`, by weighted least squares. (x, y): the tile's first pixel. Writes to `fitted` the function's
-// value at the pixel, 0 or more. A neighbour's weight is weight_at(strictness · distance). A coefficient
-// costs, so that features which hardly change in the window do not count.
+// value at the pixel, 0 or more. A neighbour's weight is neighbour_weight(strictness · distance)
+// (shaders/denoise/distance.glsl). A coefficient costs, so that features which hardly change in the window do
+// not count.
 void fit_tile(const Planes& colors, const Planes& features, const Distances& distances, float strictness,
               int x, int y, Planes& fitted);
 

@@ -217,14 +217,8 @@ class GpuExecutor final : public Executor {
       specialisation.packet_bvh =
           times_.measure("collapse", [&] { return pack::add_packet_bvh(packed, workgroups_.subgroup); });
 
-    gpu::KernelOptions how{.strict = device_.info().float_modes,
-                           .optimise = options_.gpu.optimise,
-                           .flatten = profile_.flatten,
-                           .worst = options_.gpu.worst_device,
-                           .validate = options_.gpu.validate_spirv};
-    how.exact = options_.gpu.division == Division::exact ||
-                (options_.gpu.division == Division::automatic && !open_device_->facts().exact_division);
-    if (options_.gpu.fast_math) how.strict = std::nullopt, how.exact = false;
+    gpu::KernelOptions how = kernel_options(options_.gpu, *open_device_);
+    how.flatten = profile_.flatten;
     // A capped driver grants 65 535 iterations to all loops together (docs/lavapipe.md).
     const uint32_t most_iterations = open_device_->facts().loop_cap ? 50'000 : LoopGuard().most();
     kernels_.emplace(

@@ -47,6 +47,17 @@ std::shared_ptr<gpu::Kernel> OpenDevice::kernel(std::span<const uint32_t> spirv,
   return built_.front().kernel;
 }
 
+gpu::KernelOptions kernel_options(const GpuOptions& options, OpenDevice& device) {
+  gpu::KernelOptions how{.strict = device.device().info().float_modes,
+                         .optimise = options.optimise,
+                         .worst = options.worst_device,
+                         .validate = options.validate_spirv};
+  how.exact = options.division == Division::exact ||
+              (options.division == Division::automatic && !device.facts().exact_division);
+  if (options.fast_math) how.strict = std::nullopt, how.exact = false;
+  return how;
+}
+
 void check_device(const GpuOptions& options) {
   gpu::check_choice(device_options(options, false));
 }

@@ -11,6 +11,7 @@
 #include "host/core/stopwatch.hpp"
 #include "host/executors/options.hpp"
 #include "host/gpu/kernel.hpp"
+#include "host/gpu/kernel_compiler.hpp"
 #include "host/gpu/self_test.hpp"
 
 namespace eyeray::engine::executors {
@@ -42,6 +43,9 @@ class OpenDevice {
   gpu::DeviceFacts facts_;
   std::list<Built> built_;  // the most recently used first
 };
+
+// The way that kernels are compiled for the device.
+gpu::KernelOptions kernel_options(const GpuOptions& options, OpenDevice& device);
 
 // Error (no_device) if there is no usable device that the options select. Opens none.
 void check_device(const GpuOptions& options);

@@ -1,4 +1,4 @@
-// Options on how hits are found. The hits do not depend on them.
+// Options on how hits are found, and noise is removed. The results do not depend on them.
 #pragma once
 
 #include <string>
@@ -13,6 +13,7 @@ struct ProfileOptions {
   std::string stack;             // shift | array
   std::string rays;              // packets: trace coherent rays together | lanes: trace each alone
   std::string incoherent;        // incoherent rays: cooperative (four lanes a ray) | lanes | packets
+  std::string denoise;           // denoises by the device's kernels | by the processor
 
   bool operator==(const ProfileOptions&) const = default;
 };

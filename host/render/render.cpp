@@ -371,15 +371,20 @@ Rendering render(const Scene& scene, executors::Executor& executor, const Render
       result.color = image::Image(crop.width, crop.height, 3);
       result.hits = image::Image(crop.width, crop.height, 1);
       result.rays_traced = image::Image(crop.width, crop.height, 1);
+      for (const film::Channel channel : options.channels)
+        result.values.emplace_back(crop.width, crop.height, channel->components);
     }
     copy_rows(rows.color, rows.first, result.color);
     copy_rows(rows[film::channel_named("hits")], rows.first, result.hits);
     copy_rows(rows[film::channel_named("rays")], rows.first, result.rays_traced);
+    for (size_t i = 0; i < options.channels.size(); ++i)
+      copy_rows(rows[options.channels[i]], rows.first, result.values[i]);
   };
   RenderOptions with_counts = options;
   with_counts.channels = film::with(options.channels, {"hits", "rays"});
   static_cast<RenderTotals&>(result) = render_rows(scene, executor, with_counts, collect);
-  if (result.samples_done == 0) result.color = result.hits = result.rays_traced = image::Image();
+  if (result.samples_done == 0)
+    result.color = result.hits = result.rays_traced = image::Image(), result.values.clear();
   if (!options.first_hits || result.interrupted) return result;
 
   result.first_hits.resize(size_t(crop.pixels()));

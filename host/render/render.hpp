@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "host/core/ray_counts.hpp"
 #include "host/executors/executor.hpp"
@@ -106,6 +107,7 @@ struct Rendering : RenderTotals {
   image::Image color;                // color of the crop; linear RGB, the mean of the samples
   std::vector<FirstHit> first_hits;  // first hits of the crop; empty unless asked for
   image::Image hits, rays_traced;    // the channels `hits` and `rays`
+  std::vector<image::Image> values;  // RenderOptions::channels, one by one
 };
 
 // Renders like render_rows. If interrupted, the images are empty unless samples_done > 0, and first_hits is

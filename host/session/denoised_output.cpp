@@ -3,38 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/core/error.hpp"
 #include "host/denoise/open_image_denoise.hpp"
+#include "host/film/noisy_parts.hpp"
 #include "host/scene/luminance.hpp"
+#include "host/session/warnings.hpp"
 
 namespace eyeray::engine::session {
 namespace {
 
 using denoise::NoisyPicture;
 
-// The channels that denoising needs, and where they go.
-struct Part {
-  std::string_view channel;
-  image::Image NoisyPicture::* image;
-};
-constexpr Part usual_parts[] = {
-    {"half", &NoisyPicture::half_color},       {"variance", &NoisyPicture::variance},
-    {"albedo", &NoisyPicture::albedo},         {"half_albedo", &NoisyPicture::half_albedo},
-    {"shading_normal", &NoisyPicture::normal}, {"half_normal", &NoisyPicture::half_normal},
-    {"samples", &NoisyPicture::samples},
-};
-// Those that it needs as well for an alpha.
-constexpr Part alpha_parts[] = {{"coverage", &NoisyPicture::coverage},
-                                {"half_coverage", &NoisyPicture::half_coverage}};
-
-std::vector<Part> parts_of(bool transparent) {
-  std::vector<Part> parts(std::begin(usual_parts), std::end(usual_parts));
-  if (transparent) parts.insert(parts.end(), std::begin(alpha_parts), std::end(alpha_parts));
-  return parts;
-}
-
 film::Channels with_parts(film::Channels channels, bool transparent) {
-  for (const Part& part : parts_of(transparent)) channels = film::with(channels, {part.channel});
-  return film::with(channels, {"noisy"});
+  return film::with(film::with_noisy_parts(std::move(channels), transparent), {"noisy"});
 }
 
 }  // namespace
@@ -54,7 +35,7 @@ void DenoisedOutput::begin(const Plan& plan) {
   shown_as_one_ = std::exp2(-plan.tone.exposure);
   noise_wanted_ = plan.request.noise;
   picture_.color = image::Image(plan.crop.width, plan.crop.height, 3);
-  for (const Part& part : parts_of(transparent_))
+  for (const film::NoisyPart& part : film::noisy_parts(transparent_))
     picture_.*part.image =
         image::Image(plan.crop.width, plan.crop.height, film::channel_named(part.channel)->components);
   rows_.assign(1 + channels_.size(), 0);
@@ -72,7 +53,7 @@ void DenoisedOutput::write(size_t plane, const image::Image& rows) {
       std::copy_n(&rows.samples()[i], 3, color);
   } else {
     const film::Channel channel = channels_[plane - 1];
-    for (const Part& part : parts_of(transparent_))
+    for (const film::NoisyPart& part : film::noisy_parts(transparent_))
       if (part.channel == channel->name) keep(picture_.*part.image);
     // The noise that is left is written at the end.
     if (channel->name != "noise" || !estimates()) pass_on(channel, rows);
@@ -88,10 +69,22 @@ void DenoisedOutput::pass_on(film::Channel channel, const image::Image& rows) {
 denoise::DenoisedPicture DenoisedOutput::denoise(const NoisyPicture& picture) {
   const Stopwatch watch;
   denoise::DenoisedPicture denoised =
-      denoiser_ == Denoiser::own ? denoise::denoise(picture) : denoise::denoise_by_oidn(picture);
+      denoiser_ == Denoiser::own ? denoise_without_loss(picture) : denoise::denoise_by_oidn(picture);
   last_seconds_ = watch.seconds();
   seconds_ += last_seconds_;
   return denoised;
+}
+
+denoise::DenoisedPicture DenoisedOutput::denoise_without_loss(const NoisyPicture& picture) {
+  try {
+    return denoise::denoise(picture, *stages_);
+  } catch (const Error& error) {
+    const bool failed = error.code() == ExitCode::no_device || error.code() == ExitCode::timed_out;
+    if (!failed && error.code() != ExitCode::interrupted) throw;
+    if (failed) failure_ = error.what();
+  }
+  stages_ = std::make_unique<denoise::ProcessorStages>();
+  return denoise::denoise(picture, *stages_);
 }
 
 std::vector<double> DenoisedOutput::noise_of(const denoise::DenoisedPicture& picture) const {
@@ -112,7 +105,7 @@ std::vector<double> DenoisedOutput::noise_of(const denoise::DenoisedPicture& pic
 std::vector<double> DenoisedOutput::noise_left(const film::Rows& all) {
   NoisyPicture picture;
   picture.color = all.color;
-  for (const Part& part : parts_of(transparent_))
+  for (const film::NoisyPart& part : film::noisy_parts(transparent_))
     picture.*part.image = all[film::channel_named(part.channel)];
   return noise_of(denoise(picture));
 }
@@ -142,9 +135,20 @@ void DenoisedOutput::describe(Result& result) const {
   }
 }
 
+void DenoisedOutput::warn(std::vector<Diagnostic>& warnings) const {
+  if (!failure_.empty())
+    warnings.push_back(
+        warning("the picture was denoised by the processor, because the device failed: " + failure_));
+}
+
 void DenoisedOutput::add_times(StageTimes& times) const {
   if (seconds_ == 0) return;
-  times.add("denoise", seconds_);
+  double rest = seconds_;
+  for (const auto& [part, seconds] : stages_->times().stages()) {
+    times.add("denoise " + part, seconds);
+    rest -= seconds;
+  }
+  times.add("denoise", rest);
   times.add("encode", -last_seconds_);  // it was measured around finish_color
 }
 

@@ -1,6 +1,9 @@
 // A destination that gets a picture without its noise.
 #pragma once
 
+#include <memory>
+#include <utility>
+
 #include "host/denoise/denoise.hpp"
 #include "host/session/output.hpp"
 
@@ -14,6 +17,8 @@ class DenoisedOutput final : public Output {
   // picture has an alpha.
   DenoisedOutput(Denoiser denoiser, Output& output, const film::Channels& shown, bool transparent);
 
+  // To be called before the picture is finished.
+  void use(std::unique_ptr<denoise::Stages> stages) { stages_ = std::move(stages); }
   // All channels that the picture must be rendered with.
   const film::Channels& channels() const { return channels_; }
   std::vector<std::filesystem::path> files() const override { return output_.files(); }
@@ -28,17 +33,24 @@ class DenoisedOutput final : public Output {
   std::vector<double> noise_left(const film::Rows& all);
   // Adds the noise that is left in the picture.
   void describe(Result& result) const;
+  // Adds a warning if the device failed to denoise.
+  void warn(std::vector<Diagnostic>& warnings) const;
   void add_times(StageTimes& times) const;
 
  private:
   void pass_on(film::Channel channel, const image::Image& rows);
   denoise::DenoisedPicture denoise(const denoise::NoisyPicture& picture);
+  // If the device fails or is interrupted, the processor denoises, which has the same bits: the samples are
+  // not lost.
+  denoise::DenoisedPicture denoise_without_loss(const denoise::NoisyPicture& picture);
   std::vector<double> noise_of(const denoise::DenoisedPicture& picture) const;
 
   Denoiser denoiser_;
+  std::unique_ptr<denoise::Stages> stages_;
   Output& output_;
   film::Channels channels_;
   bool transparent_;
+  std::string failure_;  // why the device failed to denoise
   film::Channels shown_;
   denoise::NoisyPicture picture_;
   std::vector<int> rows_;    // the number of rows that each plane has so far

@@ -5,6 +5,7 @@
 
 #include "host/core/error.hpp"
 #include "host/core/termination.hpp"
+#include "host/denoise_kernels/device_stages.hpp"
 #include "host/render/checkpoint.hpp"
 #include "host/render/corners.hpp"
 #include "host/render/first_hits.hpp"
@@ -162,6 +163,7 @@ class Rendering {
     // A share warns of its flags only: the other doubts concern the whole picture.
     result_.warnings = warnings_of(
         request_.shard ? PictureQuality{.flags = quality.flags, .flagged = quality.flagged} : quality);
+    if (denoised_) denoised_->warn(result_.warnings);
   }
 
   const Plan& plan_;
@@ -216,6 +218,7 @@ Result Session::render(const Scene& scene, const Request& request, Output& outpu
   if (request.shard) tiles.emplace(crop, *request.shard);
   if (request.progress) request.progress({});
   const auto executor = executor_for(scene, request, channels);
+  if (denoised) denoised->use(denoise_kernels::make_stages(executor->facts().device, options_));
   image::Tone tone = scene.image.tone;
   tone.exposure = request.exposure ? *request.exposure : render::metered_exposure(scene, *executor);
   const Plan plan{

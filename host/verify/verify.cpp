@@ -4,10 +4,12 @@
 #include "host/executors/executors.hpp"
 #include "host/executors/open_device.hpp"
 #include "host/executors/shader_files.hpp"
+#include "host/film/noisy_parts.hpp"
 #include "host/raster/witness.hpp"
 #include "host/reference/renderer.hpp"
 #include "host/scene/integrator.hpp"
 #include "host/scene/objects.hpp"
+#include "host/verify/denoised.hpp"
 #include "host/verify/evidence.hpp"
 #include "host/verify/neighbours.hpp"
 #include "host/verify/photon_judge.hpp"
@@ -35,11 +37,13 @@ auto sample_keeper(const Rect& area, int samples, std::vector<compare::TracedSam
   };
 }
 
-// Renders the scene by one executor, which becomes a participant of the report.
+// Renders the scene by one executor, which becomes a participant of the report. `noisy`: gets the inputs of
+// denoising; or null.
 compare::Frame render_frame(executors::Backend backend, executors::Executor& executor, const Scene& scene,
                             const Options& options, std::function<void(const render::Progress&)> progress,
-                            compare::Report& report) {
+                            compare::Report& report, image::NoisyPicture* noisy = nullptr) {
   render::RenderOptions how;
+  if (noisy) how.channels = film::with_noisy_parts({}, false);
   how.crop = options.crop;
   how.first_hits = true;
   how.over_white = true;
@@ -49,6 +53,13 @@ compare::Frame render_frame(executors::Backend backend, executors::Executor& exe
     how.witness = sample_keeper(report.area, report.samples, samples);
   render::Rendering rendering = render::render(scene, executor, how);
   if (rendering.interrupted) throw Error(ExitCode::interrupted, "interrupted; nothing was decided");
+
+  if (noisy) {
+    noisy->color = rendering.color;
+    for (const film::NoisyPart& part : film::noisy_parts(false))
+      for (size_t i = 0; i < how.channels.size(); ++i)
+        if (how.channels[i]->name == part.channel) noisy->*part.image = rendering.values[i];
+  }
 
   compare::Frame frame;
   frame.area = report.area;
@@ -106,6 +117,18 @@ std::vector<std::vector<compare::PixelOutcome>> compare_each_with_reference(
   return outcomes;
 }
 
+// True if the scene's denoised pictures are compared, too. Error (bad_input) if that was requested and cannot
+// be.
+bool denoises(const Scene& scene, const Options& options) {
+  const bool possible = walks_at_random(scene.render.integrator) && scene.image.samples >= 2;
+  if (options.denoise && !possible)
+    throw Error(
+        ExitCode::bad_input,
+        "--denoise compares denoised pictures, which need integrator = \"path\" or \"sppm\" in [render] and "
+        "2 samples a pixel or more");
+  return options.denoise || (possible && scene.render.denoise && !scene.is_mesh_alone);
+}
+
 // Names the objects of the report's first hits, in the words of the scene.
 void name_hits(const Scene& scene, compare::Report& report) {
   const Objects objects(scene);
@@ -138,6 +161,13 @@ void compare_with_drawn(const raster::Witness& drawn, std::span<const compare::F
   }
 }
 
+// The names of the executors in the report.
+std::vector<std::string> names_of(const compare::Report& report) {
+  std::vector<std::string> names;
+  for (const compare::Participant& each : report.participants) names.push_back(each.name);
+  return names;
+}
+
 }  // namespace
 
 compare::Report verify_scene(const Subject& subject, const Options& options) {
@@ -152,6 +182,9 @@ compare::Report verify_scene(const Subject& subject, const Options& options) {
   report.height = scene.image.height;
   report.area = options.crop == Rect{} ? Rect{0, 0, scene.image.width, scene.image.height} : options.crop;
   report.samples = scene.image.samples;
+
+  const bool denoised = denoises(scene, options);
+  std::vector<DenoisedFrame> denoised_frames;
 
   // Scenes that cannot be drawn are reported before anything is rendered.
   const std::optional<raster::Witness> drawn = draw(scene, report.area, options);
@@ -179,7 +212,10 @@ compare::Report verify_scene(const Subject& subject, const Options& options) {
     else
       other = executors::make_executor(backend, scene, how);
     executors::Executor& executor = other ? *other : *twin;
-    frames.push_back(render_frame(backend, executor, scene, options, std::move(progress), report));
+    image::NoisyPicture noisy;
+    frames.push_back(render_frame(backend, executor, scene, options, std::move(progress), report,
+                                  denoised ? &noisy : nullptr));
+    if (denoised) denoised_frames.push_back(denoised_frame(std::move(noisy), executor, how));
   }
   frames.push_back(render_frame(executors::Backend::reference, *reference_executor, scene, options,
                                 new_progress(), report));
@@ -193,6 +229,7 @@ compare::Report verify_scene(const Subject& subject, const Options& options) {
   const compare::PathReference paths = path_neighbours(scene, *renderer, twin.get());
   const auto outcomes = compare_each_with_reference(frames, reference, by_samples ? &paths : nullptr,
                                                     tolerances, options, report);
+  report.denoised = compare_denoised(denoised_frames, names_of(report), report.area);
   if (drawn) compare_with_drawn(*drawn, frames, report);
   if (subject.golden) {
     report.golden = compare_with_golden(*subject.golden, scene, frames[0], reference, tolerances, report);

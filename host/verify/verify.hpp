@@ -23,7 +23,8 @@ struct Options {
   Rect crop;                                               // the compared area; empty: the whole picture
   std::optional<double> max_explained;                     // instead of the scene's
   int64_t ulp = 0;                                         // the bound of gate A
-  bool raster = false;                                     // compare with the rasteriser, too: gate R
+  bool denoise = false;  // compare denoised pictures, too, as of scenes whose RenderSettings::denoise is set
+  bool raster = false;   // compare with the rasteriser, too: gate R
   // Called at the end with the compared frames, as Page::add is. May be empty.
   std::function<void(const compare::Report&, std::span<const compare::Frame>,
                      std::span<const std::vector<compare::PixelOutcome>>)>
@@ -46,7 +47,8 @@ struct Subject {
 
 // Renders the scene by each backend and at last by the reference. Gate A compares each backend with the
 // first, gates B and C compare each with the reference, gate G the first with a golden picture. Gate R, if
-// requested, compares each backend and the reference with the device's rasteriser. The report states which
+// requested, compares each backend and the reference with the device's rasteriser. Gates A and B hold for
+// denoised pictures, too. The report states which
 // gates pass. Error (interrupted) after Ctrl-C, Error (file_io) when the evidence cannot be written, and the
 // errors of make_executor and render.
 compare::Report verify_scene(const Subject& subject, const Options& options);

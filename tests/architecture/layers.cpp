@@ -24,6 +24,8 @@ const std::map<std::string, std::regex> visible_shaders = {
     {"lights", std::regex(R"(shaders/lights/rows\.h)")},
     {"cameras", std::regex(R"(shaders/cameras/rows\.h)")},
     {"twin", std::regex(".*")},
+    {"denoise", std::regex(R"(shaders/(records\.h|denoise/\w+\.glsl))")},
+    {"denoise_kernels", std::regex(R"(shaders/denoise/step\.h)")},
     {"formula", std::regex(R"(shaders/(language\.h|math/formula\.glsl))")},
 };
 

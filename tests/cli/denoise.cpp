@@ -22,6 +22,10 @@ std::vector<std::string> box(const std::string& samples, std::vector<std::string
   return arguments;
 }
 
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
 double difference(const Image& picture, const Image& truth) {
   double sum = 0;
   for (size_t i = 0; i < picture.sample_count(); ++i) {
@@ -47,6 +51,10 @@ TEST_CASE("--denoise removes noise, keeps brightness, and gives the same bits by
   REQUIRE(run_eyeray(box("16", {"-D", "render.denoise=true", "--backend", "twin", "-o", folder / "twin.pfm"}))
               .code == 0);
   CHECK(read_text(folder / "gpu.pfm") == read_text(folder / "twin.pfm"));
+  for (const char* way : {"denoise=kernels", "denoise=processor"}) {
+    REQUIRE(run_eyeray(box("16", {"--denoise", "--tune", way, "-o", folder / "way.pfm", "-q"})).code == 0);
+    CHECK(read_text(folder / "way.pfm") == read_text(folder / "twin.pfm"));
+  }
 
   const Image truth = read_image(folder / "truth.pfm"), noisy = read_image(folder / "noisy.pfm");
   const Image denoised = read_image(folder / "gpu.pfm");
@@ -156,4 +164,56 @@ TEST_CASE("--denoise needs random paths, two samples and the whole picture") {
   CHECK(refused(box("4", {"--denoise", "--shard", "1/2", "-o", folder / "no.eyeray"})) ==
         "eyeray: error: a pixel is denoised from its neighbours, which are in other shards: leave out "
         "denoise\n");
+}
+
+TEST_CASE("verify --denoise compares the denoised pictures, and names scenes without any") {
+  const std::vector<std::string> scene{"verify", "scenes/path/cornell_box.toml", "-s", "64x48", "--quiet"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), scene.begin(), scene.end());
+    return run_eyeray(more);
+  };
+  const ProcessResult result = with({"--spp", "4", "--denoise"});
+  CAPTURE(result.out);
+  CHECK(result.code == 0);
+  CHECK(has(result.out, "  gate A passed gpu = twin, denoised: 0 of 3072 pixels differ in their bits\n"));
+  CHECK(has(result.out, "  gate B passed gpu = reference, denoised: 0 of 3072 pixels differ"));
+  CHECK(has(result.out, "  gate B passed twin = reference, denoised: 0 of 3072 pixels differ"));
+
+  const ProcessResult by_scene = with({"--spp", "4", "-D", "render.denoise=true", "--json"});
+  CHECK(by_scene.code == 0);
+  const auto denoised = nlohmann::json::parse(by_scene.out)["scenes"][0]["denoised"];
+  REQUIRE(denoised.size() == 2);
+  CHECK(denoised[1]["different_pixels"] == 0);
+  CHECK(denoised[1]["wrong_pixels"] == 0);
+  CHECK(denoised[1]["largest_in_tolerances"] < 0.5);
+  CHECK(denoised[1]["largest_in_tolerances"] > 0);
+
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"verify", "scenes/whitted.toml", "--denoise"},
+        {"verify", "scenes/path/cornell_box.toml", "--spp", "1", "--denoise"}}) {
+    const ProcessResult refused = run_eyeray(arguments);
+    CHECK(refused.code == 2);
+    CHECK(has(refused.err,
+              "--denoise compares denoised pictures, which need integrator = \"path\" or \"sppm\""));
+  }
+}
+
+TEST_CASE("a picture is not lost if the device fails to denoise it") {
+  const SceneFolder folder;
+  REQUIRE(run_eyeray(box("2", {"--denoise", "-o", folder / "whole.pfm", "-q"})).code == 0);
+  // The device is lost at a later and later dispatch, until that is one of denoising.
+  for (int call = 10; call < 100; call += 5) {
+    const std::string lost = "vkWaitForFences " + std::to_string(call) + " -4";
+    const ProcessResult result =
+        run_eyeray(box("2", {"--denoise", "--tune", "denoise=kernels", "-o", folder / "lost.pfm"}),
+                   {{"EYERAY_VULKAN_LOADER", FAILING_VULKAN}, {"EYERAY_FAILING_CALL", lost}});
+    CAPTURE(result.err);
+    if (result.code == 3) continue;
+    CHECK(result.code == 0);
+    CHECK(has(result.err,
+              "eyeray: warning: the picture was denoised by the processor, because the device failed: "));
+    CHECK(read_text(folder / "lost.pfm") == read_text(folder / "whole.pfm"));
+    return;
+  }
+  FAIL("no dispatch of denoising failed");
 }

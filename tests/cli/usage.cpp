@@ -110,7 +110,7 @@ TEST_CASE("a wrong command line gives one line with a suggestion, and code 2") {
       {{"render", scene, "--tune", "rays"}, "--tune must be KEY=VALUE, such as rays=lanes, not 'rays'"},
       {{"verify", scene, "--tune", "ray=lanes"},
        "--tune has no key 'ray'; did you mean 'rays'? There are acceleration, splits, profile, loads, rays, "
-       "incoherent, stack, constants, optimiser, division, device-division, device-contraction, "
+       "incoherent, stack, denoise, constants, optimiser, division, device-division, device-contraction, "
        "device-denormals, device-nan"},
       {{"probe", scene, "1,1", "--tune", "rays=packets", "--tune", "constants=no"},
        "--tune constants must be one of on, off, not 'no'"},

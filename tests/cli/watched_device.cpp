@@ -89,6 +89,13 @@ TEST_CASE("no draw of --raster takes longer than 100 ms on a watched device") {
                0.3);
 }
 
+TEST_CASE("no submission of --denoise takes longer than 100 ms on a watched device") {
+  const TemporaryFolder folder;
+  expect_short({"render", "scenes/path/cornell_box.toml", "-s", "48x40", "--spp", "2", "--denoise", "-o",
+                folder / "a.pfm"},
+               10);
+}
+
 TEST_CASE("no submission of `eyeray dev` takes longer than 100 ms on a watched device") {
   const SceneFolder folder;
   const TemporaryFolder log;

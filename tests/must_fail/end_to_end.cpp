@@ -39,6 +39,9 @@ std::vector<Expected> all_expected() {
     return std::vector<std::string>{"scenes/cameras/" + camera + ".toml", "--spp", "4"};
   };
   const std::vector<std::string> box = {"scenes/path/cornell_box.toml", "--spp", "2"};
+  const char* denoised_bits = "gate A: gpu and twin, denoised";
+  const char* denoised = "gate B: gpu against the reference, denoised";
+  const std::vector<std::string> denoised_box = {"scenes/path/cornell_box.toml", "--spp", "4", "--denoise"};
   return {
       {"near_root", {bits, counts, colors}},
       {"edge", {bits, first_hits, counts, colors, "diverges at primitive"}},
@@ -123,6 +126,9 @@ std::vector<Expected> all_expected() {
       {"photon_aim", {bits, paths}, {"scenes/sppm/points.toml", "--spp", "1"}},
       {"photon_index", {bits, paths}, {"scenes/sppm/paperweight.toml", "--spp", "1"}},
       {"photon_behind", {bits, paths}, {"scenes/sppm/frosted.toml", "--spp", "1"}},
+      {"denoise_own", {denoised, denoised_bits}, denoised_box},
+      {"denoise_cost", {denoised, denoised_bits}, denoised_box},
+      {"denoise_patch", {denoised, denoised_bits}, denoised_box},
   };
 }
 
@@ -196,9 +202,10 @@ TEST_CASE("every fault has a line in a shader, an expected result, and a row in 
   CHECK_THROWS(lay_fault(folder, "none"));
 }
 
-TEST_CASE("a fault in geometry, in a light's position and in one bit are detected, with the reason") {
+TEST_CASE(
+    "faults in geometry, in a light's position, in one bit and in denoising are detected, with the reason") {
   for (const Expected& expected : all_expected())
-    for (const char* name : {"edge", "near_light", "bit"})
+    for (const char* name : {"edge", "near_light", "bit", "denoise_cost"})
       if (expected.fault == name) expect_noticed(expected);
 }
 

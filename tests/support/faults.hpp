@@ -118,6 +118,11 @@ inline constexpr Fault faults[] = {
     {"photon_aim", "lights/photon_aim.glsl", "/ (2.0f * PI * sum)", "/ (2.01f * PI * sum)"},
     {"photon_index", "integrators/photon.glsl", " / squared_index(path.media, path.throughput)", ""},
     {"photon_behind", "integrators/sppm.glsl", "before ? n : -n", "n"},
+    // Denoising.
+    {"denoise_own", "denoise/distance.glsl", "0.25f / float(values)", "0.3f / float(values)"},
+    {"denoise_cost", "denoise/regression.glsl", "COEFFICIENT_COST 1.0e-3f", "COEFFICIENT_COST 2.0e-3f"},
+    {"denoise_patch", "kernels/denoise.comp.glsl", "k < PATCH; ++k) sum += row_sums[start",
+     "k < PATCH - 1; ++k) sum += row_sums[start"},
     // Random numbers.
     {"random", "math/rng.glsl", "2891336453u", "2891336455u"},
     // The scene, as the shaders find it.
