@@ -53,6 +53,7 @@ eyeray_needs(nlohmann-json3-dev nlohmann_json)
 eyeray_needs(libcli11-dev CLI11)
 eyeray_needs(libembree-dev embree)  # 3 or 4
 eyeray_needs(libpng-dev PNG)
+eyeray_needs(libtiff-dev TIFF)
 eyeray_needs(zlib1g-dev ZLIB)
 eyeray_needs(libfreetype-dev Freetype)
 eyeray_needs(libopenexr-dev OpenEXR)

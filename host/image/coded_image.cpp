@@ -12,6 +12,7 @@
 #include "host/image/color_fields.hpp"
 #include "host/image/exif.hpp"
 #include "host/image/png_rows.hpp"
+#include "host/image/tiff_rows.hpp"
 #include "host/image/webp_rows.hpp"
 
 namespace eyeray::engine::image {
@@ -22,10 +23,12 @@ namespace {
 // 1951), each of which holds at most 8 pixels. JPEG: each block of 8 · 8 samples of a channel takes at least
 // a bit. A channel may be coarser than the picture by a factor of 4 in one direction, if another channel is
 // not coarser in that direction. WebP: pixels of one colour take no bits, so a file of any length may have
-// 2^24 of them. There is no true bound for larger pictures; we set one.
+// 2^24 of them. There is no true bound for larger pictures; we set one. TIFF: the same, since its codecs
+// differ. A row of white pixels takes a bit in CCITT's group 4.
 constexpr int64_t most_png_pixels_a_byte = 1032 * 8;
 constexpr int64_t most_jpeg_pixels_a_byte = 8 * 256;
-constexpr int64_t most_webp_pixels_a_byte = 8 * 8192, most_webp_pixels_of_any = int64_t{1} << 24;
+constexpr int64_t most_webp_pixels_a_byte = 8 * 8192, most_pixels_of_any = int64_t{1} << 24;
+constexpr int64_t most_tiff_pixels_a_byte = 8 * most_coded_side;
 
 bool is_png(std::string_view bytes) {
   return bytes.starts_with("\x89PNG\r\n\x1a\n");
@@ -40,12 +43,13 @@ struct Free {
 };
 
 // A file's format. The functions below give the facts that are needed before memory is taken for the pixels.
-enum class Format { png, jpeg, webp, bmp, tga, other };
+enum class Format { png, jpeg, webp, tiff, bmp, tga, other };
 
 Format format_of(std::string_view bytes) {
   if (is_png(bytes)) return Format::png;
   if (is_jpeg(bytes)) return Format::jpeg;
   if (is_webp(bytes)) return Format::webp;
+  if (is_tiff(bytes)) return Format::tiff;
   if (is_bmp(bytes)) return Format::bmp;
   return is_tga(bytes) ? Format::tga : Format::other;
 }
@@ -58,7 +62,9 @@ int64_t most_pixels(Format format, int64_t bytes) {
     case Format::jpeg:
       return bytes * most_jpeg_pixels_a_byte;
     case Format::webp:
-      return std::max(most_webp_pixels_of_any, bytes * most_webp_pixels_a_byte);
+      return std::max(most_pixels_of_any, bytes * most_webp_pixels_a_byte);
+    case Format::tiff:
+      return std::max(most_pixels_of_any, bytes * most_tiff_pixels_a_byte);
     case Format::bmp:
       return bytes * most_bmp_pixels_a_byte;
     default:
@@ -70,15 +76,21 @@ const stbi_uc* stb_bytes(std::string_view bytes) {
   return reinterpret_cast<const stbi_uc*>(bytes.data());
 }
 
-// The size that the header states; empty if the header of a PNG or a JPEG cannot be read, 0 × 0 if that of a
-// WebP cannot be.
-std::optional<BitmapSize> size_of(std::string_view bytes, Format format) {
+// The size that the header states; empty, with the fault, if the header of a PNG, a JPEG or a TIFF cannot be
+// read, 0 × 0 if that of a WebP cannot be.
+std::optional<BitmapSize> size_of(std::string_view bytes, Format format, std::string& fault) {
   if (format == Format::webp) return webp_size(bytes);
   if (format == Format::bmp) return bmp_size(bytes);
   if (format == Format::tga) return tga_size(bytes);
+  if (format == Format::tiff) {
+    const BitmapSize size = tiff_size(bytes, fault);
+    return fault.empty() ? std::optional(size) : std::nullopt;
+  }
   int width = 0, height = 0, channels = 0;
-  if (!stbi_info_from_memory(stb_bytes(bytes), int(bytes.size()), &width, &height, &channels))
+  if (!stbi_info_from_memory(stb_bytes(bytes), int(bytes.size()), &width, &height, &channels)) {
+    fault = stbi_failure_reason();
     return std::nullopt;
+  }
   return BitmapSize{width, height};
 }
 
@@ -116,9 +128,10 @@ CodedImage decode_coded_image(std::span<const std::byte> bytes, const std::strin
     throw fail(fmt::format("it has {} bytes; the most is {} (1 GiB)", bytes.size(), most_coded_bytes));
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const Format format = format_of(text);
-  if (format == Format::other) throw fail("it is not a PNG, JPEG, WebP, BMP or TGA");
-  const auto size = size_of(text, format);
-  if (!size) throw fail(fmt::format("it is damaged ({})", stbi_failure_reason()));
+  if (format == Format::other) throw fail("it is not a PNG, JPEG, WebP, TIFF, BMP or TGA");
+  std::string header_fault;
+  const auto size = size_of(text, format, header_fault);
+  if (!size) throw fail(fmt::format("it is damaged ({})", header_fault));
   const auto [width, height] = *size;
   if (width < 1 || height < 1 || width > most_coded_side || height > most_coded_side)
     throw fail(fmt::format("it has {}×{} pixels; the most is {} a side", width, height, most_coded_side));
@@ -129,6 +142,7 @@ CodedImage decode_coded_image(std::span<const std::byte> bytes, const std::strin
   CodedImage image{int(width), int(height), {}};
   image.pixels.resize(size_t(width * height));
   std::vector<std::string> clauses;
+  int orientation = 1;
   const auto damaged = [](const std::string& why) {
     return why.empty() ? why : fmt::format("it is damaged ({})", why);
   };
@@ -141,10 +155,13 @@ CodedImage decode_coded_image(std::span<const std::byte> bytes, const std::strin
         // Check for the end: stb_image since 2.28 accepts a truncated file.
         if (!has_jpeg_end(text)) return std::string("it ends early");
         clauses = jpeg_color_fields(text);
+        orientation = exif_orientation(bytes);
         return damaged(read_jpeg(text, image.pixels));
       case Format::webp:
         clauses = webp_color_fields(text);
         return damaged(read_webp(text, image.pixels));
+      case Format::tiff:
+        return read_tiff(text, image.pixels, orientation, clauses);
       case Format::bmp:
         return read_bmp(text, image.pixels, clauses);
       default:
@@ -153,8 +170,7 @@ CodedImage decode_coded_image(std::span<const std::byte> bytes, const std::strin
   }();
   if (!fault.empty()) throw fail(fault);
   for (const std::string& clause : clauses) warnings.push_back(fmt::format("{}: {}", name, clause));
-  if (format == Format::jpeg) image = upright(std::move(image), exif_orientation(bytes));
-  return image;
+  return upright(std::move(image), orientation);
 }
 
 }  // namespace eyeray::engine::image

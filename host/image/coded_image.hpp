@@ -34,12 +34,13 @@ struct PixelBudget {
   void take(int width, int height, const std::string& name);
 };
 
-// Decodes a PNG, a JPEG, a WebP, a BMP or a TGA, distinguished by their first bytes. Grey becomes equal red,
-// green and blue. From 16 bits the upper 8 are kept. Pictures without alpha get 255. A JPEG is rotated by its
-// EXIF orientation. `warnings` gets a sentence for each ignored field of the header that changes the meaning
-// of the codes. Error (file_io) with "cannot read NAME: why" for anything else, such as a file that ends
-// early. A header that states more pixels than a file of that length can hold is an error, so that memory is
-// bounded by the file's size. The pixels are taken from the budget before they are decoded.
+// Decodes a PNG, a JPEG, a WebP, a TIFF, a BMP or a TGA, distinguished by their first bytes. Grey becomes
+// equal red, green and blue. From 16 bits the upper 8 are kept. Pictures without alpha get 255. A JPEG is
+// rotated by its EXIF orientation, and a TIFF by its own. `warnings` gets a sentence for each ignored field
+// of the header that changes the meaning of the codes. Error (file_io) with "cannot read NAME: why" for
+// anything else, such as a file that ends early. A header that states more pixels than a file of that length
+// can hold is an error, so that memory is bounded by the file's size. The pixels are taken from the budget
+// before they are decoded.
 CodedImage decode_coded_image(std::span<const std::byte> bytes, const std::string& name, PixelBudget& budget,
                               std::vector<std::string>& warnings);
 

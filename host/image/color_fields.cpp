@@ -132,9 +132,13 @@ std::vector<std::string> jpeg_color_fields(std::string_view bytes) {
     if (marker == app0 && segment.starts_with(jfif) && across != down)
       clauses.emplace_back("its pixels are not square (JFIF's densities), which is ignored");
   });
-  if (!profile.empty() && !is_srgb_profile(profile))
-    clauses.push_back(fmt::format("its colour profile{}", taken_as_srgb));
+  if (std::string clause = profile_clause(profile); !clause.empty()) clauses.push_back(std::move(clause));
   return clauses;
+}
+
+std::string profile_clause(std::string_view profile) {
+  if (profile.empty() || is_srgb_profile(profile)) return "";
+  return fmt::format("its colour profile{}", taken_as_srgb);
 }
 
 }  // namespace eyeray::engine::image

@@ -15,5 +15,7 @@ namespace eyeray::engine::image {
 std::vector<std::string> png_color_fields(std::string_view bytes);
 std::vector<std::string> jpeg_color_fields(std::string_view bytes);
 std::vector<std::string> webp_color_fields(std::string_view bytes);
+// The clause for an ICC profile, of a JPEG or a TIFF; "" if it is sRGB's, or empty.
+std::string profile_clause(std::string_view profile);
 
 }  // namespace eyeray::engine::image

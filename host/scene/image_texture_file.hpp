@@ -1,4 +1,4 @@
-// Image textures from PNG, JPEG, WebP, BMP and TGA files, and from such images within model files.
+// Image textures from PNG, JPEG, WebP, TIFF, BMP and TGA files, and from such images within model files.
 #pragma once
 
 #include <cstddef>

@@ -284,5 +284,5 @@ TEST_CASE("pictures with damaged bytes are decoded or refused") {
 TEST_CASE("a file that is no PNG, JPEG, BMP or TGA is refused, though stb_image could read it") {
   for (const std::string& bytes : {std::string(), std::string("GIF89a"), std::string("P6 1 1 255\nabc"),
                                    std::string("BM"), std::string("#?RADIANCE\n"), std::string(1000, '\0')})
-    CHECK(refusal(bytes) == "cannot read a picture: it is not a PNG, JPEG, WebP, BMP or TGA");
+    CHECK(refusal(bytes) == "cannot read a picture: it is not a PNG, JPEG, WebP, TIFF, BMP or TGA");
 }

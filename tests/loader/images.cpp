@@ -154,7 +154,7 @@ TEST_CASE("a file that is no picture is an error at its name") {
   };
   const auto unreadable = [&](const std::string& name) { return "cannot read " + (folder / name) + ": "; };
   CHECK(message_of("b.png") == unreadable("b.png") + "No such file or directory");
-  CHECK(message_of("text.png") == unreadable("text.png") + "it is not a PNG, JPEG, WebP, BMP or TGA");
+  CHECK(message_of("text.png") == unreadable("text.png") + "it is not a PNG, JPEG, WebP, TIFF, BMP or TGA");
   CHECK(message_of("short.png").starts_with(unreadable("short.png") + "it is damaged ("));
   CHECK(message_of("folder.png") == unreadable("folder.png") + "it is a folder");
   CHECK(message_of("pipe.png") == unreadable("pipe.png") + "it is not a regular file");
@@ -202,5 +202,5 @@ TEST_CASE("a picture decoded from memory equals one from a file, except for its 
   CHECK(image.texels[5] == std::array<uint8_t, 4>{64, 128, 192, 255});
   CHECK(image.srgb);
   CHECK_THROWS_WITH_AS(decode_image_texture({}, "model.glb, image 3", budget, warnings),
-                       "cannot read model.glb, image 3: it is not a PNG, JPEG, WebP, BMP or TGA", Error);
+                       "cannot read model.glb, image 3: it is not a PNG, JPEG, WebP, TIFF, BMP or TGA", Error);
 }
