@@ -71,6 +71,8 @@ eyeray_needs(spirv-tools SPIRV-Tools-opt)
 eyeray_needs(pkg-config PkgConfig)
 eyeray_needs_module(libstb-dev stb)
 eyeray_needs_module(libwebp-dev libwebp)
+eyeray_needs_module(libminizip-dev minizip)
+eyeray_needs_module(libexpat1-dev expat)
 eyeray_needs_module(libmicrohttpd-dev libmicrohttpd)
 eyeray_needs_file(libtinyobjloader-dev TINYOBJ_INCLUDE tiny_obj_loader.h)
 eyeray_needs_file(libvulkan-volk-dev VOLK_INCLUDE volk.c)
@@ -78,6 +80,8 @@ eyeray_has_needs()
 
 add_library(stb ALIAS PkgConfig::stb)
 add_library(webp ALIAS PkgConfig::libwebp)
+add_library(minizip ALIAS PkgConfig::minizip)
+add_library(expat ALIAS PkgConfig::expat)
 add_library(microhttpd ALIAS PkgConfig::libmicrohttpd)
 
 # A header with its implementation, compiled into the importers.

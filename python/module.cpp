@@ -163,7 +163,7 @@ void add_scene(py::module_& module) {
   py::class_<Scene>(module, "Scene", "A scene, checked. It never changes.")
       .def_static("read", &read, py::arg("file"), py::kw_only(), py::arg("defines") = none,
                   py::arg("allowed_folders") = std::vector<Path>(), py::arg("formulas") = true,
-                  "From a file: .toml, or a mesh (.obj .ply .stl .off .gltf .glb .xyz .pcd).")
+                  "From a file: .toml, or a mesh (.obj .ply .stl .off .3mf .gltf .glb .xyz .pcd).")
       .def_static("parse", &parse, py::arg("toml"), py::kw_only(), py::arg("name") = "scene",
                   py::arg("defines") = none, py::arg("formulas") = true, "From text, as a file contains it.")
       .def_static("build", &build, py::arg("tables"), py::kw_only(),

@@ -143,9 +143,9 @@ std::vector<executors::Backend> parse_backends(const std::string& list) {
 void SceneOptions::add_to(CLI::App& command) {
   const std::string group = "Scene";
   command
-      .add_option(
-          "SCENE", file_,
-          "The scene file (docs/scene-file.md), or a mesh: .obj, .ply, .stl, .off, .gltf, .glb, .xyz, .pcd.")
+      .add_option("SCENE", file_,
+                  "The scene file (docs/scene-file.md), or a mesh: .obj, .ply, .stl, .off, .3mf, .gltf, "
+                  ".glb, .xyz, .pcd.")
       ->required()
       ->check([](const std::string& file) { return file.empty() ? "must be the name of a file" : ""; });
   const auto add = [&](const char* name, auto& value, const char* text, const std::string& description) {

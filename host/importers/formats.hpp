@@ -24,6 +24,7 @@ ImportedScene import_obj(MeshFile& file);
 ImportedScene import_ply(MeshFile& file);
 ImportedScene import_stl(MeshFile& file);
 ImportedScene import_off(MeshFile& file);
+ImportedScene import_3mf(MeshFile& file);
 ImportedScene import_xyz(MeshFile& file);
 ImportedScene import_pcd(MeshFile& file);
 ImportedScene import_gltf(MeshFile& file);  // .gltf and .glb, distinguished by their first bytes

@@ -28,6 +28,7 @@ Reader find_reader(const std::filesystem::path& file) {
   if (ending == ".ply") return import_ply;
   if (ending == ".stl") return import_stl;
   if (ending == ".off") return import_off;
+  if (ending == ".3mf") return import_3mf;
   if (ending == ".xyz") return import_xyz;
   if (ending == ".pcd") return import_pcd;
   if (ending == ".gltf" || ending == ".glb") return import_gltf;
@@ -80,6 +81,12 @@ ImportedScene read_mesh_file(MeshFile& file) {
   if (read == import_gltf && file.options.up != UpAxis::y)
     throw malformed(file.name,
                     "+y is up in glTF, by its specification: leave `up` out; `transform` turns it");
+  if (read == import_3mf) {
+    if (file.options.up != UpAxis::y && file.options.up != UpAxis::z)
+      throw malformed(file.name,
+                      "+z is up in 3MF, by its specification: leave `up` out; `transform` turns it");
+    file.options.up = UpAxis::z;
+  }
   if (is_utf16(file.bytes)) throw malformed(file.name, "it is text in UTF-16: save it as UTF-8");
   drop_byte_order_mark(file.bytes);
   ImportedScene scene;

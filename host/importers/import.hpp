@@ -1,5 +1,5 @@
-// Reads mesh files as parts of a scene: Wavefront OBJ, PLY, STL, OFF, glTF 2.0, and points as PLY, XYZ and
-// PCD.
+// Reads mesh files as parts of a scene: Wavefront OBJ, PLY, STL, OFF, 3MF, glTF 2.0, and points as PLY, XYZ
+// and PCD.
 #pragma once
 
 #include <filesystem>
@@ -46,7 +46,7 @@ struct ImportOptions {
   // Diameter of the capsules that show the lines of OBJ and glTF, in the file's units. Absent: lines are left
   // out.
   std::optional<double> line_width = {};
-  UpAxis up = UpAxis::y;  // y for glTF, by its specification
+  UpAxis up = UpAxis::y;  // y for glTF, by its specification; that of 3MF is always z
   Playing playing = {};
   // The scene of a glTF file that is shown, and the variant of its materials (KHR_materials_variants). Each
   // by its name, or else by its number from 0. Absent, or if the file has none of that name: its default.
@@ -111,7 +111,7 @@ struct ImportedScene {
 };
 
 // The endings of mesh files, for messages.
-inline constexpr std::string_view mesh_endings = ".obj, .ply, .stl, .off, .gltf, .glb, .xyz or .pcd";
+inline constexpr std::string_view mesh_endings = ".obj, .ply, .stl, .off, .3mf, .gltf, .glb, .xyz or .pcd";
 
 // True if the name has a mesh file's ending, in upper or lower case.
 bool is_mesh_file(const std::filesystem::path& file);

@@ -166,7 +166,10 @@ Mesh MeshBuilder::build(const RawTriangles& raw, double smooth) {
     IndexTriangle triangle;
     for (size_t i = 0; i < 3; ++i) {
       const uint32_t position = raw.positions[face][i];
-      Source source{position, no_index, no_index, raw.colors.empty() ? position : raw.colors[face]};
+      const uint32_t color = !raw.corner_colors.empty() ? raw.corner_colors[face][i]
+                             : raw.colors.empty()       ? position
+                                                        : raw.colors[face];
+      Source source{position, no_index, no_index, color};
 
       // A corner whose normal cannot be used gets the face's normal, and a vertex that no other face shares.
       Vec3 normal = faces[face];

@@ -54,6 +54,7 @@ struct RawTriangles {
   std::vector<IndexTriangle> normals;  // empty: if has_normals, they have the indices of the positions
   std::vector<IndexTriangle> uv;       // empty: if has_uv, they have the indices of the positions
   std::vector<uint32_t> colors;        // one a triangle; empty: colours have the indices of the positions
+  std::vector<IndexTriangle> corner_colors = {};  // one a corner; empty: by `colors`
 };
 
 class MeshBuilder {

@@ -38,9 +38,9 @@ struct Trust {
 };
 
 // Reads a scene with its included files, applies the overrides, and checks it. A mesh file (.obj, .ply,
-// .stl, .gltf, .glb), or one of points (.ply, .xyz, .pcd), becomes a scene that shows it. Throws InputError
-// with all errors at once, or Error (file_io) if the file itself cannot be read, or (bad_input) for an
-// unknown `look`.
+// .stl, .off, .3mf, .gltf, .glb), or one of points (.ply, .xyz, .pcd), becomes a scene that shows it. Throws
+// InputError with all errors at once, or Error (file_io) if the file itself cannot be read, or (bad_input)
+// for an unknown `look`.
 Scene load_scene(const std::filesystem::path& file, std::span<const Override> overrides = {},
                  const Trust& trust = {});
 // The mesh files of a scene in memory: the bytes of each file, by its name in the scene.

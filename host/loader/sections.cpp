@@ -165,8 +165,8 @@ constexpr Key keys_of_parts[] = {
 };
 
 constexpr std::string_view mesh_manual =
-    R"(The ending of the file name selects the format: `.obj` (Wavefront), `.ply`, `.stl`, `.off`, `.gltf` or `.glb`
-(glTF 2.0), and for points `.ply` without faces, `.xyz` or `.pcd`. Points are shown as spheres. The name is relative
+    R"(The ending of the file name selects the format: `.obj` (Wavefront), `.ply`, `.stl`, `.off`, `.3mf`, `.gltf`
+or `.glb` (glTF 2.0), and for points `.ply` without faces, `.xyz` or `.pcd`. Points are shown as spheres. The name is relative
 to the scene file. The file, and all files that it names, must lie in the scene's folder tree after following links,
 or in a folder that `--allow-path` allows. A file is read once. Each table, and each
 element of a `batch`, is one more instance of it, so thousands of instances need little more memory than one.

@@ -25,7 +25,8 @@ constexpr std::string_view color_spaces[] = {"srgb", "linear"};
 constexpr Key keys[] = {
     {.name = "image",
      .type = KeyType::string,
-     .doc = "Name of a PNG, JPEG, WebP, TIFF, BMP or TGA file, relative to the scene file that contains this key."},
+     .doc = "Name of a PNG, JPEG, WebP, TIFF, BMP or TGA file, relative to the scene file that contains this "
+            "key."},
     {.name = "filter",
      .type = KeyType::choice,
      .doc = "Interpolation between four texels, or the texel that contains the point.",

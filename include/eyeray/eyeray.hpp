@@ -94,8 +94,8 @@ class Renderer;
 // A checked scene. It never changes, and copies share it.
 class [[nodiscard]] EYERAY_API Scene {
  public:
-  // Reads a file: .toml, or a mesh (.obj .ply .stl .off .gltf .glb .xyz .pcd). Error: file_io, or bad_input
-  // with every diagnostic.
+  // Reads a file: .toml, or a mesh (.obj .ply .stl .off .3mf .gltf .glb .xyz .pcd). Error: file_io, or
+  // bad_input with every diagnostic.
   static Scene read(const std::filesystem::path& file, const SceneOptions& options = {});
   // Reads the text of a scene file; diagnostics call it `name`. Such a scene cannot name other files.
   static Scene parse(std::string_view toml, std::string_view name = "scene",

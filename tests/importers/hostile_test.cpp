@@ -5,6 +5,7 @@
 #include <random>
 
 #include "coded_grid.hpp"
+#include "tests/support/package.hpp"
 
 using namespace eyeray::engine;
 using namespace eyeray::engine::importers;
@@ -53,6 +54,10 @@ std::vector<Seed> seeds() {
       {"c.ply", header("binary_big_endian") + big.text()},
       {"d.ply", "ply\nformat ascii 1.0\nelement vertex 2\n" + xyz + "end_header\n0 0 0\n1 2 3\n"},
       {"a.off", "COFF\n4 1 0\n0 0 0 9 9 9\n1 0 0 9 0 9\n1 1 0 9 9 0 255\n0 1 0 0 9 9\n4 0 1 2 3 255 0 0\n"},
+      {"a.3mf", package_3mf(model_3mf("<m:colorgroup id=\"2\"><m:color color=\"#FF0000\"/></m:colorgroup>"
+                                      "<object id=\"1\">" +
+                                          square_3mf("pid=\"2\" p1=\"0\"") + "</object>",
+                                      "<item objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 0 0 1\"/>"))},
       {"a.xyz", "# a scan\n3\n0 0 0 255 0 128\n1 0 0 0 255 1\n0 2e0 +0 7 8 9\n"},
       {"a.pcd", pcd("ascii") + "0 0 0 7\n1 0 0 9\n"},
       {"b.pcd", pcd("binary") + points.text()},
@@ -85,8 +90,10 @@ TEST_CASE("files truncated at every byte are refused or read") {
     CHECK(survives(bytes, name));
     size_t read = 0;
     for (size_t length = 0; length < bytes.size(); ++length) read += survives(bytes.substr(0, length), name);
-    // Binary data and JSON must be complete; a text file may end sooner.
-    if (!name.ends_with("obj") && !name.ends_with("xyz") && !name.ends_with("off")) CHECK(read <= 1);
+    // Binary data and JSON must be complete; a text file may end sooner. minizip does without the last two
+    // bytes of a ZIP, the length of a comment.
+    if (!name.ends_with("obj") && !name.ends_with("xyz") && !name.ends_with("off"))
+      CHECK(read <= (name.ends_with("3mf") ? 3 : 1));
   }
 }
 

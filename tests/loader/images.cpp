@@ -202,5 +202,6 @@ TEST_CASE("a picture decoded from memory equals one from a file, except for its 
   CHECK(image.texels[5] == std::array<uint8_t, 4>{64, 128, 192, 255});
   CHECK(image.srgb);
   CHECK_THROWS_WITH_AS(decode_image_texture({}, "model.glb, image 3", budget, warnings),
-                       "cannot read model.glb, image 3: it is not a PNG, JPEG, WebP, TIFF, BMP or TGA", Error);
+                       "cannot read model.glb, image 3: it is not a PNG, JPEG, WebP, TIFF, BMP or TGA",
+                       Error);
 }

@@ -103,7 +103,7 @@ TEST_CASE("a fault in a mesh is an error at its key") {
         "2:8: error: ../outside.obj lies outside the scene's folder; --allow-path DIR allows other ones");
   CHECK(message("file = ''") == "2:8: error: `file` needs the name of a file");
   CHECK(contains(message("file = 'scene.toml'"),
-                 "a mesh file's name must end in .obj, .ply, .stl, .off, .gltf, .glb, .xyz or .pcd"));
+                 "a mesh file's name must end in .obj, .ply, .stl, .off, .3mf, .gltf, .glb, .xyz or .pcd"));
   CHECK(message("smooth = 3") == "1:1: error: [[mesh]] needs `file`, a string");
   CHECK(message("file = 'a.obj'\nsmooth = 181") ==
         "3:10: error: `smooth` must be a number from 0 to 180, not 181");
