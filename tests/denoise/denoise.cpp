@@ -5,10 +5,12 @@
 
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "host/denoise/block_means.hpp"
 #include "host/reference/denoising.hpp"
 
+#include "tests/support/amount.hpp"
 #include "tests/support/doctest.hpp"
 #include "tests/support/noisy_pictures.hpp"
 
@@ -193,10 +195,10 @@ double largest_difference(const NoisyPicture& noisy) {
 }  // namespace
 
 TEST_CASE("denoising agrees with the float64 reference") {
-  CHECK(largest_difference(noisy_picture(textured, 16, 0.5, 0.2)) < 1e-4);
-  CHECK(largest_difference(noisy_picture(shadowed, 4, 1)) < 1e-4);
-  CHECK(largest_difference(noisy_picture(textured, 2, 0.5)) < 1e-4);
-  CHECK(largest_difference(picture_with(soft_edge, 16)) < 1e-4);
+  const NoisyPicture pictures[] = {picture_with(soft_edge, 16), noisy_picture(textured, 16, 0.5, 0.2),
+                                   noisy_picture(shadowed, 4, 1), noisy_picture(textured, 2, 0.5)};
+  for (const NoisyPicture& each : std::span(pictures).first(size_t(amount(1, 4, 4))))
+    CHECK(largest_difference(each) < 1e-4);
 }
 
 TEST_CASE("the reference leaves pixels that are not finite, and fireflies") {
