@@ -21,8 +21,7 @@ BitmapSize tiff_size(std::string_view bytes, std::string& fault);
 
 // Decodes the first page to `pixels`, its first row first: red, green, blue and alpha, 8 bits each. The
 // number of pixels must be that of the size. `orientation` gets the file's, as EXIF numbers it. Returns the
-// fault, or
-// "". `warnings` gets a clause for each ignored part of the file.
+// fault, or "". `warnings` gets a clause for each ignored part of the file.
 std::string read_tiff(std::string_view bytes, std::span<std::array<uint8_t, 4>> pixels, int& orientation,
                       std::vector<std::string>& warnings);
 

@@ -48,9 +48,8 @@ struct Subject {
 // Renders the scene by each backend and at last by the reference. Gate A compares each backend with the
 // first, gates B and C compare each with the reference, gate G the first with a golden picture. Gate R, if
 // requested, compares each backend and the reference with the device's rasteriser. Gates A and B hold for
-// denoised pictures, too. The report states which
-// gates pass. Error (interrupted) after Ctrl-C, Error (file_io) when the evidence cannot be written, and the
-// errors of make_executor and render.
+// denoised pictures, too. The report states which gates pass. Error (interrupted) after Ctrl-C, Error
+// (file_io) when the evidence cannot be written, and the errors of make_executor and render.
 compare::Report verify_scene(const Subject& subject, const Options& options);
 
 }  // namespace eyeray::engine::verify
