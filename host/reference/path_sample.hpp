@@ -58,7 +58,7 @@ class PathSample {
         scene_(tracer.scene()),
         id_(id),
         numbers_(displacement.numbers),
-        photon_nearer_(displacement.photon_nearer),
+        photon_(displacement.photon),
         rays_(tracer, displacement, observer),
         observer_(observer) {}
 
@@ -131,7 +131,7 @@ class PathSample {
   const Scene& scene_;
   const SampleId id_;
   const uint32_t numbers_;
-  const double photon_nearer_;
+  const int photon_;
   SampleRays rays_;
   const Observer& observer_;
   const bool any_pane_ = tracer_.any_interface() || std::ranges::any_of(scene_.materials, &Material::thin);

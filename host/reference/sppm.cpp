@@ -32,7 +32,7 @@ Vec3 PathSample::gathered(const Interaction& at, const LocalFrame& frame, const 
     const double share = distance * distance / (radius * radius);
     return 2 / (M_PI * radius * radius) * (1 - share);
   };
-  Vec3 light(0), most(0);  // the largest change of light by one photon if it lies nearer
+  Vec3 light(0), most(0);  // the largest change of light by one photon that rounding displaces
   photons.near(p, [&](const Photon& photon) {
     const Vec3 apart = photon.position - p;
     const double distance = glm::length(apart);
@@ -45,14 +45,25 @@ Vec3 PathSample::gathered(const Interaction& at, const LocalFrame& frame, const 
                           glm::dot(photon.normal, before ? n : -n) > 0.9 - nearer;
       return counts ? kernel(moved) : 0;
     };
-    const double here = weight(0), nearer = weight(photon_nearer_);
-    if ((here == 0 && nearer == 0) || photon.depth + depth_ > scene_.render.max_depth) return;
-    const Vec3 i = frame.into(photon.direction);
-    const double cosine = glm::dot(photon.direction, n);
-    const Vec3 brought = wide.at(i, before).value / std::abs(cosine) * photon.flux;
-    light += brought * here;
-    const Vec3 more = brought * (nearer - here);
-    if (glm::length(more) > glm::length(most)) most = more;
+    const double here = weight(0), displaced = weight(photon_ * rounding::photon_displacement);
+    if ((here == 0 && displaced == 0) || photon.depth + depth_ > scene_.render.max_depth) return;
+    const auto brought = [&](const Vec3& direction) {
+      return wide.at(frame.into(direction), before).value / std::abs(glm::dot(direction, n)) * photon.flux;
+    };
+    const Vec3 undisplaced = brought(photon.direction);
+    light += undisplaced * here;
+    if (photon_ == 0) return;
+    Vec3 turned = undisplaced;
+    for (const double turn : {rounding::photon_turn, -rounding::photon_turn})
+      for (int axis = 0; axis < 3; ++axis) {
+        Vec3 direction = photon.direction;
+        direction[axis] += turn;
+        const Vec3 other = brought(glm::normalize(direction));
+        if (photon_ * (glm::length(other) - glm::length(turned)) > 0) turned = other;
+      }
+    const Vec3 change =
+        turned * (1 + photon_ * rounding::photon_flux_change) * displaced - undisplaced * here;
+    if (glm::length(change) > glm::length(most)) most = change;
   });
   return (light + most) / double(photons.count());
 }

@@ -24,8 +24,9 @@ struct Displacement {
   bool coincident = false;  // the farther of two surfaces that float32 cannot distinguish is hit
   uint32_t numbers = 0;     // unless 0: the seed that displaces each random number, by up to 4 units of 2^-24
   double off = 1;           // the least height above the surface, in shares; shifts always use a whole share
-  // The gathered photon that contributes most is nearer by this share of the radius.
-  double photon_nearer = 0;
+  // 1: the gathered photon that contributes most brings more light, by all the differences below at once, up
+  // to which two photons are the same. -1: it brings less.
+  int photon = 0;
   double room = 0;   // rays also start this far inside the edges of the surface that they leave, as a share
   double pivot = 0;  // unless 0: the camera ray pivots about its point at this distance
 };

@@ -24,8 +24,7 @@ std::vector<Displacement> ways_of_sample(const Sampling& sampling, Coincidence c
     ways.push_back({.share = share, .seed = seed, .numbers = seed | 1});
   }
   if (sampling.photons)
-    for (const double nearer : {photon_displacement, -photon_displacement})
-      ways.push_back({.photon_nearer = nearer});
+    for (const int photon : {1, -1}) ways.push_back({.photon = photon});
   if (!moved)
     for (const TextureChoice textures : {TextureChoice::darkest, TextureChoice::brightest})
       ways.push_back({.share = share, .seed = seed, .textures = textures});
