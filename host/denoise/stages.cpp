@@ -1,23 +1,48 @@
 #include "host/denoise/stages.hpp"
 
+#include <atomic>
+#include <thread>
+
+#include "host/core/error.hpp"
 #include "host/denoise/regression.hpp"
 
 namespace eyeray::engine::denoise {
 namespace {
 
-// Calls body(x, y) for the first pixel of each tile.
-template <typename Body>
-void for_each_tile(const Planes& planes, const Body& body) {
+constexpr double share_of_average = 0.23;  // its share of the time of both stages, on a processor
+
+// Calls body(x, y) for the first pixel of each tile, and report(share) after those that this thread computes.
+template <typename Report, typename Body>
+void for_each_tile(const Planes& planes, const Report& report, const Body& body) {
   const int across = (planes.width() + tile_width - 1) / tile_width;
   const int down = (planes.height() + tile_height - 1) / tile_height;
-  parallel_for(0, across * down, [&](int i) { body(i % across * tile_width, i / across * tile_height); });
+  const std::thread::id caller = std::this_thread::get_id();
+  std::atomic<int> done = 0;
+  parallel_for(0, across * down, [&](int i) {
+    body(i % across * tile_width, i / across * tile_height);
+    const int count = ++done;
+    if (std::this_thread::get_id() == caller) report(double(count) / (across * down));
+  });
 }
 
 }  // namespace
 
+void Stages::report(double share) const {
+  if (progress_ && !progress_(share)) throw Error(ExitCode::interrupted, "denoising was stopped");
+}
+
+void Stages::report_average(double share) const {
+  report(share_of_average * share);
+}
+
+void Stages::report_fit(double share) const {
+  report(share_of_average + (1 - share_of_average) * share);
+}
+
 void ProcessorStages::average(const NoisyFeatures& features, Planes& means) {
   const Stopwatch watch;
-  for_each_tile(means, [&](int x, int y) {
+  const auto report = [&](double share) { report_average(share); };
+  for_each_tile(means, report, [&](int x, int y) {
     Distances distances(feature_radius);
     const auto add = [&](const Planes& half, const Planes& other) {
       distances.compute(other, features.variances, feature_variance, features.valid, x, y);
@@ -31,7 +56,8 @@ void ProcessorStages::average(const NoisyFeatures& features, Planes& means) {
 
 void ProcessorStages::fit(const NoisyColors& colors, Halves& careful, Halves& bold) {
   const Stopwatch watch;
-  for_each_tile(colors.valid, [&](int x, int y) {
+  const auto report = [&](double share) { report_fit(share); };
+  for_each_tile(colors.valid, report, [&](int x, int y) {
     Distances distances(window_radius);
     const auto fit = [&](const Planes& half, const Planes& lights, const Planes& variances, Planes& one,
                          Planes& other) {

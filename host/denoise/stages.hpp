@@ -1,6 +1,9 @@
 // The stages of denoising that take long. The processor computes them, or a device's kernels.
 #pragma once
 
+#include <functional>
+#include <utility>
+
 #include "host/core/stopwatch.hpp"
 #include "host/denoise/planes.hpp"
 
@@ -31,6 +34,10 @@ struct NoisyColors {
 class Stages {
  public:
   virtual ~Stages() = default;
+  // Called on the caller's thread after some tiles, with the share of both stages that is done. Returns
+  // whether to go on: if not, the stage ends with an Error (interrupted).
+  using Progress = std::function<bool(double share)>;
+  void report_to(Progress progress) { progress_ = std::move(progress); }
   // Writes the mean of both halves to `means`, which are 0 before. Each half is averaged in a window, with
   // weights from the other one.
   virtual void average(const NoisyFeatures& features, Planes& means) = 0;
@@ -40,7 +47,16 @@ class Stages {
   const StageTimes& times() const { return times_; }
 
  protected:
+  // To be called with the share of a stage that is done.
+  void report_average(double share) const;
+  void report_fit(double share) const;
+
   StageTimes times_;
+
+ private:
+  void report(double share) const;
+
+  Progress progress_;  // may be empty
 };
 
 // The stages on the processor, by all threads, in vectors.

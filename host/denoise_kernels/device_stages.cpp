@@ -124,8 +124,9 @@ void DeviceStages::compare(const Window& window, const Tile& tile) {
   run("DISTANCES", tile.width, tile.height, neighbours);
 }
 
-template <typename Body>
-void DeviceStages::for_each_tile(const Planes& planes, const std::string& last, const Body& body) {
+template <typename Report, typename Body>
+void DeviceStages::for_each_tile(const Planes& planes, const std::string& last, const Report& report,
+                                 const Body& body) {
   const int columns = std::min(most_columns, planes.width());
   for (int y = 0; y < planes.height();) {
     int64_t items = stage(last).size.items();
@@ -135,11 +136,13 @@ void DeviceStages::for_each_tile(const Planes& planes, const std::string& last, 
     for (int x = 0; x < planes.width(); x += columns)
       body(Tile{x, y, std::min(columns, planes.width() - x), rows});
     y += rows;
+    report(double(y) / planes.height());
   }
 }
 
 void DeviceStages::average(const denoise::NoisyFeatures& features, Planes& means) {
-  for_each_tile(means, "AVERAGE", [&](const Tile& tile) {
+  const auto report = [&](double share) { report_average(share); };
+  for_each_tile(means, "AVERAGE", report, [&](const Tile& tile) {
     buffer(BINDING_DENOISED, size_t(tile.width) * size_t(tile.height) * FEATURES * sizeof(float)).clear();
     const auto add = [&](const Planes& half, const Planes& other) {
       compare({denoise::feature_radius, denoise::feature_variance, other, features.variances, features.valid,
@@ -157,7 +160,8 @@ void DeviceStages::average(const denoise::NoisyFeatures& features, Planes& means
 void DeviceStages::fit(const denoise::NoisyColors& colors, denoise::Halves& careful, denoise::Halves& bold) {
   const int count = colors.colors.first.count();
   const std::string last = fmt::format("FIT\n#define COLORS {}", count);
-  for_each_tile(colors.valid, last, [&](const Tile& tile) {
+  const auto report = [&](double share) { report_fit(share); };
+  for_each_tile(colors.valid, last, report, [&](const Tile& tile) {
     upload(BINDING_FEATURES, colors.features, tile);
     buffer(BINDING_DENOISED, size_t(tile.width) * size_t(tile.height) * 2 * MOST_COLORS * sizeof(float));
     const auto fit = [&](const Planes& half, const Planes& lights, const Planes& variances, Planes& one,

@@ -22,7 +22,7 @@ class DeviceStages final : public denoise::Stages {
   // InputError for a shader of the folder that does not compile.
   DeviceStages(std::shared_ptr<executors::OpenDevice> device, const executors::ExecutorOptions& options);
 
-  // Error (interrupted) after Ctrl-C.
+  // Error (interrupted) after Ctrl-C, too.
   void average(const denoise::NoisyFeatures& features, denoise::Planes& means) override;
   void fit(const denoise::NoisyColors& colors, denoise::Halves& careful, denoise::Halves& bold) override;
 
@@ -48,10 +48,11 @@ class DeviceStages final : public denoise::Stages {
     gpu::DispatchSize size;
   };
 
-  // Calls body(tile) for the picture's tiles. Every stage can compute a neighbour of a whole tile at once.
-  // `last`: the last stage.
-  template <typename Body>
-  void for_each_tile(const denoise::Planes& planes, const std::string& last, const Body& body);
+  // Calls body(tile) for the picture's tiles, and report(share) after each row of them. Every stage can
+  // compute a neighbour of a whole tile at once. `last`: the last stage.
+  template <typename Report, typename Body>
+  void for_each_tile(const denoise::Planes& planes, const std::string& last, const Report& report,
+                     const Body& body);
   // Computes the distances of the tile's pixels, and uploads the values.
   void compare(const Window& window, const Tile& tile);
   // Runs a stage, with `rows` rows of `columns` invocations for each of so many neighbours.

@@ -33,11 +33,13 @@ bool for_bands(const ImageSettings& image, int& band, const Work& work) {
 
 image::Image shown(const View& view, const film::Rows& rows) {
   if (view.aov) return rows[view.aov];
-  return rows.channels.empty() ? rows.color : film::with_alpha(rows);
+  const bool has_alpha = film::contains(rows.channels, film::channel_named("coverage"));
+  return has_alpha ? film::with_alpha(rows) : rows.color;
 }
 
-bool paint_coarsely(const View& view, const Scene& scene, executors::Executor& executor,
-                    const RowsSink& sink) {
+// A view that is denoised later needs no more than colours here.
+bool paint_coarsely(View view, const Scene& scene, executors::Executor& executor, const RowsSink& sink) {
+  view.denoised = false;
   const ImageSettings& image = scene.image;
   const Grid grid({0, 0, image.width, image.height}, coarse_stride);
   std::vector<PixelSample> samples(size_t(grid.pixels()));
@@ -60,6 +62,7 @@ std::optional<Painted> paint_samples(const View& view, const Scene& scene, execu
   std::optional<render::Legibility> legibility = render::legibility_of(scene, scene.image.tone.exposure);
   film::Film film;
   film.reset(image.width, image.height, view.film_channels(scene));
+  const bool needs_auxiliaries = film::any_needs(film.channels(), film::Needs::auxiliary);
   std::vector<PixelSample> samples;
   std::vector<AuxiliarySample> auxiliaries;
   int band = std::clamp(first_pixels / image.width, 1, image.height);
@@ -67,7 +70,7 @@ std::optional<Painted> paint_samples(const View& view, const Scene& scene, execu
     const bool whole = for_bands(image, band, [&](int row, int rows) {
       const Rect tile{0, row, image.width, rows};
       samples.resize(size_t(tile.pixels()));
-      if (view.needs() == film::Needs::auxiliary) auxiliaries.resize(samples.size());
+      if (needs_auxiliaries) auxiliaries.resize(samples.size());
       if (!executor.sample(tile, uint32_t(sample), samples, auxiliaries)) return false;
       film.add(tile, samples, auxiliaries);
       brightness.add(samples);
@@ -86,6 +89,7 @@ std::optional<Painted> paint_samples(const View& view, const Scene& scene, execu
   if (walks_at_random(scene.render.integrator))
     quality.fireflies = brightness.fireflies(luminances, int64_t{image.width} * image.height);
   if (legibility) quality.illegible = legibility->warning();
+  if (view.denoised) painted.noisy = film::noisy_picture(film.rows(0, image.height), scene.image.transparent);
   return painted;
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "host/executors/executor.hpp"
-#include "host/film/channel.hpp"
+#include "host/film/noisy_parts.hpp"
 #include "host/session/warnings.hpp"
 
 namespace eyeray::engine::dev {
@@ -15,12 +15,14 @@ namespace eyeray::engine::dev {
 struct View {
   executors::Backend backend = executors::Backend::gpu;
   film::Channel aov = nullptr;
+  bool denoised = false;  // whether the inputs of denoising are summed, too; not for an AOV
 
   film::Needs needs() const { return aov ? aov->needs : film::Needs::nothing; }
-  // The channels that the view of `scene` shows. Colours of a transparent picture have an alpha.
+  // The channels that the view of `scene` needs. Colours of a transparent picture have an alpha.
   film::Channels film_channels(const Scene& scene) const {
     if (aov) return {aov};
-    return scene.image.transparent ? film::with({}, {"coverage"}) : film::Channels();
+    const film::Channels channels = scene.image.transparent ? film::with({}, {"coverage"}) : film::Channels();
+    return denoised ? film::with_noisy_parts(channels, scene.image.transparent) : channels;
   }
 };
 
@@ -40,6 +42,7 @@ using RowsSink = std::function<bool(const PaintedRows&)>;
 struct Painted {
   uint64_t rays = 0;
   session::PictureQuality quality = {};
+  std::optional<image::NoisyPicture> noisy = {};  // if View::denoised
 };
 
 // Renders all of a view in bands of some hundredths of a second. `executor` has the view's backend and counts

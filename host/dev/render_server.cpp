@@ -7,6 +7,8 @@
 #include "host/core/processor_time.hpp"
 #include "host/core/stopwatch.hpp"
 #include "host/core/termination.hpp"
+#include "host/denoise/denoise.hpp"
+#include "host/denoise_kernels/device_stages.hpp"
 #include "host/dev/scene_tunables.hpp"
 #include "host/executors/cpp_compiler.hpp"
 #include "host/executors/open_device.hpp"
@@ -20,6 +22,7 @@ namespace {
 
 constexpr std::pair colors_of_gpu(executors::Backend::gpu, film::Needs::nothing);
 constexpr int no_sample = -1;
+constexpr double seconds_between_reports = 0.1;
 constexpr double longest_wait = 3600;  // for a driver; the supervisor kills the worker earlier
 // Packing a larger scene twice takes too much memory, and its preview too long.
 constexpr uint64_t most_previewed = 1 << 18;
@@ -88,7 +91,9 @@ void RenderServer::render(const Json& request) {
     if (request.value("revision", int64_t{0}) != revision_) load(request);
     choose_tunables(request.value("tunables", Json::object()));
     const auto views = request.value("views", std::vector<std::string>{"gpu"});
-    for (size_t i = 0; i < views.size() && !outdated(); ++i) paint(views[i], i + 1 == views.size());
+    // Noise counts in a difference of views.
+    const bool denoised = views.size() == 1 && scene_->render.denoise && obstacle_to_denoising_.empty();
+    for (size_t i = 0; i < views.size() && !outdated(); ++i) paint(views[i], denoised, i + 1 == views.size());
   } catch (const Error& error) {
     send_failure(error);
   } catch (const std::exception& error) {
@@ -105,6 +110,7 @@ void RenderServer::load(const Json& request) {
   tone_.reset();
   scene_ = std::make_shared<const Scene>(options_.load(request.value("defines", std::vector<std::string>{})));
   revision_ = request.value("revision", int64_t{0});
+  obstacle_to_denoising_ = session::obstacle_to_denoising({}, *scene_);
 
   Json tunables = Json::array();
   if (!scene_->files.empty() && scene_->files[0].extension() == ".toml")
@@ -127,6 +133,7 @@ void RenderServer::load(const Json& request) {
                  {"files", std::move(files)},
                  {"scene_tunables", std::move(tunables)},
                  {"warnings", to_json(scene_->warnings)},
+                 {"denoise", obstacle_to_denoising_.empty() ? Json(scene_->render.denoise) : Json()},
                  {"camera",
                   {{"eye", to_json(scene_->camera.eye)},
                    {"target", to_json(scene_->camera.target)},
@@ -258,9 +265,34 @@ void RenderServer::send_tunables() {
   send("tunables", {{"tunables", std::move(list)}});
 }
 
-void RenderServer::paint(const std::string& name, bool last) {
+std::optional<double> RenderServer::denoise(const std::string& name, const View& view,
+                                            const image::NoisyPicture& noisy,
+                                            const executors::Executor& executor) {
+  const auto stages = denoise_kernels::make_stages(executor.facts().device, options_.executor);
+  const auto report = [&](double share) { send("stage", {{"stage", "denoise"}, {"share", share}}); };
+  Stopwatch since_report;
+  report(0);
+  stages->report_to([&](double share) {
+    if (since_report.seconds() > seconds_between_reports) {
+      report(share);
+      since_report = {};
+    }
+    return !outdated();
+  });
+  try {
+    const image::DenoisedPicture picture = denoise::denoise(noisy, *stages);
+    send_rows(name, view, {picture.color, 0, 1, scene_->image.samples - 1}, false);
+    return picture.error;
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::interrupted) throw;
+    return std::nullopt;
+  }
+}
+
+void RenderServer::paint(const std::string& name, bool denoised, bool last) {
   const Stopwatch watch;
-  const View view = parse_view(name);
+  View view = parse_view(name);
+  view.denoised = denoised && !view.aov;
   const auto known = executors_.find({view.backend, view.needs()});
   const StageTimes before = known != executors_.end() ? known->second->times() : StageTimes();
   const std::optional<int> shown = may_preview(view) ? preview(name) : no_sample;
@@ -275,12 +307,17 @@ void RenderServer::paint(const std::string& name, bool last) {
     return !outdated();
   });
   if (!painted) return;
+  const Stopwatch denoise_watch;
+  const std::optional<double> noise_left =
+      view.denoised ? denoise(name, view, *painted->noisy, executor) : std::nullopt;
+  if (view.denoised && !noise_left) return;
 
   Json files = Json::array();
   for (const auto& file : executor.facts().source_files) files.push_back(file.string());
   Json stages = Json::object();
   for (const auto& [stage, seconds] : executor.times().stages()) stages[stage] = seconds;
   for (const auto& [stage, seconds] : before.stages()) stages[stage] = stages[stage].get<double>() - seconds;
+  if (noise_left) stages["denoise"] = denoise_watch.seconds();
   send("done", {{"view", name},
                 {"last", last},
                 {"device", executor.facts().description},
@@ -288,6 +325,7 @@ void RenderServer::paint(const std::string& name, bool last) {
                 {"stages", std::move(stages)},
                 {"rays", painted->rays},
                 {"samples", scene_->image.samples},
+                {"noise_left", noise_left ? Json(*noise_left) : Json()},
                 {"doubts", doubts(view, *painted)},
                 {"files", std::move(files)},
                 {"processor_seconds", processor_seconds() - processor_seconds_}});
@@ -324,6 +362,8 @@ void RenderServer::send_rows(const std::string& name, const View& view, const Pa
 std::vector<std::string> RenderServer::doubts(const View& view, const Painted& painted) const {
   std::vector<std::string> doubts;
   for (const Diagnostic& each : session::warnings_of(painted.quality)) doubts.push_back(each.message);
+  if (scene_->render.denoise && !scene_->is_mesh_alone && !obstacle_to_denoising_.empty())
+    doubts.push_back(obstacle_to_denoising_);
   const std::string shaders = options_.executor.shader_folder.string();
   if (view.backend != executors::Backend::twin || shaders.empty()) return doubts;
   if (!options_.executor.twin.compile)

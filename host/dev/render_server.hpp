@@ -28,15 +28,16 @@ namespace eyeray::engine::dev {
 //   {"do": "probe", "x": 3, "y": 4}: probes a pixel of the last picture
 //
 // It sends these messages, each with its name as "event", and with the request's generation:
-//   "stage"   the server's present work: "load", "compile" or "render"
+//   "stage"   the server's present work: "load", "compile", "render" or "denoise"; "share" of the last
 //   "scene"   facts of the loaded scene: "width", "height", "samples", "files" that were read, "camera",
-//             "warnings", and "scene_tunables", in the form of "tunables"
+//             "warnings", "denoise": whether the picture will be denoised, null if it cannot be; and
+//             "scene_tunables", in the form of "tunables"
 //   "tunables"  adjustable constants of the shaders, each with "id", "owner", "name", "type", "low", "high",
 //             "written", "value"
 //   "rows"    see Board::put_rows; "preview": whether the twin made them; "processor_seconds"
 //   "done"    a view is complete: "view", "last" (whether no other follows), "device", "seconds", "stages",
-//             "rays", "samples", "doubts" (sentences), "files", "processor_seconds": all threads' since the
-//             request
+//             "rays", "samples", "noise_left" if it was denoised, "doubts" (sentences), "files",
+//             "processor_seconds": all threads' since the request
 //   "failed"  "code", "message", "diagnostics"
 //   "probed"  the result of probe::to_json, as "findings", and its "text"; or "message" if the probe failed
 class RenderServer {
@@ -54,7 +55,12 @@ class RenderServer {
  private:
   void render(const Json& request);
   void load(const Json& request);
-  void paint(const std::string& view, bool last);
+  // `denoised`: whether colours are denoised at the end.
+  void paint(const std::string& view, bool denoised, bool last);
+  // Sends the picture without its noise, and returns the noise that is left. Empty if the request is
+  // outdated.
+  std::optional<double> denoise(const std::string& name, const View& view, const image::NoisyPicture& noisy,
+                                const executors::Executor& executor);
   // Warnings about a picture that may be wrong, a sentence each.
   std::vector<std::string> doubts(const View& view, const Painted& painted) const;
   void choose_tunables(const Json& values);
@@ -83,8 +89,9 @@ class RenderServer {
   MessageSocket socket_;
   int64_t generation_ = 0;
   int64_t revision_ = -1;
-  double processor_seconds_ = 0;  // when the request came
-  bool own_kernel_ = true;        // whether the kernel serves only the values of this revision
+  double processor_seconds_ = 0;       // when the request came
+  std::string obstacle_to_denoising_;  // why the revision cannot be denoised; empty: it can
+  bool own_kernel_ = true;             // whether the kernel serves only the values of this revision
   std::shared_ptr<executors::Tunables> tunables_;
   bool previews_ = false;
   std::shared_ptr<const Scene> scene_;

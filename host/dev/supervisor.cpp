@@ -212,11 +212,15 @@ void Supervisor::handle(const Message& message) {
     });
   } else if (event == "stage") {
     report_(json);
-    board_.update([&](Json& status) { status["state"] = json.value("stage", ""); });
+    board_.update([&](Json& status) {
+      status["state"] = json.value("stage", "");
+      status["share"] = json.value("share", Json());
+    });
   } else if (event == "scene") {
     scene_files_ = paths(json.value("files", Json::array()));
     board_.update([&](Json& status) {
-      for (const char* key : {"width", "height", "samples", "camera", "warnings", "scene_tunables"})
+      for (const char* key :
+           {"width", "height", "samples", "camera", "warnings", "denoise", "scene_tunables"})
         status[key] = json.value(key, Json());
     });
   } else if (event == "tunables") {
@@ -230,7 +234,7 @@ void Supervisor::handle(const Message& message) {
     seen_any_ = true;
     board_.update([&](Json& status) {
       status["state"] = "done";
-      for (const char* key : {"device", "seconds", "stages", "rays", "doubts"})
+      for (const char* key : {"device", "seconds", "stages", "rays", "noise_left", "doubts"})
         status[key] = json.value(key, Json());
     });
     watch();

@@ -27,4 +27,12 @@ Channels with_noisy_parts(Channels channels, bool transparent) {
   return channels;
 }
 
+NoisyPicture noisy_picture(const Rows& all, bool transparent) {
+  NoisyPicture picture;
+  picture.color = all.color;
+  for (const NoisyPart& part : noisy_parts(transparent))
+    picture.*part.image = all[channel_named(part.channel)];
+  return picture;
+}
+
 }  // namespace eyeray::engine::film

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host/film/channel.hpp"
+#include "host/film/film.hpp"
 #include "host/image/noisy_picture.hpp"
 
 namespace eyeray::engine::film {
@@ -19,5 +19,7 @@ struct NoisyPart {
 std::vector<NoisyPart> noisy_parts(bool transparent);
 // These channels, too.
 Channels with_noisy_parts(Channels channels, bool transparent);
+// The picture of these rows, which are all and have the parts.
+image::NoisyPicture noisy_picture(const Rows& all, bool transparent);
 
 }  // namespace eyeray::engine::film

@@ -68,6 +68,7 @@ void DenoisedOutput::pass_on(film::Channel channel, const image::Image& rows) {
 
 denoise::DenoisedPicture DenoisedOutput::denoise(const NoisyPicture& picture) {
   const Stopwatch watch;
+  if (progress_) progress_(0);
   denoise::DenoisedPicture denoised =
       denoiser_ == Denoiser::own ? denoise_without_loss(picture) : denoise::denoise_by_oidn(picture);
   last_seconds_ = watch.seconds();
@@ -76,6 +77,7 @@ denoise::DenoisedPicture DenoisedOutput::denoise(const NoisyPicture& picture) {
 }
 
 denoise::DenoisedPicture DenoisedOutput::denoise_without_loss(const NoisyPicture& picture) {
+  stages_->report_to(progress_);
   try {
     return denoise::denoise(picture, *stages_);
   } catch (const Error& error) {
@@ -84,6 +86,7 @@ denoise::DenoisedPicture DenoisedOutput::denoise_without_loss(const NoisyPicture
     if (failed) failure_ = error.what();
   }
   stages_ = std::make_unique<denoise::ProcessorStages>();
+  stages_->report_to(progress_);
   return denoise::denoise(picture, *stages_);
 }
 
@@ -103,11 +106,7 @@ std::vector<double> DenoisedOutput::noise_of(const denoise::DenoisedPicture& pic
 }
 
 std::vector<double> DenoisedOutput::noise_left(const film::Rows& all) {
-  NoisyPicture picture;
-  picture.color = all.color;
-  for (const film::NoisyPart& part : film::noisy_parts(transparent_))
-    picture.*part.image = all[film::channel_named(part.channel)];
-  return noise_of(denoise(picture));
+  return noise_of(denoise(film::noisy_picture(all, transparent_)));
 }
 
 void DenoisedOutput::finish_color() {

@@ -19,6 +19,8 @@ class DenoisedOutput final : public Output {
 
   // To be called before the picture is finished.
   void use(std::unique_ptr<denoise::Stages> stages) { stages_ = std::move(stages); }
+  // To be called before the picture is denoised. `progress` must return true.
+  void report_to(denoise::Stages::Progress progress) { progress_ = std::move(progress); }
   // All channels that the picture must be rendered with.
   const film::Channels& channels() const { return channels_; }
   std::vector<std::filesystem::path> files() const override { return output_.files(); }
@@ -47,6 +49,7 @@ class DenoisedOutput final : public Output {
 
   Denoiser denoiser_;
   std::unique_ptr<denoise::Stages> stages_;
+  denoise::Stages::Progress progress_;  // may be empty
   Output& output_;
   film::Channels channels_;
   bool transparent_;

@@ -30,24 +30,6 @@ void check_noise(const Request& request, const Scene& scene) {
                 sample_patterns[uint32_t(scene.image.pattern)]);
 }
 
-// A sentence on why the request's picture cannot be denoised; empty if it can. The crop is within the
-// picture.
-std::string obstacle_to_denoising(const Request& request, const Scene& scene) {
-  if (!walks_at_random(scene.render.integrator))
-    return "only pictures by random paths are denoised: set integrator = \"path\" in [render], or leave out "
-           "denoise";
-  if (scene.image.samples < 2)
-    return "denoising compares the samples of a pixel, and this picture has one: set at least 2, such as "
-           "--spp 16";
-  if (const int64_t pixels = crop_within(request.crop, scene.image).pixels(); pixels > most_denoised)
-    return fmt::format(
-        "denoising has room for {} pixels, and this picture has {}: render crops of it, or leave out denoise",
-        most_denoised, pixels);
-  if (request.shard)
-    return "a pixel is denoised from its neighbours, which are in other shards: leave out denoise";
-  return "";
-}
-
 void check_fireflies(const Request& request, const Scene& scene) {
   if (!request.reject_fireflies) return;
   if (!walks_at_random(scene.render.integrator))
@@ -114,6 +96,22 @@ film::Channels check(const Request& request, const Scene& scene) {
       throw Error(ExitCode::bad_input, "{}", obstacle);
   if (denoises(request, scene) && request.denoiser == Denoiser::open_image_denoise) denoise::check_for_oidn();
   return film::channels_of(scene, request.channels);
+}
+
+std::string obstacle_to_denoising(const Request& request, const Scene& scene) {
+  if (!walks_at_random(scene.render.integrator))
+    return "only pictures by random paths are denoised: set integrator = \"path\" in [render], or leave out "
+           "denoise";
+  if (scene.image.samples < 2)
+    return "denoising compares the samples of a pixel, and this picture has one: set at least 2, such as "
+           "--spp 16";
+  if (const int64_t pixels = crop_within(request.crop, scene.image).pixels(); pixels > most_denoised)
+    return fmt::format(
+        "denoising has room for {} pixels, and this picture has {}: render crops of it, or leave out denoise",
+        most_denoised, pixels);
+  if (request.shard)
+    return "a pixel is denoised from its neighbours, which are in other shards: leave out denoise";
+  return "";
 }
 
 bool denoises(const Request& request, const Scene& scene) {

@@ -64,6 +64,10 @@ void make_classic(Scene& scene, Request& request);
 // if all channels were requested, those that the scene does not have are left out.
 film::Channels check(const Request& request, const Scene& scene);
 
+// A sentence on why the request's picture cannot be denoised; empty if it can. The crop is within the
+// picture.
+std::string obstacle_to_denoising(const Request& request, const Scene& scene);
+
 // Returns true if the picture's noise is to be removed at the end: if the request or the scene asks for it.
 // The scene of a mesh alone, which nobody wrote, asks for it only where it can be done.
 bool denoises(const Request& request, const Scene& scene);

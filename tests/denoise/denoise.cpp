@@ -3,10 +3,14 @@
 
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
+#include <thread>
+#include <vector>
 
+#include "host/core/error.hpp"
 #include "host/denoise/block_means.hpp"
 #include "host/reference/denoising.hpp"
 
@@ -214,4 +218,28 @@ TEST_CASE("the reference leaves pixels that are not finite, and fireflies") {
   for (const int x : {28, 31, 49, 51, 60})
     CHECK(double(denoised.pixel(x, 20)[2]) ==
           doctest::Approx(expected[size_t(20 * width + x)].color[2]).epsilon(1e-5));
+}
+
+TEST_CASE("the share that is done is reported on the caller's thread, and a report may stop denoising") {
+  const NoisyPicture noisy = noisy_picture(textured, 4, 0.5);
+  const auto expected = denoise::denoise(noisy).color.samples();
+  ProcessorStages stages;
+  std::vector<double> shares;
+  const auto caller = std::this_thread::get_id();
+  stages.report_to([&](double share) {
+    CHECK(std::this_thread::get_id() == caller);
+    shares.push_back(share);
+    return true;
+  });
+  CHECK(denoise::denoise(noisy, stages).color.samples() == expected);
+  REQUIRE(shares.size() > 1);
+  CHECK(std::ranges::is_sorted(shares));
+  CHECK(shares.front() > 0);
+  CHECK(shares.back() <= 1);
+  CHECK(shares.back() > 0.5);
+
+  int reports = 0;
+  stages.report_to([&](double) { return ++reports < 2; });
+  CHECK_THROWS_WITH_AS(denoise::denoise(noisy, stages), "denoising was stopped", Error);
+  CHECK(reports == 2);
 }

@@ -1,8 +1,11 @@
 // Denoising by kernels has the bits of denoising by the processor.
 #include "host/denoise_kernels/device_stages.hpp"
 
+#include <algorithm>
 #include <atomic>
+#include <vector>
 
+#include "host/core/error.hpp"
 #include "host/core/termination.hpp"
 #include "host/denoise/denoise.hpp"
 #include "host/executors/tuning.hpp"
@@ -73,6 +76,20 @@ TEST_CASE("a fault in a kernel shows") {
                      "0.26f / float(values)");
   options.shader_folder = folder.path();
   CHECK(different(resized(noisy_picture(textured, 16, 0.5), 40, 24), options) > 0);
+}
+
+TEST_CASE("kernels report the share that is done, and a report stops them") {
+  const NoisyPicture picture = resized(noisy_picture(textured, 4, 0.5), 40, 24);
+  DeviceStages stages(executors::open_device({}), {});
+  std::vector<double> shares;
+  stages.report_to([&](double share) {
+    shares.push_back(share);
+    return share < 1;
+  });
+  CHECK_THROWS_WITH_AS(denoise::denoise(picture, stages), "denoising was stopped", Error);
+  CHECK(shares.size() >= 2);
+  CHECK(std::ranges::is_sorted(shares));
+  CHECK(shares.back() == 1);
 }
 
 TEST_CASE("kernels stop when interrupted, and the processor does not") {

@@ -1,16 +1,10 @@
 // The pictures that the worker of dev shows while a kernel compiles.
-#include <sys/socket.h>
+#include <algorithm>
 
-#include <thread>
-
-#include "host/dev/board.hpp"
-#include "host/dev/render_server.hpp"
-#include "host/loader/scene_file.hpp"
-//
-#include "tests/support/doctest.hpp"
+#include "served.hpp"
 
 using namespace eyeray::engine;
-using namespace eyeray::engine::dev;
+using namespace eyeray::engine::test;
 
 namespace {
 
@@ -38,65 +32,6 @@ radius = 1
 material = "stripes"
 )";
 
-// A RenderServer on a thread, and the messages that it has sent.
-class Served {
- public:
-  Served() {
-    int ends[2];
-    REQUIRE(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0);
-    socket_ = MessageSocket(ends[0]);
-    RenderServer::Options options;
-    options.load = [](const std::vector<std::string>& defines) {
-      std::vector<loader::Override> overrides;
-      for (const std::string& define : defines) overrides.push_back({define});
-      return loader::parse_scene(text, "scene.toml", overrides);
-    };
-    options.unnoticed_seconds = 0;
-    thread_ = std::thread([options, end = ends[1]] { RenderServer(options, MessageSocket(end)).serve(); });
-  }
-  ~Served() {
-    socket_.close();
-    thread_.join();
-  }
-
-  void ask(int revision, const std::string& define, bool previews) {
-    REQUIRE(socket_.send({{{"do", "render"},
-                           {"revision", revision},
-                           {"generation", revision},
-                           {"shaders_changed", false},
-                           {"defines", Json::array({define})},
-                           {"views", {"gpu"}},
-                           {"previews", previews}},
-                          ""}));
-  }
-  // The next message of that revision; its rows are put on the board.
-  Json next(int revision) {
-    while (true) {
-      const auto message = socket_.receive(600);
-      REQUIRE(message);
-      if (message->json.at("generation") != revision) continue;
-      if (message->json.at("event") == "rows") board.put_rows(*message);
-      INFO(message->json.dump());
-      REQUIRE(message->json.at("event") != "failed");
-      return message->json;
-    }
-  }
-  // The rows of a revision until it is done.
-  std::vector<Json> rows(int revision) {
-    std::vector<Json> rows;
-    for (Json json = next(revision); json.at("event") != "done"; json = next(revision))
-      if (json.at("event") == "rows") rows.push_back(std::move(json));
-    return rows;
-  }
-  std::vector<float> picture() const { return board.picture("gpu")->image.samples(); }
-
-  Board board;
-
- private:
-  MessageSocket socket_;
-  std::thread thread_;
-};
-
 bool is_preview(const Json& rows) {
   return rows.at("preview");
 }
@@ -104,7 +39,7 @@ bool is_preview(const Json& rows) {
 }  // namespace
 
 TEST_CASE("the twin shows the picture until the kernel is ready, which changes no bit of it") {
-  Served served;
+  Served served(text);
   served.ask(1, "material.0.diffuse.formula.parameters.stripes=5", true);
   const std::vector<Json> rows = served.rows(1);
   CHECK(is_preview(rows.front()));
@@ -124,7 +59,7 @@ TEST_CASE("the twin shows the picture until the kernel is ready, which changes n
 }
 
 TEST_CASE("a newer edit ends a preview, though the kernel of the older one still compiles") {
-  Served served;
+  Served served(text);
   served.ask(1, "material.0.diffuse.formula.parameters.stripes=5", true);
   while (served.next(1).at("event") != "rows") {
   }
@@ -139,7 +74,7 @@ TEST_CASE("a newer edit ends a preview, though the kernel of the older one still
 }
 
 TEST_CASE("colours have the scene's tone; a metered exposure is that of the first rows") {
-  Served served;
+  Served served(text);
   served.ask(1, "image.exposure=-1.5", false);
   for (const Json& rows : served.rows(1)) CHECK(rows.at("tone").at("exposure") == -1.5);
   CHECK(served.board.picture("gpu")->tone.exposure == -1.5);

@@ -97,7 +97,7 @@ function reset_camera() {
 }
 
 // ---- The status ----
-const words = { starting: 'starting', load: 'loading', loading: 'loading', compile: 'compiling', render: 'rendering', done: 'done', failed: 'failed' };
+const words = { starting: 'starting', load: 'loading', loading: 'loading', compile: 'compiling', render: 'rendering', denoise: 'denoising', done: 'done', failed: 'failed' };
 let probes = 0;
 let probed = null;  // the edit to which the shown rays belong
 let drawn = null;  // the edit to which the shown picture belongs: a broken edit leaves the last good one
@@ -114,7 +114,7 @@ function tell() {
   const note = status.preview && state === 'compile' ? 'A preview: the CPU computes the same picture while the kernel compiles.'
     : status.stale && Object.keys(status.pictures).length > 0 ? 'The last picture stays until there is a new one.'
     : status.view === 'difference' && state === 'render' ? 'Grey pixels are not compared yet.' : '';
-  $('state').textContent = words[state] ?? state;
+  $('state').textContent = `${words[state] ?? state}${state === 'denoise' ? ` ${Math.round(status.share * 100)}\u00a0%` : ''}`;
   $('times').textContent = note;
   $('state').className = `badge ${status.state}`;
   document.body.dataset.state = status.state;
@@ -123,12 +123,15 @@ function tell() {
     const compile = ['shader compile', 'pipeline', 'compile'].reduce((sum, stage) => sum + (status.stages[stage] ?? 0), 0);
     const tracing = status.stages.dispatch ?? status.stages.trace ?? status.seconds;
     $('times').textContent = `${status.width}×${status.height}, ${ms(status.seconds)}, of which compiling ${ms(compile)}; ` +
-      `${(status.rays / Math.max(tracing, 1e-6) / 1e6).toPrecision(3)}\u00a0Mrays/s`;
+      `${(status.rays / Math.max(tracing, 1e-6) / 1e6).toPrecision(3)}\u00a0Mrays/s` +
+      (status.noise_left === null ? '' : `; denoised, remaining noise ${percent(status.noise_left)}`);
     $('stages').textContent = [...Object.entries(status.stages).map(([name, s]) => `${name.padEnd(16)} ${ms(s)}`), '', status.device].join('\n');
   }
   // Take the server's camera again: another page may have moved it.
   if (status.state === 'done' && performance.now() - moved > 1000) camera = null;
   $('reset').hidden = !('camera.eye' in (status.defines ?? {}));
+  $('denoise').hidden = typeof status.denoise !== 'boolean';
+  $('denoise').setAttribute('aria-pressed', status.denoise === true);
   show_failure($('failure'), status.failure);
   show_warnings($('warnings-panel'), $('warnings'), status.warnings ?? [], status.doubts ?? []);
   show_tunables($('tunables-panel'), $('tunables'), status, choose);
@@ -146,6 +149,7 @@ function tell() {
   report_whether_stale();
   refresh();
 }
+const percent = share => `${Number((share * 100).toPrecision(2))}\u00a0%`;
 const ms = seconds => seconds < 1 ? `${(seconds * 1000).toFixed(0)}\u00a0ms` : `${seconds.toFixed(2)}\u00a0s`;
 
 function show_views() {
@@ -190,6 +194,10 @@ $('orbit').onclick = () => choose_mode('orbit');
 $('aovs').onchange = () => { send({ view: $('aovs').value || 'gpu' }); $('aovs').blur(); };
 $('fit').onclick = () => stage.fit();
 $('reset').onclick = reset_camera;
+const toggle_denoising = () => {
+  if (typeof status.denoise === 'boolean') send({ defines: { 'render.denoise': String(!status.denoise) } });
+};
+$('denoise').onclick = toggle_denoising;
 
 const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 const flights = { w: [0, 0.05], s: [0, -0.05], a: [-0.05, 0], f: [0.05, 0] };
@@ -204,6 +212,7 @@ addEventListener('keydown', event => {
   else if (event.key === ']') expose(Number($('exposure').value) + 0.5);
   else if (event.key === 'v') choose_mode('look');
   else if (event.key === 'o') choose_mode('orbit');
+  else if (event.key === 'n') toggle_denoising();
   else if (event.key === 'r') reset_camera();
   else if (event.key in flights && status.camera) move_camera(flown(camera_now(), ...flights[event.key]));
   else if (event.key === 'Enter' && stage.marked && event.target === $('stage')) choose_pixel(stage.marked);

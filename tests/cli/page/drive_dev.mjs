@@ -141,6 +141,16 @@ assert.match(await page.locator('#warnings').textContent(), /^\d+ pixels may be 
 await next('gpu', () => writeFileSync(scene_file, scene));
 assert.ok(await page.locator('#warnings-panel').isHidden());
 
+// A picture by random paths can be denoised; others cannot.
+assert.ok(await page.locator('#denoise').isHidden());
+const by_paths = scene.replace('[render]', '[render]\nintegrator = "path"').replace('height = 48', 'height = 48\nsamples = 4');
+const noisy = await next('gpu', () => writeFileSync(scene_file, by_paths));
+assert.equal(await page.locator('#denoise').getAttribute('aria-pressed'), 'false');
+assert.notEqual(await next('gpu', () => page.locator('#denoise').click()), noisy);
+assert.match(await page.locator('#times').textContent(), /; denoised, remaining noise [\d.]+\u00a0%$/);
+assert.equal(await next('gpu', () => page.keyboard.press('n')), noisy);
+await next('gpu', () => writeFileSync(scene_file, scene));
+
 // The camera orbits its target, and returns.
 await page.keyboard.press('o');
 await page.mouse.move(...middle);
