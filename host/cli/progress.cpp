@@ -18,6 +18,7 @@ constexpr double seconds_between_bars = 0.1;
 constexpr double seconds_between_lines = 5;
 
 double share_of(const render::Progress& progress) {
+  if (progress.denoised) return *progress.denoised;
   return double(progress.samples_done) / double(progress.samples_total);
 }
 
@@ -34,6 +35,7 @@ std::string position_text(const render::Progress& progress) {
 // report: the driver may compile kernels until then.
 std::vector<std::string> describe(const render::Progress& progress, const render::Progress& first) {
   const std::string share = fmt::format("{:3.0f} %", share_of(progress) * 100);
+  if (progress.denoised) return {share + "  denoising", share};
   if (progress.samples_done == first.samples_done) return {share + position_text(progress), share};
   const double seconds = progress.seconds - first.seconds;
   const double left = seconds * double(progress.samples_total - progress.samples_done) /
@@ -51,7 +53,7 @@ std::function<void(const render::Progress&)> progress_reporter(bool quiet) {
   const double pause = bar ? seconds_between_bars : seconds_between_lines;
   return [bar, pause, next = pause,
           first = std::optional<render::Progress>()](const render::Progress& progress) mutable {
-    if (progress.samples_done <= progress.samples_resumed) {
+    if (!progress.denoised && progress.samples_done <= progress.samples_resumed) {
       if (bar) bar->draw(compiling_texts(), 0);
       return;
     }

@@ -25,6 +25,7 @@ struct Progress {
   int bands = 1;
   int sample = 0;  // the present one of the band's `samples` a pixel, from 0
   int samples = 1;
+  std::optional<double> denoised = {};  // the share that is done, while the picture is denoised
 };
 
 struct RenderOptions {

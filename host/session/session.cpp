@@ -54,7 +54,10 @@ class Rendering {
         denoised_(denoised),
         values_(plan.channels, plan.scene),
         legibility_(render::legibility_of(plan.scene, plan.tone.exposure)),
-        checkpoint_(checkpoint_of(plan)) {}
+        checkpoint_(checkpoint_of(plan)) {
+    if (denoised_ && request_.progress)
+      denoised_->report_to([this](double share) { return report_denoised(share); });
+  }
 
   Result run() {
     output_.begin(plan_);
@@ -101,10 +104,20 @@ class Rendering {
   }
 
   void report(const render::Progress& now) {
+    last_ = now;
+    since_last_ = {};
     if (request_.progress) request_.progress(now);
     if (failure_is_known_ || !checkpoint_ || checkpoint_->failure().empty()) return;
     failure_is_known_ = true;
     if (request_.warn) request_.warn("no more checkpoints are written: " + checkpoint_->failure());
+  }
+
+  bool report_denoised(double share) {
+    render::Progress now = last_;
+    now.seconds += since_last_.seconds();
+    now.denoised = share;
+    request_.progress(now);
+    return true;
   }
 
   void take_samples() {
@@ -174,6 +187,8 @@ class Rendering {
   film::ChannelValues values_;
   std::optional<render::Legibility> legibility_;
   std::optional<render::Checkpoint> checkpoint_;
+  render::Progress last_;  // the last progress of sampling
+  Stopwatch since_last_;
   bool failure_is_known_ = false;  // the checkpoint's failure was reported
   uint32_t first_hit_flags_ = 0;
   StageTimes output_times_;

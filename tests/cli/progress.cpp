@@ -103,3 +103,24 @@ TEST_CASE("probe and dev show that kernels compile, and wipe the line away") {
     CHECK(shown.rfind("compiling kernels") < shown.rfind("\r\033[K"));
   }
 }
+
+TEST_CASE("a terminal shows how far denoising is") {
+  const SceneFolder folder;
+  Terminal terminal(100);
+  Process eyeray(
+      terminal.command("render scenes/path/cornell_box.toml -s 400x300 --spp 2 --denoise --backend "
+                       "twin -o " +
+                       folder / "a.png"),
+      xterm);
+  REQUIRE(terminal.wait_for("denoising"));
+  eyeray.wait(600);
+  CHECK(eyeray.code() == 0);
+  std::vector<int> shares;
+  const std::string shown = terminal.shown();
+  for (const std::string& drawing : drawings(shown.substr(0, shown.rfind("\r\033[K"))))
+    if (const size_t at = drawing.find(" %  denoising"); at != std::string::npos)
+      shares.push_back(std::stoi(drawing.substr(at - 3, 3)));
+  CHECK(shares.size() > 1);
+  CHECK(std::ranges::is_sorted(shares));
+  CHECK(shares.back() > 50);
+}
