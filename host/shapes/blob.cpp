@@ -28,7 +28,7 @@ threshold = 0.4
 material = "wall"
 ```
 
-The ends of rods are round. `transform` may be any invertible affine map. A blob has at most 32 parts.
+The ends of rods are round. A blob whose sum exceeds the threshold nowhere shows nothing, and a warning points at it. `transform` may be any invertible affine map. A blob has at most 32 parts.
 
 **uv, numeric trap.** As for an [implicit](#implicit) surface with a `lipschitz` constant, which a blob is. The bound
 of the slope adds up that of parts that touch one another, so rays find a blob of parts side by side sooner than one of
@@ -70,6 +70,16 @@ struct Part {
   double radius, strength;
   // The greatest slope of s(1 − d²/r²)², which it has at d = r/√3.
   double slope() const { return 8 / (3 * std::sqrt(3.0)) * std::fabs(strength) / radius; }
+  double distance(const Vec3& p) const {
+    const Vec3 axis = to - from, v = p - from;
+    const double squared = glm::dot(axis, axis);
+    const double along = squared > 0 ? std::clamp(glm::dot(v, axis) / squared, 0.0, 1.0) : 0.0;
+    return glm::length(v - axis * along);
+  }
+  double strength_at(double distance) const {
+    const double share = std::max(1 - distance * distance / (radius * radius), 0.0);
+    return strength * share * share;
+  }
   Bounds bounds() const { return {glm::min(from, to) - Vec3(radius), glm::max(from, to) + Vec3(radius)}; }
 };
 
@@ -87,6 +97,38 @@ double slope_of(const std::vector<Part>& parts) {
     most = std::max(most, sum);
   }
   return most;
+}
+
+// True if the sum is above `threshold` nowhere within `half` of the origin. Cells whose bound of the sum is
+// above it are halved. False if more than `most_cells` do not decide it.
+bool is_empty(const std::vector<Part>& parts, const Vec3& half, double threshold) {
+  constexpr int most_cells = 20'000;
+  struct Cell {
+    Vec3 center, half;
+  };
+  std::vector<Cell> cells{{Vec3(0.0), half}};
+  for (int tried = 0; !cells.empty(); ++tried) {
+    if (tried == most_cells) return false;
+    Cell cell = cells.back();
+    cells.pop_back();
+    const double reach = glm::length(cell.half);
+    double sum = 0, most = 0;
+    for (const Part& part : parts) {
+      const double away = part.distance(cell.center);
+      sum += part.strength_at(away);
+      most += part.strength_at(part.strength > 0 ? std::max(away - reach, 0.0) : away + reach);
+    }
+    if (sum > threshold) return false;
+    if (most <= threshold) continue;
+    const Vec3& h = cell.half;
+    const int axis = h.x >= h.y && h.x >= h.z ? 0 : h.y >= h.z ? 1 : 2;
+    const double step = cell.half[axis] /= 2;
+    for (const double side : {-step, step}) {
+      cells.push_back(cell);
+      cells.back().center[axis] += side;
+    }
+  }
+  return true;
 }
 
 constexpr std::string_view functions = R"glsl(
@@ -168,6 +210,13 @@ std::unique_ptr<Shape> parse(TableReader& table, const Mat4& transform) {
     from.emplace_back(part.from, part.radius);
     to.emplace_back(part.to, part.strength);
   }
+  if (is_empty(parts, half / scale, threshold))
+    table.warning(
+        "threshold",
+        fmt::format(
+            "the blob is empty: at no point do its strengths add up to more than the threshold {}; lower "
+            "`threshold`, or move its parts closer together",
+            threshold));
   const Mat4 to_world = glm::scale(glm::translate(transform, center), Vec3(scale));
   const Vec3 room = half / scale * 1.001;  // the surface must not touch the box's faces
   if (out_of_range(table, glm::scale(to_world, room))) return nullptr;

@@ -100,3 +100,28 @@ TEST_CASE("faulty blobs are refused") {
   CHECK(why("[[blob]]\nspheres = [[0, 0, 0, -1, 1]]\n").find("a radius must be from 1e-12 up") !=
         std::string::npos);
 }
+
+TEST_CASE("a blob that is empty everywhere gets a warning, and no other one does") {
+  const auto warnings = [](const std::string& text) {
+    std::string all;
+    for (const Diagnostic& each : parse_walls(text + "material = \"wall\"\n").warnings)
+      if (each.message.starts_with("the blob"))
+        all += fmt::format("{}:{} {}\n", each.position.line, each.position.column, each.message);
+    return all;
+  };
+  const std::string apart = "[[blob]]\nspheres = [[-2, 0, 0, 1, 1], [2, 0, 0, 1, 1]]\n";
+  const std::string found = warnings(apart + "threshold = 1.2\n");
+  CHECK(found.find(
+            ":13 the blob is empty: at no point do its strengths add up to more than the threshold 1.2; ") !=
+        std::string::npos);
+  CHECK(warnings(apart + "threshold = 0.99\n").empty());
+  // Parts that touch reach it between them.
+  CHECK(warnings("[[blob]]\nspheres = [[-0.3, 0, 0, 1, 1], [0.3, 0, 0, 1, 1]]\nthreshold = 1.2\n").empty());
+  CHECK(!warnings("[[blob]]\nspheres = [[-0.6, 0, 0, 1, 1], [0.6, 0, 0, 1, 1]]\nthreshold = 1.2\n").empty());
+  // A dent may leave nothing.
+  CHECK(!warnings("[[blob]]\nspheres = [[0, 0, 0, 1, 1], [0, 0, 0, 2, -0.9]]\n").empty());
+  CHECK(warnings("[[blob]]\nspheres = [[0, 0, 0, 1, 1], [0.5, 0, 0, 0.7, -0.9]]\n").empty());
+  CHECK(!warnings("[[blob]]\ncylinders = [[-1, 0, 0, 1, 0, 0, 0.5, 0.7], [-1, 3, 0, 1, 3, 0, 0.5, 0.7]]\n"
+                  "threshold = 0.8\n")
+             .empty());
+}
