@@ -86,7 +86,7 @@ class SceneOptions {
   loader::Trust trust_;
   std::string turntable_, size_;
   bool transparent_ = false;
-  std::array<std::string, 7>
+  std::array<std::string, 8>
       mesh_values_;                    // the values of the options for a mesh alone, in options.cpp's table
   std::array<std::string, 8> values_;  // the values of the options in options.cpp's table, --spp first
 };

@@ -62,8 +62,11 @@ constexpr std::array mesh_options = {
                "The scene of a glTF file alone, by its name or its number from 0."},
     MeshOption{"--variant", "NAME", "variant",
                "The variant of the materials of a glTF file alone, by its name or its number from 0."},
-    MeshOption{"--point-size", "X", "point_size",
-               "The diameter of the spheres that show the points of a scan alone, in the file's units."},
+    MeshOption{"--point-shape", "SHAPE", "point_shape",
+               "The shape of the points of a scan alone: sphere, or disk, perpendicular to its normal."},
+    MeshOption{
+        "--point-size", "X", "point_size",
+        "The diameter of the spheres or disks that show the points of a scan alone, in the file's units."},
     MeshOption{"--line-width", "X", "line_width",
                "The diameter of the lines of an OBJ or glTF file alone, in the file's units. Without it, "
                "lines are left "

@@ -11,6 +11,7 @@
 #include "host/core/diagnostic.hpp"
 #include "host/core/free_memory.hpp"
 #include "host/core/parallel_for.hpp"
+#include "host/importers/malformed.hpp"
 #include "host/scene/affine.hpp"
 
 namespace eyeray::engine::importers {
@@ -80,6 +81,20 @@ bool in_range(const Vec3& p) {
          std::fabs(p.z) <= max_coordinate;
 }
 
+// Points whose normal has no direction become spheres, with a warning that counts them.
+void set_normals(std::span<const Vec3> normals, PointCloud& cloud, std::vector<std::string>& warnings) {
+  cloud.normals.reserve(normals.size());
+  size_t without = 0;
+  for (const Vec3& n : normals) {
+    const double length = glm::length(n);
+    const bool known = length > 0 && std::isfinite(length);
+    cloud.normals.emplace_back(known ? n / length : Vec3(0.0));
+    without += !known;
+  }
+  if (without > 0)
+    warnings.push_back(fmt::format("{} of its points have no normal, and are shown as spheres", without));
+}
+
 }  // namespace
 
 double closing_radius(std::span<const Vec3> positions) {
@@ -101,8 +116,12 @@ double closing_radius(std::span<const Vec3> positions) {
   return away >= 1e-9 ? away / 100 : 1;
 }
 
-std::shared_ptr<PointCloud> build_cloud(RawPoints raw, std::optional<double> size,
+std::shared_ptr<PointCloud> build_cloud(RawPoints raw, const ImportOptions& options,
                                         std::vector<std::string>& warnings) {
+  if (options.point_shape != PointShape::disk)
+    free_memory(raw.normals);
+  else if (raw.normals.empty() && !raw.positions.empty())
+    throw malformed(raw.name, "its points have no normals, which disks need: show them as spheres");
   auto cloud = std::make_shared<PointCloud>();
   cloud->name = std::move(raw.name);
   const size_t count = raw.positions.size();
@@ -111,6 +130,7 @@ std::shared_ptr<PointCloud> build_cloud(RawPoints raw, std::optional<double> siz
     if (!in_range(raw.positions[i])) continue;
     raw.positions[kept] = raw.positions[i];
     if (!raw.colors.empty()) raw.colors[kept] = raw.colors[i];
+    if (!raw.normals.empty()) raw.normals[kept] = raw.normals[i];
     ++kept;
   }
   if (kept < count)
@@ -124,7 +144,12 @@ std::shared_ptr<PointCloud> build_cloud(RawPoints raw, std::optional<double> siz
     cloud->colors.assign(raw.colors.begin(), raw.colors.begin() + std::ptrdiff_t(kept));
     free_memory(raw.colors);
   }
-  cloud->radius = size ? *size / 2 : closing_radius(cloud->positions);
+  if (!raw.normals.empty()) {
+    raw.normals.resize(kept);
+    set_normals(raw.normals, *cloud, warnings);
+    free_memory(raw.normals);
+  }
+  cloud->radius = options.point_size ? *options.point_size / 2 : closing_radius(cloud->positions);
   return cloud;
 }
 

@@ -3,13 +3,12 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "host/scene/point_cloud.hpp"
+#include "host/importers/import.hpp"
 
 namespace eyeray::engine::importers {
 
@@ -17,12 +16,14 @@ namespace eyeray::engine::importers {
 struct RawPoints {
   std::string name;  // for messages
   std::vector<Vec3> positions;
-  std::vector<Vec3> colors = {};  // linear RGB from 0 to 1, one a point; or empty
+  std::vector<Vec3> colors = {};   // linear RGB from 0 to 1, one a point; or empty
+  std::vector<Vec3> normals = {};  // vectors of any length, one a point; or empty
 };
 
-// Leaves out points that are not finite or out of range, with a warning that counts them. `size` is the
-// diameter of the spheres; if it is absent, closing_radius() decides. Null if no point is left.
-std::shared_ptr<PointCloud> build_cloud(RawPoints raw, std::optional<double> size,
+// Leaves out points that are not finite or out of range, with a warning that counts them. If the options have
+// no point_size, closing_radius() decides. Normals count only for disks. Null if no point is left. InputError
+// if disks are wanted and there are no normals.
+std::shared_ptr<PointCloud> build_cloud(RawPoints raw, const ImportOptions& options,
                                         std::vector<std::string>& warnings);
 
 // The radius of spheres around points of a surface that leaves few gaps between them. On a square grid it is

@@ -335,7 +335,9 @@ void GltfReader::add_loose(const GltfObject& node, const GltfMeshes::Part& part,
                             most_copied_points));
     RawPoints raw{name_, {}, loose.colors};
     for (const Vec3& position : loose.positions) raw.positions.push_back(place(position));
-    if (auto cloud = build_cloud(std::move(raw), options_.point_size, scene_.warnings))
+    const Mat3 of_normals = glm::transpose(glm::inverse(Mat3(transform)));
+    for (const Vec3& normal : loose.normals) raw.normals.push_back(of_normals * normal);
+    if (auto cloud = build_cloud(std::move(raw), options_, scene_.warnings))
       scene_.clouds.push_back({std::move(cloud), material});
   }
 }

@@ -56,6 +56,7 @@ GltfMeshes::Loose points_at(const std::vector<uint32_t>& corners, const VertexPo
   for (const uint32_t corner : corners) {
     points.positions.push_back(pool.positions[corner]);
     if (!pool.colors.empty()) points.colors.push_back(pool.colors[corner]);
+    if (!pool.normals.empty()) points.normals.push_back(pool.normals[corner]);
   }
   return points;
 }

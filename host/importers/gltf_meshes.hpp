@@ -32,6 +32,7 @@ class GltfMeshes {
     std::vector<Vec3> positions;                      // points, or the ends of lines
     std::vector<Vec3> colors;                         // linear RGB, one a position; or empty
     std::vector<std::array<uint32_t, 2>> lines = {};  // as indices of positions; empty: these are points
+    std::vector<Vec3> normals = {};                   // vectors of any length, one a position; or empty
   };
   // A primitive of a mesh: its index in the meshes made here, or −1 and its points or lines, and the index of
   // its material in the file, or −1. `colored`: its vertices have colours.

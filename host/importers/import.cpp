@@ -69,8 +69,10 @@ Mat3 turn_upright(UpAxis up) {
 void turn_upright(ImportedScene& scene, UpAxis up) {
   const Mat3 turn = turn_upright(up);
   for (Instance& instance : scene.instances) instance.transform = Mat4(turn) * instance.transform;
-  for (const ImportedPoints& points : scene.clouds)
+  for (const ImportedPoints& points : scene.clouds) {
     for (Vec3& position : points.cloud->positions) position = turn * position;
+    for (glm::vec3& normal : points.cloud->normals) normal = turn * Vec3(normal);
+  }
   for (ImportedLines& lines : scene.lines)
     for (LineSegment& each : lines.segments) each = {turn * each.from, turn * each.to};
 }

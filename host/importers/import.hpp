@@ -36,12 +36,18 @@ struct Playing {
 enum class UpAxis { y, z, x, minus_y, minus_z, minus_x };
 inline constexpr std::string_view up_names[] = {"y", "z", "x", "-y", "-z", "-x"};
 
+// The shape of a point: a sphere, or a disk perpendicular to its normal.
+enum class PointShape { sphere, disk };
+inline constexpr std::string_view point_shape_names[] = {"sphere", "disk"};
+
 // The way to read a file.
 struct ImportOptions {
   // For a file without normals: the greatest angle, in degrees, between faces that are shaded as one smooth
   // surface; 0: flat. Absent: 40, but 0 for glTF, by its specification.
   std::optional<double> smooth = {};
-  // Diameter of the spheres that show points, in the file's units. Absent: it follows from their spacing.
+  PointShape point_shape = PointShape::sphere;
+  // Diameter of the spheres or disks that show points, in the file's units. Absent: it follows from their
+  // spacing.
   std::optional<double> point_size = {};
   // Diameter of the capsules that show the lines of OBJ and glTF, in the file's units. Absent: lines are left
   // out.

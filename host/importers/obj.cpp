@@ -336,7 +336,10 @@ ImportedScene import_obj(MeshFile& file) {
     scene.warnings.push_back(fmt::format("{} points were left out", reader.points));
   if (shows_points) {
     RawPoints raw{file.name, std::move(reader.vertices.positions), std::move(reader.vertices.colors)};
-    if (auto cloud = build_cloud(std::move(raw), file.options.point_size, scene.warnings))
+    // Programs write the normals in the order of the points.
+    if (reader.vertices.normals.size() == raw.positions.size())
+      raw.normals = std::move(reader.vertices.normals);
+    if (auto cloud = build_cloud(std::move(raw), file.options, scene.warnings))
       scene.clouds.push_back({std::move(cloud)});
   }
   if (reader.curves) scene.warnings.emplace_back("free-form curves and surfaces were left out");

@@ -214,9 +214,11 @@ ImportedScene import_off(MeshFile& file) {
   warn(reader.colors.transparent() + reader.face_colors.transparent(),
        "of its colors are transparent, which was left out: give the mesh a `material` with `alpha`");
   if (reader.polygons.sizes.empty()) {
-    warn(vertices.normals.size(), "normals of its points were left out");
-    if (auto cloud = build_cloud({file.name, std::move(vertices.positions), std::move(vertices.colors)},
-                                 file.options.point_size, scene.warnings))
+    if (file.options.point_shape == PointShape::sphere)
+      warn(vertices.normals.size(), "normals of its points were left out");
+    if (auto cloud = build_cloud({file.name, std::move(vertices.positions), std::move(vertices.colors),
+                                  std::move(vertices.normals)},
+                                 file.options, scene.warnings))
       scene.clouds.push_back({std::move(cloud)});
     return scene;
   }

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <optional>
 
 #include "host/core/free_memory.hpp"
 #include "host/importers/cloud_builder.hpp"
@@ -25,20 +26,35 @@ using PcdValues = BinaryValues<std::endian::little>;
 struct ShownFields {
   std::array<const PcdField*, 3> position;
   const PcdField* color;  // red, green and blue in the bytes of one number
+  std::optional<std::array<const PcdField*, 3>> normal = {};  // for disks
 };
 
-ShownFields shown_fields(const PcdHeader& header, const std::string& file,
-                         std::vector<std::string>& warnings) {
-  ShownFields shown{{header.find("x"), header.find("y"), header.find("z")}, header.find("rgb")};
+// The three fields; empty unless all are numbers of floating point.
+std::optional<std::array<const PcdField*, 3>> find_vector(const PcdHeader& header,
+                                                          const std::array<const char*, 3>& names) {
+  std::array<const PcdField*, 3> fields;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    fields[axis] = header.find(names[axis]);
+    if (!fields[axis] || fields[axis]->count != 1 || fields[axis]->type < PlyType::float32)
+      return std::nullopt;
+  }
+  return fields;
+}
+
+ShownFields shown_fields(const PcdHeader& header, const MeshFile& file, std::vector<std::string>& warnings) {
+  const auto position = find_vector(header, {"x", "y", "z"});
+  if (!position)
+    throw malformed(file.name, "the points must have the fields x, y and z, each of TYPE F and COUNT 1");
+  ShownFields shown{*position, header.find("rgb")};
   if (!shown.color) shown.color = header.find("rgba");
-  for (const PcdField* field : shown.position)
-    if (!field || field->count != 1 || field->type < PlyType::float32)
-      throw malformed(file, "the points must have the fields x, y and z, each of TYPE F and COUNT 1");
+  if (file.options.point_shape == PointShape::disk)
+    shown.normal = find_vector(header, {"normal_x", "normal_y", "normal_z"});
   if (shown.color && (shown.color->count != 1 || size_of(shown.color->type) != 4)) shown.color = nullptr;
   std::vector<std::string> rest;
   for (const PcdField& field : header.fields) {
-    const bool is_shown =
-        &field == shown.color || std::ranges::find(shown.position, &field) != shown.position.end();
+    const bool is_shown = &field == shown.color ||
+                          std::ranges::find(shown.position, &field) != shown.position.end() ||
+                          (shown.normal && std::ranges::find(*shown.normal, &field) != shown.normal->end());
     if (!is_shown && field.name != "_") rest.push_back(field.name);
   }
   report_left_out("fields", std::move(rest), warnings);
@@ -74,17 +90,21 @@ RawPoints read_text_points(const PcdHeader& header, const ShownFields& shown, co
   RawPoints points{file.name, {}};
   points.positions.reserve(header.points);
   if (shown.color) points.colors.reserve(header.points);
+  if (shown.normal) points.normals.reserve(header.points);
   for (uint64_t i = 0; i < header.points; ++i) {
-    Vec3 position(0.0);
+    Vec3 position(0.0), normal(0.0);
     for (const PcdField& field : header.fields) {
       for (uint32_t k = 0; k < field.count; ++k) {
         const double value = values.next(field.type);
-        for (int axis = 0; axis < 3; ++axis)
+        for (int axis = 0; axis < 3; ++axis) {
           if (&field == shown.position[size_t(axis)]) position[axis] = value;
+          if (shown.normal && &field == (*shown.normal)[size_t(axis)]) normal[axis] = value;
+        }
         if (&field == shown.color) points.colors.push_back(color_of_bits(bits_of(value, field.type)));
       }
     }
     points.positions.push_back(position);
+    if (shown.normal) points.normals.push_back(normal);
   }
   return points;
 }
@@ -95,12 +115,16 @@ template <typename At, typename Step>
 RawPoints read_binary_points(const PcdHeader& header, const ShownFields& shown, std::string_view bytes,
                              const std::string& file, const At& at, const Step& step) {
   RawPoints points{file, {}};
-  points.positions.resize(header.points);
-  for (int axis = 0; axis < 3; ++axis) {
-    const PcdField& field = *shown.position[size_t(axis)];
-    for (uint64_t i = 0; i < header.points; ++i)
-      points.positions[i][axis] = PcdValues(bytes, at(field) + i * step(field), file).next(field.type);
-  }
+  const auto read = [&](const std::array<const PcdField*, 3>& fields, std::vector<Vec3>& vectors) {
+    vectors.resize(header.points);
+    for (int axis = 0; axis < 3; ++axis) {
+      const PcdField& field = *fields[size_t(axis)];
+      for (uint64_t i = 0; i < header.points; ++i)
+        vectors[i][axis] = PcdValues(bytes, at(field) + i * step(field), file).next(field.type);
+    }
+  };
+  read(shown.position, points.positions);
+  if (shown.normal) read(*shown.normal, points.normals);
   if (!shown.color) return points;
   points.colors.resize(header.points);
   for (uint64_t i = 0; i < header.points; ++i) {
@@ -144,10 +168,10 @@ RawPoints read_points(const PcdHeader& header, const ShownFields& shown, const M
 ImportedScene import_pcd(MeshFile& file) {
   const PcdHeader header = read_pcd_header(file.bytes, file.name);
   ImportedScene scene;
-  const ShownFields shown = shown_fields(header, file.name, scene.warnings);
+  const ShownFields shown = shown_fields(header, file, scene.warnings);
   RawPoints points = read_points(header, shown, file);
   free_memory(file.bytes);  // the cloud needs the memory
-  if (auto cloud = build_cloud(std::move(points), file.options.point_size, scene.warnings))
+  if (auto cloud = build_cloud(std::move(points), file.options, scene.warnings))
     scene.clouds.push_back({std::move(cloud)});
   return scene;
 }

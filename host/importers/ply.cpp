@@ -84,7 +84,8 @@ void PlyReader<Values>::read_vertices(const PlyElement& element) {
     has[meaning.back()] = true;
   }
   if (!has[x] || !has[y] || !has[z]) values_.fail("the vertices must have x, y and z");
-  const bool normals = has[nx] && has[ny] && has[nz] && header_.has_faces();
+  const bool disks = file_.options.point_shape == PointShape::disk;
+  const bool normals = has[nx] && has[ny] && has[nz] && (header_.has_faces() || disks);
   const bool uv = has[u] && has[v] && header_.has_faces();
   const bool colors = has[red] && has[green] && has[blue];
 
@@ -285,10 +286,12 @@ ImportedScene show_points(const PlyHeader& header, PlyReader<Values> reader, con
   std::vector<std::string> rest;
   for (const PlyElement& element : header.elements)
     for (const PlyProperty& property : element.properties)
-      if (element.name == "vertex" && !is_shown_of_points(property)) rest.push_back(property.name);
+      if (element.name == "vertex" && !is_shown_of_points(property, !reader.vertices.normals.empty()))
+        rest.push_back(property.name);
   report_left_out("properties", std::move(rest), scene.warnings);
-  RawPoints points{file.name, std::move(reader.vertices.positions), std::move(reader.vertices.colors)};
-  if (auto cloud = build_cloud(std::move(points), file.options.point_size, scene.warnings))
+  RawPoints points{file.name, std::move(reader.vertices.positions), std::move(reader.vertices.colors),
+                   std::move(reader.vertices.normals)};
+  if (auto cloud = build_cloud(std::move(points), file.options, scene.warnings))
     scene.clouds.push_back({std::move(cloud)});
   return scene;
 }

@@ -47,10 +47,11 @@ inline Slot slot_of(std::string_view name) {
   return known == std::end(slot_names) ? none : known->second;
 }
 
-// True if a point without faces shows the property, or if another warning covers it.
-inline bool is_shown_of_points(const PlyProperty& property) {
+// True if a point without faces shows the property, or if another warning covers it. `normals`: whether it
+// shows normals.
+inline bool is_shown_of_points(const PlyProperty& property, bool normals) {
   const Slot slot = slot_of(property.name);
-  return !property.list && (slot <= z || (slot >= red && slot <= alpha));
+  return !property.list && (slot <= (normals ? nz : z) || (slot >= red && slot <= alpha));
 }
 
 // The value of full brightness in a colour of this type.

@@ -19,11 +19,12 @@ namespace {
 
 constexpr size_t most_columns = 16;
 
-// Decides whether three columns are colours. They are if all are integers from 0 to 255, and some above 1.
-// They are also if all are shares from 0 to 1 that are neither unit vectors, as normals are, nor all 0.
-class ColorColumns {
+// Decides whether three columns are colours or normals. They are normals if all are unit vectors. They are
+// colours if all are integers from 0 to 255, and some above 1. They are also if all are shares from 0 to 1
+// that are neither unit vectors nor all 0.
+class TripleColumns {
  public:
-  explicit ColorColumns(size_t first) : first_(first) {}
+  explicit TripleColumns(size_t first) : first_(first) {}
 
   void note(const std::vector<double>& numbers) {
     double squares = 0;
@@ -39,6 +40,7 @@ class ColorColumns {
   }
 
   size_t first() const { return first_; }
+  bool are_normals() const { return units_; }
   // The number of full brightness; empty if these are no colours.
   std::optional<double> brightest() const {
     if (codes_ && above_one_) return 255;
@@ -52,9 +54,10 @@ class ColorColumns {
   bool above_zero_ = false, above_one_ = false;       // true of some
 };
 
-// The columns in which programs write colours: x y z r g b …; x y z intensity r g b; x y z nx ny nz r g b.
-std::vector<ColorColumns> candidates(size_t columns) {
-  std::vector<ColorColumns> all;
+// The columns in which programs write colours and normals. Known orders: x y z r g b …; x y z intensity r g
+// b; x y z nx ny nz r g b; x y z r g b nx ny nz.
+std::vector<TripleColumns> candidates(size_t columns) {
+  std::vector<TripleColumns> all;
   if (columns >= 6) all.emplace_back(3);
   if (columns == 7) all.emplace_back(4);
   if (columns >= 9) all.emplace_back(6);
@@ -64,8 +67,8 @@ std::vector<ColorColumns> candidates(size_t columns) {
 struct XyzRows {
   size_t columns = 0;
   std::vector<Vec3> positions;
-  std::vector<float> rest;  // the other numbers of each line, if they may be colours
-  std::vector<ColorColumns> colors;
+  std::vector<float> rest;  // the other numbers of each line, if they may be colours or normals
+  std::vector<TripleColumns> triples;
   std::optional<double> stated;  // the number of points that the first line states
 };
 
@@ -87,15 +90,15 @@ XyzRows read_rows(const MeshFile& file, std::vector<std::string>& warnings) {
     }
     if (rows.columns == 0) {
       rows.columns = numbers.size();
-      rows.colors = candidates(rows.columns);
+      rows.triples = candidates(rows.columns);
     }
     if (numbers.size() < 3) lines.fail("a point needs three numbers, x y z");
     if (numbers.size() != rows.columns)
       lines.fail(
           fmt::format("this line has {} numbers, but the first point has {}", numbers.size(), rows.columns));
     rows.positions.emplace_back(numbers[0], numbers[1], numbers[2]);
-    for (ColorColumns& each : rows.colors) each.note(numbers);
-    if (!rows.colors.empty()) rows.rest.insert(rows.rest.end(), numbers.begin() + 3, numbers.end());
+    for (TripleColumns& each : rows.triples) each.note(numbers);
+    if (!rows.triples.empty()) rows.rest.insert(rows.rest.end(), numbers.begin() + 3, numbers.end());
   }
   return rows;
 }
@@ -112,25 +115,29 @@ ImportedScene import_xyz(MeshFile& file) {
         fmt::format("its first line states {} points, but there are {}", *rows.stated, count));
 
   RawPoints points{file.name, std::move(rows.positions)};
-  size_t shown = 3;
-  for (const ColorColumns& each : rows.colors) {
-    const auto brightest = each.brightest();
-    if (!brightest) continue;
-    shown += 3;
-    points.colors.reserve(count);
+  const auto values_of = [&](const TripleColumns& triple, std::vector<Vec3>& values, const auto& convert) {
+    values.reserve(count);
     const size_t width = rows.columns - 3;
     for (size_t i = 0; i < count; ++i) {
-      const float* const at = &rows.rest[i * width + each.first() - 3];
-      points.colors.push_back(color_from_display(Vec3(at[0], at[1], at[2]) / *brightest));
+      const float* const at = &rows.rest[i * width + triple.first() - 3];
+      values.push_back(convert(Vec3(at[0], at[1], at[2])));
     }
-    break;
+  };
+  const bool disks = file.options.point_shape == PointShape::disk;
+  for (const TripleColumns& each : rows.triples) {
+    const auto brightest = each.brightest();
+    if (brightest && points.colors.empty())
+      values_of(each, points.colors, [&](const Vec3& v) { return color_from_display(v / *brightest); });
+    if (disks && each.are_normals() && points.normals.empty())
+      values_of(each, points.normals, [](const Vec3& v) { return v; });
   }
   free_memory(rows.rest);
+  const size_t shown = 3 + (points.colors.empty() ? 0 : 3) + (points.normals.empty() ? 0 : 3);
   if (shown < rows.columns)
-    scene.warnings.push_back(
-        fmt::format("{} of its {} columns were left out: {}", rows.columns - shown, rows.columns,
-                    shown == 3 ? "only x y z are shown" : "only x y z and a color are shown"));
-  if (auto cloud = build_cloud(std::move(points), file.options.point_size, scene.warnings))
+    scene.warnings.push_back(fmt::format(
+        "{} of its {} columns were left out: only x y z{}{} are shown", rows.columns - shown, rows.columns,
+        points.normals.empty() ? "" : ", normals", points.colors.empty() ? "" : " and a color"));
+  if (auto cloud = build_cloud(std::move(points), file.options, scene.warnings))
     scene.clouds.push_back({std::move(cloud)});
   return scene;
 }

@@ -15,6 +15,7 @@ importers::ImportOptions read_mesh_reading(const reading::TableReader& reader) {
     return reader.has(key) ? std::optional(reader.string(key)) : std::nullopt;
   };
   return {.smooth = number("smooth"),
+          .point_shape = importers::PointShape(reader.choice("point_shape")),
           .point_size = number("point_size"),
           .line_width = number("line_width"),
           .up = importers::UpAxis(reader.choice("up")),
@@ -28,6 +29,8 @@ void write_mesh_reading(const importers::ImportOptions& options, toml::table& me
     if (value) mesh.insert(key, *value);
   };
   write("smooth", options.smooth);
+  if (options.point_shape != importers::PointShape::sphere)
+    mesh.insert("point_shape", importers::point_shape_names[size_t(options.point_shape)]);
   write("point_size", options.point_size);
   write("line_width", options.line_width);
   if (options.up != importers::UpAxis::y) mesh.insert("up", importers::up_names[size_t(options.up)]);

@@ -21,9 +21,10 @@ struct MeshChoice {
   std::string_view key, words;
 };
 constexpr MeshChoice look_choice{"look", "a look"}, camera_choice{"camera", "a camera by name"},
-    turntable_choice{"turntable", "a turntable"}, point_size_choice{"point_size", "a point size"},
-    line_width_choice{"line_width", "a line width"}, up_choice{"up", "an axis that is up"},
-    scene_choice{"gltf_scene", "a scene by name"}, variant_choice{"variant", "a variant"};
+    turntable_choice{"turntable", "a turntable"}, point_shape_choice{"point_shape", "a point shape"},
+    point_size_choice{"point_size", "a point size"}, line_width_choice{"line_width", "a line width"},
+    up_choice{"up", "an axis that is up"}, scene_choice{"gltf_scene", "a scene by name"},
+    variant_choice{"variant", "a variant"};
 
 bool chooses(const Override& each, const MeshChoice& choice) {
   return each.text.starts_with(choice.key) &&
@@ -78,14 +79,16 @@ std::optional<double> take_length(std::vector<Override>& overrides, const MeshCh
   return value;
 }
 
-importers::UpAxis take_up(std::vector<Override>& overrides) {
-  const auto change = take(overrides, up_choice);
-  if (!change) return importers::UpAxis::y;
-  const auto found = std::ranges::find(importers::up_names, value_of(*change));
-  if (found == std::end(importers::up_names))
-    throw Error(ExitCode::bad_input, "{}: the axis that is up is {}", as_written(*change),
-                fmt::join(importers::up_names, ", "));
-  return importers::UpAxis(found - std::begin(importers::up_names));
+// One of the names; absent, the first. `noun`: of the message, "the axis that is up".
+template <typename Value>
+Value take_named(std::vector<Override>& overrides, const MeshChoice& choice, const auto& names,
+                 const char* noun) {
+  const auto change = take(overrides, choice);
+  if (!change) return Value(0);
+  const auto found = std::ranges::find(names, value_of(*change));
+  if (found == std::end(names))
+    throw Error(ExitCode::bad_input, "{}: {} is {}", as_written(*change), noun, fmt::join(names, ", "));
+  return Value(found - std::begin(names));
 }
 
 std::optional<std::string> take_name(std::vector<Override>& overrides, const MeshChoice& choice) {
@@ -98,9 +101,12 @@ std::optional<std::string> take_name(std::vector<Override>& overrides, const Mes
 MeshChoices take_mesh_choices(std::vector<Override>& overrides) {
   return {.look = take_look(overrides),
           .turntable = take_turntable(overrides),
-          .reading = {.point_size = take_length(overrides, point_size_choice),
+          .reading = {.point_shape = take_named<importers::PointShape>(
+                          overrides, point_shape_choice, importers::point_shape_names, "a point shape"),
+                      .point_size = take_length(overrides, point_size_choice),
                       .line_width = take_length(overrides, line_width_choice),
-                      .up = take_up(overrides),
+                      .up = take_named<importers::UpAxis>(overrides, up_choice, importers::up_names,
+                                                          "the axis that is up"),
                       .gltf_scene = take_name(overrides, scene_choice),
                       .variant = take_name(overrides, variant_choice)},
           .camera = take(overrides, camera_choice)};
@@ -108,8 +114,9 @@ MeshChoices take_mesh_choices(std::vector<Override>& overrides) {
 
 void refuse_mesh_choices(std::span<const Override> overrides, const std::filesystem::path& file) {
   for (const Override& each : overrides)
-    for (const MeshChoice& choice : {look_choice, camera_choice, turntable_choice, point_size_choice,
-                                     line_width_choice, up_choice, scene_choice, variant_choice})
+    for (const MeshChoice& choice :
+         {look_choice, camera_choice, turntable_choice, point_shape_choice, point_size_choice,
+          line_width_choice, up_choice, scene_choice, variant_choice})
       if (chooses(each, choice))
         throw Error(ExitCode::bad_input, "{}: {} is for a mesh alone, and {} is a scene", as_written(each),
                     choice.words, file.string());

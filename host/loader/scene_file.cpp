@@ -101,6 +101,8 @@ Document read_mesh(const fs::path& file, std::vector<Override>& overrides, bool 
     }
   }
   for (const std::string& warning : loaded.scene->warnings) log.warning({}, warning);
+  if (choices.reading.point_shape != importers::PointShape::sphere && loaded.scene->clouds.empty())
+    log.warning({}, "has no points, so --point-shape changes nothing");
   if (choices.reading.point_size && loaded.scene->clouds.empty())
     log.warning({}, "has no points, so --point-size changes nothing");
   if (choices.reading.line_width && loaded.scene->lines.empty())

@@ -166,7 +166,7 @@ constexpr Key keys_of_parts[] = {
 
 constexpr std::string_view mesh_manual =
     R"(The ending of the file name selects the format: `.obj` (Wavefront), `.ply`, `.stl`, `.off`, `.3mf`, `.gltf`
-or `.glb` (glTF 2.0), and for points `.ply` without faces, `.xyz` or `.pcd`. Points are shown as spheres. The name is relative
+or `.glb` (glTF 2.0), and for points `.ply` without faces, `.xyz` or `.pcd`. Points are spheres or disks. The name is relative
 to the scene file. The file, and all files that it names, must lie in the scene's folder tree after following links,
 or in a folder that `--allow-path` allows. A file is read once. Each table, and each
 element of a `batch`, is one more instance of it, so thousands of instances need little more memory than one.
@@ -187,8 +187,7 @@ constexpr Key mesh_keys[] = {
     {.name = "file", .type = KeyType::string, .doc = "Name of the file, relative to this scene file."},
     {.name = "material",
      .type = KeyType::string,
-     .doc = "The `name` of a [[material]]. When absent, the file's own material is used, or a light grey if "
-            "the file has none.",
+     .doc = "The `name` of a [[material]]. When absent: the file's own, or else a light grey.",
      .optional = true},
     {.name = "transform",
      .type = KeyType::transform,
@@ -201,9 +200,14 @@ constexpr Key mesh_keys[] = {
      .min = 0,
      .max = 180,
      .optional = true},
+    {.name = "point_shape",
+     .type = KeyType::choice,
+     .doc = "Shape of a point: a sphere, or a disk perpendicular to its normal in the file.",
+     .fallback = "\"sphere\"",
+     .choices = importers::point_shape_names},
     {.name = "point_size",
      .type = KeyType::number,
-     .doc = "Diameter of the spheres that show points, in the file's units. When absent, it follows from the "
+     .doc = "Diameter of those spheres or disks, in the file's units. When absent, it follows from the "
             "distances between points, so that a dense scan looks closed.",
      .min = 0,
      .max = max_coordinate,
@@ -212,8 +216,7 @@ constexpr Key mesh_keys[] = {
     {.name = "line_width",
      .type = KeyType::number,
      .doc = "Diameter of the capsules that show the lines of OBJ and glTF, in the file's units. When absent, "
-            "lines "
-            "are left out.",
+            "lines are left out.",
      .min = 0,
      .max = max_coordinate,
      .above_min = true,
@@ -221,8 +224,7 @@ constexpr Key mesh_keys[] = {
     {.name = "up",
      .type = KeyType::choice,
      .doc = "The axis of the file's coordinates that points up; it becomes +y. Most scans and CAD files have "
-            "`\"z\"`. "
-            "glTF always has `\"y\"`.",
+            "`\"z\"`. glTF always has `\"y\"`.",
      .fallback = "\"y\"",
      .choices = importers::up_names},
     {.name = "animation",
@@ -232,8 +234,7 @@ constexpr Key mesh_keys[] = {
      .optional = true},
     {.name = "gltf_scene",
      .type = KeyType::string,
-     .doc = "The scene of a glTF file that is shown: its name, or its number from 0. When absent, the file's "
-            "default.",
+     .doc = "Scene of a glTF file: its name, or its number from 0. When absent, the file's default.",
      .optional = true},
     {.name = "variant",
      .type = KeyType::string,

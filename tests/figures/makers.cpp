@@ -197,6 +197,17 @@ const std::map<std::string, MakeShape> makers = {
        return shapes::make_points(cloud, size * random.log_uniform(0.1, 0.6),
                                   glm::translate(Mat4(1.0), random.point(2 * size)));
      }},
+    {"points as disks",
+     [](Random& random, double size) {
+       auto cloud = std::make_shared<PointCloud>();
+       const int count = 1 + random.below(20);
+       for (int i = 0; i < count; ++i) {
+         cloud->positions.push_back(random.point(0.6 * size));
+         cloud->normals.emplace_back(random.direction());
+       }
+       return shapes::make_points(cloud, size * random.log_uniform(0.2, 0.8),
+                                  glm::translate(Mat4(1.0), random.point(2 * size)));
+     }},
 };
 
 std::unique_ptr<Shape> some_closed_shape(Random& random, double size) {

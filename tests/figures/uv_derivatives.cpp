@@ -93,7 +93,7 @@ TEST_CASE("derivatives of u and v agree in both halves on every shape") {
   for (const auto& maker : test::shape_makers()) {
     const auto& name = maker.first;
     const auto& make = maker.second;
-    if (name == "points") continue;  // it has no uv
+    if (name.starts_with("points")) continue;  // they have no uv
     CAPTURE(name);
     Random random{7};
     Counts counts;

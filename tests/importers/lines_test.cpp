@@ -102,6 +102,17 @@ TEST_CASE("points of glTF are a cloud, with colours and a material, moved by the
   CHECK(points.material == 0);
   CHECK(import_sound(file.gltf(), "a.gltf").warnings.empty());
 
+  // Normals turn with their node, against its scale.
+  file.primitive()["attributes"]["NORMAL"] =
+      file.add({0, 1, 0, 1, 0, 0, 0, 0, 1, 0.6, 0.8, 0}, 5126, "VEC3", 3);
+  file.json["nodes"][0]["scale"] = {1, 2, 1};
+  const auto disks = cloud_of({.point_shape = PointShape::disk}).cloud;
+  REQUIRE(disks->normals.size() == 4);
+  CHECK(glm::length(disks->normals[0] - glm::vec3(0, 1, 0)) < 1e-6f);
+  CHECK(glm::length(disks->normals[3] - glm::normalize(glm::vec3(0.6f, 0.4f, 0))) < 1e-6f);
+  CHECK(cloud_of({}).cloud->normals.empty());
+  file.json["nodes"][0].erase("scale");
+
   file.primitive()["material"] = 1;
   CHECK(cloud_of({}).material == -1);
   CHECK(warns(import_sound(file.gltf(), "a.gltf"), "transparent materials of points and lines (1)"));

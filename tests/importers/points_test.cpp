@@ -271,3 +271,63 @@ TEST_CASE("a header that states absurd numbers of points is refused") {
   bytes.replace(sizes, 4, "\xff\xff\xff\xff");
   CHECK(contains(refusal(bytes, "a.pcd"), "its data has 4294967295 bytes, but"));
 }
+
+TEST_CASE("points become disks by the normals of every format") {
+  const ImportOptions disks{.point_shape = PointShape::disk};
+  const std::vector<glm::vec3> expected{{0, 0, 1}, {0, -1, 0}, {0.6f, 0.8f, 0}};
+  const auto check = [&](const std::string& bytes, const std::string& name, bool colors = false) {
+    CAPTURE(name);
+    const ImportedScene scene = import_sound(bytes, name, disks);
+    CHECK(scene.warnings.empty());
+    const PointCloud& cloud = only_cloud(scene);
+    CHECK(cloud.positions == three_points);
+    CHECK(cloud.colors.size() == (colors ? 3 : 0));
+    REQUIRE(cloud.normals.size() == 3);
+    for (size_t i = 0; i < 3; ++i) CHECK(glm::length(cloud.normals[i] - expected[i]) < 1e-6f);
+    CHECK(only_cloud(import_sound(bytes, name)).normals.empty());
+  };
+  const std::string rows = "0 0 0 0 0 1\n1 0 0 0 -2 0\n0 2 0 0.6 0.8 0\n";
+  const std::string unit_rows = "0 0 0 0 0 1\n1 0 0 0 -1 0\n0 2 0 0.6 0.8 0\n";
+  std::string ply = "ply\nformat ascii 1.0\nelement vertex 3\n";
+  for (const char* property : {"x", "y", "z", "nx", "ny", "nz"})
+    ply += std::string("property float ") + property + "\n";
+  check(ply + "end_header\n" + rows, "a.ply");
+  check("NOFF\n3 0 0\n" + rows, "a.off");
+  check("v 0 0 0\nvn 0 0 1\nv 1 0 0\nvn 0 -2 0\nv 0 2 0\nvn 0.6 0.8 0\n", "a.obj");
+  check(unit_rows, "a.xyz");
+  check("0 0 0 0 0 1 9 0 255\n1 0 0 0 -1 0 9 0 255\n0 2 0 0.6 0.8 0 9 0 255\n", "a.xyz", true);
+  check("0 0 0 9 0 255 0 0 1\n1 0 0 9 0 255 0 -1 0\n0 2 0 9 0 255 0.6 0.8 0\n", "a.xyz", true);
+
+  const std::string fields = "x y z normal_x normal_y normal_z", sizes = "4 4 4 4 4 4",
+                    letters = "F F F F F F", counts = "1 1 1 1 1 1";
+  check(pcd_header(fields, sizes, letters, counts, 3, "ascii") + rows, "a.pcd");
+  Bytes data;
+  for (size_t i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) data.add(float(three_points[i][k]));
+    for (int k = 0; k < 3; ++k) data.add(3 * expected[i][k]);
+  }
+  check(pcd_header(fields, sizes, letters, counts, 3, "binary") + data.text(), "a.pcd");
+}
+
+TEST_CASE("disks turn upright with their file, and a point whose normal has no direction is a sphere") {
+  const ImportOptions upright{.point_shape = PointShape::disk, .up = UpAxis::z};
+  CHECK(only_cloud(import_sound("0 0 0 0 0 1\n1 0 0 0 1 0\n", "a.xyz", upright)).normals ==
+        std::vector<glm::vec3>{{0, 1, 0}, {0, 0, -1}});
+  const std::string off = "NOFF\n4 0 0\n0 0 0 0 0 1\n1 0 0 0 0 0\nnan 0 0 1 0 0\n2 0 0 0 nan 1\n";
+  const ImportedScene scene = import_sound(off, "a.off", {.point_shape = PointShape::disk});
+  CHECK(warns(scene, "2 of its points have no normal, and are shown as spheres"));
+  CHECK(only_cloud(scene).normals == std::vector<glm::vec3>{{0, 0, 1}, {0, 0, 0}, {0, 0, 0}});
+}
+
+TEST_CASE("a file without normals is not shown as disks") {
+  const ImportOptions disks{.point_shape = PointShape::disk};
+  const std::string why = "error: its points have no normals, which disks need: show them as spheres";
+  for (const auto& [bytes, name] :
+       std::vector<std::pair<std::string, std::string>>{{"0 0 0\n1 0 0\n", "a.xyz"},
+                                                        {colored_lines, "a.xyz"},
+                                                        {"v 0 0 0\nv 1 0 0\nvn 0 0 1\n", "a.obj"},
+                                                        {"OFF\n1 0 0\n0 0 0\n", "a.off"},
+                                                        {pcd_binary(), "a.pcd"}}) {
+    CHECK(contains(refusal(bytes, name, disks), name + ": " + why));
+  }
+}

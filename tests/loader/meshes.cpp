@@ -112,7 +112,7 @@ TEST_CASE("a fault in a mesh is an error at its key") {
         "3:13: error: the transformed vertices are out of range (coordinates up to 1e12)");
   CHECK(message("file = 'a.obj'\nradius = 3") ==
         "3:1: error: unknown key `radius` in [[mesh]]; its keys are name, file, material, transform, smooth, "
-        "point_size, line_width, up, animation, gltf_scene, variant, loop, batch, repeat");
+        "point_shape, point_size, line_width, up, animation, gltf_scene, variant, loop, batch, repeat");
   CHECK(contains(message("file = 'a.obj'\nbatch = { radius = [3] }"),
                  "unknown key `radius` in the batch of [[mesh]]"));
   CHECK_THROWS_AS(parse_scene("[[mesh]]\nfile = 'a.obj'", "memory.toml"), InputError);

@@ -228,3 +228,50 @@ TEST_CASE("a point size is a number above 0, for points alone") {
     return contains(warning.message, "has no points, so --point-size changes nothing");
   }));
 }
+
+TEST_CASE("points are disks by normals in a scene, by point_shape in a mesh, and by an option alone") {
+  const Folder folder;
+  folder.write("scan.xyz", grid(" 0 1 0"));
+  folder.write("bare.xyz", grid());
+  const auto flat = [](const Shape& shape) {
+    // A ray along the plane of the disks hits spheres only.
+    return !shape.intersect({Vec3(-50, 0.1, 0), Vec3(1, 0, 0)}).has_value();
+  };
+  const std::string mesh = "[[mesh]]\nfile = \"scan.xyz\"\n";
+  const auto shape_of = [&](const std::string& text) -> bool {
+    return flat(last_shape(load_scene(folder.write("scene.toml", text))));
+  };
+  CHECK_FALSE(shape_of(mesh));
+  CHECK_FALSE(shape_of(mesh + "point_shape = \"sphere\"\n"));
+  CHECK(shape_of(mesh + "point_shape = \"disk\"\n"));
+  const std::string table =
+      "[[material]]\nname = \"m\"\ntype = \"phong\"\n[[points]]\npoints = [[0, 0, 0], [1, 0, 0]]\nradius = "
+      "1\nmaterial = \"m\"\n";
+  CHECK_FALSE(shape_of(table));
+  CHECK(shape_of(table + "normals = [[0, 3, 0], [0, -1, 0]]\n"));
+
+  const auto alone = [&](const std::string& choice) {
+    return load_scene(folder / "scan.xyz",
+                      std::vector<Override>{{"look=plain"}, {choice, "--point-shape X"}});
+  };
+  CHECK(flat(last_shape(alone("point_shape=disk"))));
+  CHECK_FALSE(flat(last_shape(alone("point_shape=sphere"))));
+
+  const auto why = [&](const std::string& text) { return complaint(folder.write("scene.toml", text)); };
+  CHECK(contains(why("[[mesh]]\nfile = \"bare.xyz\"\npoint_shape = \"disk\"\n"),
+                 "bare.xyz: its points have no normals, which disks need"));
+  CHECK(contains(why(mesh + "point_shape = \"cube\"\n"), "scene.toml:3:15: error: "));
+  CHECK(contains(why(table + "normals = [[0, 1, 0]]\n"),
+                 "there are 2 points and 1 normals; each point needs one"));
+  CHECK(
+      contains(why(table + "normals = [[0, 1, 0], [0, 0, 0]]\n"), ":8:23: error: the normal has no length"));
+  CHECK(contains(
+      complaint(folder / "scan.xyz", std::vector<Override>{{"point_shape=cube", "--point-shape cube"}}),
+      "--point-shape cube: a point shape is sphere, disk"));
+  CHECK(contains(complaint("scenes/shapes/sphere.toml", std::vector<Override>{{"point_shape=disk"}}),
+                 "a point shape is for a mesh alone"));
+  const Scene knot = load_scene("scenes/meshes/knot.ply", std::vector<Override>{{"point_shape=disk"}});
+  CHECK(std::ranges::any_of(knot.warnings, [](const Diagnostic& warning) {
+    return contains(warning.message, "has no points, so --point-shape changes nothing");
+  }));
+}

@@ -63,6 +63,11 @@ inline std::string broken_promise(const importers::ImportedScene& scene) {
     for (const glm::vec3& color : cloud->colors)
       for (int i = 0; i < 3; ++i)
         if (!(color[i] >= 0 && color[i] <= 1)) return "colour of a point out of range";
+    if (!cloud->normals.empty() && cloud->normals.size() != cloud->positions.size())
+      return "number of points' normals";
+    for (const glm::vec3& normal : cloud->normals)
+      if (normal != glm::vec3(0.0f) && !(std::abs(glm::length(normal) - 1) < 1e-5f))
+        return "normal of a point";
     if (!(cloud->radius >= min_radius && std::isfinite(cloud->radius))) return "radius of points";
   }
   for (const auto& [segments, radius, material] : scene.lines) {
