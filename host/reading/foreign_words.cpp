@@ -115,7 +115,7 @@ constexpr Word words[] = {
     {"implicit", " isosurface blob metaball metaballs sdf poly quartic cubic function gyroid "},
     {"bezier", " bicubicpatch patch "},
     {"superellipsoid", " superquadric "},
-    {"capsule", " spheresweep pill roundcone "},
+    {"capsule", " pill roundcone "},
     {"cone", " frustum "},
     {"group", " node assembly collection "},
     {"instance", " use clone "},

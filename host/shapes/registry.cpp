@@ -9,7 +9,7 @@ namespace eyeray::engine::shapes {
 SHAPES(X)
 #undef X
 
-#define MADE_SHAPES(X) X(blob) X(text) X(lathe)
+#define MADE_SHAPES(X) X(blob) X(text) X(lathe) X(sphere_sweep)
 #define X(name) extern const ShapeType name##_type;
 MADE_SHAPES(X)
 #undef X
