@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "host/gpu/spirv.hpp"
+#include "host/spirv/words.hpp"
 
 namespace eyeray::engine::formula {
 
@@ -100,7 +100,7 @@ Module::Module(std::span<const uint32_t> spirv) {
   SourcePosition where;
   Function* function = nullptr;
 
-  gpu::for_each_instruction(spirv, [&](uint32_t opcode, std::span<const uint32_t> words) {
+  spirv::for_each_instruction(spirv, [&](uint32_t opcode, std::span<const uint32_t> words) {
     const auto op = spv::Op(opcode);
     bool has_result = false, has_type = false;
     spv::HasResultAndType(op, &has_result, &has_type);
@@ -113,7 +113,7 @@ Module::Module(std::span<const uint32_t> spirv) {
 
     switch (op) {
       case spv::OpString:
-        strings[words[1]] = gpu::spirv_string(words, 2);
+        strings[words[1]] = spirv::string_at(words, 2);
         return;
       case spv::OpLine:
         where = {strings[words[1]], int(words[2]), 0};
@@ -121,7 +121,7 @@ Module::Module(std::span<const uint32_t> spirv) {
       case spv::OpNoLine:
         return;
       case spv::OpName:
-        names_[words[1]] = gpu::spirv_string(words, 2);
+        names_[words[1]] = spirv::string_at(words, 2);
         return;
       case spv::OpFunction:
         function = &functions.emplace_back();

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "host/core/error.hpp"
-#include "host/gpu/spirv.hpp"
-#include "host/gpu/spirv_module.hpp"
+#include "host/spirv/module.hpp"
+#include "host/spirv/words.hpp"
 
 namespace eyeray::engine::gpu {
 namespace {
@@ -54,35 +54,35 @@ constexpr struct {
 class Caller {
  public:
   Caller(std::span<const uint32_t> spirv, std::string_view prefix)
-      : module_(read_spirv(spirv)), prefix_(prefix) {
-    for (const SpirvInstruction& i : module_.declarations) {
-      if (opcode_of(i) == spv::OpName) names_[i[1]] = spirv_string(i, 2);
-      if (opcode_of(i) == spv::OpTypeFloat && i[2] == 32) float_ = i[1];
-      if (opcode_of(i) == spv::OpTypeVector && i[2] == float_) components_[i[1]] = i[3];
+      : module_(spirv::read(spirv)), prefix_(prefix) {
+    for (const spirv::Instruction& i : module_.declarations) {
+      if (spirv::opcode_of(i) == spv::OpName) names_[i[1]] = spirv::string_at(i, 2);
+      if (spirv::opcode_of(i) == spv::OpTypeFloat && i[2] == 32) float_ = i[1];
+      if (spirv::opcode_of(i) == spv::OpTypeVector && i[2] == float_) components_[i[1]] = i[3];
     }
   }
 
   std::vector<uint32_t> called() {
-    for (SpirvFunction& function : module_.functions) {
+    for (spirv::Function& function : module_.functions) {
       const std::string& name = names_[function.head[0][2]];
       if (name.starts_with(prefix_) || name.starts_with("worst")) continue;
-      for (SpirvBlock& block : function.blocks) call_in(block);
+      for (spirv::Block& block : function.blocks) call_in(block);
     }
     // A call rounds as the function does.
-    std::erase_if(module_.declarations, [&](const SpirvInstruction& i) {
-      return opcode_of(i) == spv::OpDecorate && i[2] == spv::DecorationNoContraction &&
+    std::erase_if(module_.declarations, [&](const spirv::Instruction& i) {
+      return spirv::opcode_of(i) == spv::OpDecorate && i[2] == spv::DecorationNoContraction &&
              replaced_.contains(i[1]);
     });
-    return write_spirv(module_);
+    return spirv::write(module_);
   }
 
  private:
-  void call_in(SpirvBlock& block) {
-    std::vector<SpirvInstruction> body;
-    for (const SpirvInstruction& i : block.body) {
+  void call_in(spirv::Block& block) {
+    std::vector<spirv::Instruction> body;
+    for (const spirv::Instruction& i : block.body) {
       refuse(i);
-      const bool divides = opcode_of(i) == spv::OpFDiv;
-      const bool is_root = opcode_of(i) == spv::OpExtInst && i[4] == GLSLstd450Sqrt;
+      const bool divides = spirv::opcode_of(i) == spv::OpFDiv;
+      const bool is_root = spirv::opcode_of(i) == spv::OpExtInst && i[4] == GLSLstd450Sqrt;
       if (divides || is_root)
         call(body, i[1], i[2], divides ? "_quotient(" : "_root(", std::span(i).subspan(divides ? 3 : 5));
       else
@@ -91,7 +91,7 @@ class Caller {
     block.body = std::move(body);
   }
 
-  void call(std::vector<SpirvInstruction>& body, uint32_t type, uint32_t result, std::string_view name,
+  void call(std::vector<spirv::Instruction>& body, uint32_t type, uint32_t result, std::string_view name,
             std::span<const uint32_t> operands) {
     replaced_.insert(result);
     if (type == float_) {
@@ -100,13 +100,13 @@ class Caller {
     }
     const auto vector = components_.find(type);
     if (vector == components_.end()) return unknown("a division of a type that is not float or a vector");
-    SpirvInstruction whole{0, type, result};
+    spirv::Instruction whole{0, type, result};
     for (uint32_t component = 0; component < vector->second; ++component) {
       std::vector<uint32_t> parts;
       for (const uint32_t operand : operands) {
         parts.push_back(module_.new_id());
         body.push_back(
-            spirv_instruction(spv::OpCompositeExtract, {float_, parts.back(), operand, component}));
+            spirv::instruction(spv::OpCompositeExtract, {float_, parts.back(), operand, component}));
       }
       whole.push_back(module_.new_id());
       call_one(body, whole.back(), name, parts);
@@ -115,9 +115,9 @@ class Caller {
     body.push_back(std::move(whole));
   }
 
-  void call_one(std::vector<SpirvInstruction>& body, uint32_t result, std::string_view name,
+  void call_one(std::vector<spirv::Instruction>& body, uint32_t result, std::string_view name,
                 const std::vector<uint32_t>& operands) {
-    SpirvInstruction call = spirv_instruction(spv::OpFunctionCall, {float_, result, function_named(name)});
+    spirv::Instruction call = spirv::instruction(spv::OpFunctionCall, {float_, result, function_named(name)});
     call.insert(call.end(), operands.begin(), operands.end());
     call[0] = uint32_t(call.size()) << spv::WordCountShift | uint32_t(spv::OpFunctionCall);
     body.push_back(std::move(call));
@@ -129,8 +129,8 @@ class Caller {
     throw Error(ExitCode::internal, "a kernel has no function {}{}…)", prefix_, name);
   }
 
-  static void refuse(const SpirvInstruction& i) {
-    switch (opcode_of(i)) {
+  static void refuse(const spirv::Instruction& i) {
+    switch (spirv::opcode_of(i)) {
       case spv::OpFRem:
       case spv::OpFMod:
         return unknown("mod");
@@ -157,7 +157,7 @@ class Caller {
         what);
   }
 
-  SpirvModule module_;
+  spirv::Module module_;
   std::string prefix_;
   std::map<uint32_t, std::string> names_;
   std::map<uint32_t, uint32_t> components_;  // count of each type of float vectors

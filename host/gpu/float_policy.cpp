@@ -5,7 +5,7 @@
 #include <set>
 #include <string_view>
 
-#include "host/gpu/spirv.hpp"
+#include "host/spirv/words.hpp"
 
 namespace eyeray::engine::gpu {
 
@@ -62,16 +62,16 @@ void append_extension(std::vector<uint32_t>& words, std::string_view name) {
 std::vector<uint32_t> decorate_no_contraction(std::span<const uint32_t> spirv) {
   // Find the results to decorate, and those that are decorated already.
   std::set<uint32_t> results, decorated;
-  for_each_instruction(spirv, [&](uint32_t opcode, std::span<const uint32_t> instruction) {
+  spirv::for_each_instruction(spirv, [&](uint32_t opcode, std::span<const uint32_t> instruction) {
     if (is_float_arithmetic(opcode)) results.insert(instruction[2]);
     if (opcode == spv::OpDecorate && instruction[2] == spv::DecorationNoContraction)
       decorated.insert(instruction[1]);
   });
 
   // Copy the module, with the new decorations behind its existing ones.
-  std::vector<uint32_t> words(spirv.begin(), spirv.begin() + spirv_header_words);
+  std::vector<uint32_t> words(spirv.begin(), spirv.begin() + spirv::header_words);
   bool inserted = false;
-  for_each_instruction(spirv, [&](uint32_t opcode, std::span<const uint32_t> instruction) {
+  spirv::for_each_instruction(spirv, [&](uint32_t opcode, std::span<const uint32_t> instruction) {
     if (!inserted && is_type(opcode)) {
       inserted = true;
       for (const uint32_t id : results)
@@ -99,12 +99,12 @@ std::vector<uint32_t> set_float_modes(std::span<const uint32_t> spirv, const Flo
     return {spirv.begin(), spirv.end()};
 
   // A module's order is capabilities, extensions, imports, memory model, entry points, execution modes.
-  std::vector<uint32_t> words(spirv.begin(), spirv.begin() + spirv_header_words);
+  std::vector<uint32_t> words(spirv.begin(), spirv.begin() + spirv::header_words);
   for (const Mode& mode : all)
     if (mode.wanted) append(words, spv::OpCapability, {uint32_t(mode.capability)});
   std::vector<uint32_t> entry_points;
   bool extended = false, moded = false;
-  for_each_instruction(spirv, [&](uint32_t opcode, std::span<const uint32_t> instruction) {
+  spirv::for_each_instruction(spirv, [&](uint32_t opcode, std::span<const uint32_t> instruction) {
     if (!extended && opcode != spv::OpCapability) {
       extended = true;
       append_extension(words, "SPV_KHR_float_controls");

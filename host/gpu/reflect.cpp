@@ -6,7 +6,7 @@
 #include <map>
 #include <optional>
 
-#include "host/gpu/spirv.hpp"
+#include "host/spirv/words.hpp"
 
 namespace eyeray::engine::gpu {
 namespace {
@@ -36,16 +36,17 @@ struct Module {
   std::array<uint32_t, 3> local_size{1, 1, 1};
 
   explicit Module(std::span<const uint32_t> spirv) {
-    for_each_instruction(spirv, [&](uint32_t opcode, std::span<const uint32_t> i) { read(opcode, i); });
+    spirv::for_each_instruction(spirv,
+                                [&](uint32_t opcode, std::span<const uint32_t> i) { read(opcode, i); });
   }
 
   void read(uint32_t opcode, std::span<const uint32_t> i) {
     switch (opcode) {
       case spv::OpName:
-        ids[i[1]].name = spirv_string(i, 2);
+        ids[i[1]].name = spirv::string_at(i, 2);
         break;
       case spv::OpMemberName:
-        ids[i[1]].members[i[2]].name = spirv_string(i, 3);
+        ids[i[1]].members[i[2]].name = spirv::string_at(i, 3);
         break;
       case spv::OpMemberDecorate:
         if (i[3] == spv::DecorationOffset) ids[i[1]].members[i[2]].offset = i[4];

@@ -7,13 +7,13 @@
 #include <unordered_map>
 
 #include "host/core/error.hpp"
-#include "host/gpu/spirv_module.hpp"
+#include "host/spirv/module.hpp"
 
 namespace eyeray::engine::gpu {
 namespace {
 
-using Instruction = SpirvInstruction;
-using Block = SpirvBlock;
+using Instruction = spirv::Instruction;
+using Block = spirv::Block;
 
 // True if a function of GLSL.std.450, the only set of functions that shaders use, takes only values. Modf
 // writes through a pointer, as some of the functions after FMix do.
@@ -24,7 +24,7 @@ bool is_function_of_values(uint32_t function) {
 // True if the instruction may run even if its result is not needed. An integer division, which may be by
 // zero, and a load from an unknown address may not.
 bool is_harmless(const Instruction& instruction) {
-  const spv::Op opcode = opcode_of(instruction);
+  const spv::Op opcode = spirv::opcode_of(instruction);
   switch (opcode) {
     case spv::OpUndef:
     case spv::OpVectorShuffle:
@@ -53,7 +53,7 @@ bool is_harmless(const Instruction& instruction) {
 // The types between which OpSelect can choose, and the types of their conditions.
 class Types {
  public:
-  explicit Types(SpirvModule& module) : module_(module) {
+  explicit Types(spirv::Module& module) : module_(module) {
     for (const Instruction& instruction : module.declarations) see(instruction);
   }
 
@@ -67,7 +67,7 @@ class Types {
   uint32_t condition(uint32_t scalar, uint32_t components, std::vector<Instruction>& before) {
     if (components == 1) return scalar;
     const uint32_t all = module_.new_id();
-    Instruction construct = spirv_instruction(spv::OpCompositeConstruct, {vector_of_bool(components), all});
+    Instruction construct = spirv::instruction(spv::OpCompositeConstruct, {vector_of_bool(components), all});
     construct.insert(construct.end(), components, scalar);
     construct[0] += components << spv::WordCountShift;
     before.push_back(std::move(construct));
@@ -76,7 +76,7 @@ class Types {
 
  private:
   void see(const Instruction& instruction) {
-    switch (opcode_of(instruction)) {
+    switch (spirv::opcode_of(instruction)) {
       case spv::OpTypeBool:
         bool_ = instruction[1];
         components_[bool_] = 1;
@@ -98,12 +98,12 @@ class Types {
     uint32_t& type = vectors_of_bool_[components];
     if (type == 0) {
       type = module_.new_id();
-      module_.declarations.push_back(spirv_instruction(spv::OpTypeVector, {type, bool_, components}));
+      module_.declarations.push_back(spirv::instruction(spv::OpTypeVector, {type, bool_, components}));
     }
     return type;
   }
 
-  SpirvModule& module_;
+  spirv::Module& module_;
   uint32_t bool_ = 0;
   std::unordered_map<uint32_t, uint32_t> components_;
   std::unordered_map<uint32_t, uint32_t> vectors_of_bool_;
@@ -124,7 +124,7 @@ class Flattener {
     }
     for (Block& block : blocks_)
       for (Instruction& instruction : block.body)
-        if (opcode_of(instruction) == spv::OpPhi)
+        if (spirv::opcode_of(instruction) == spv::OpPhi)
           for (size_t i = 4; i < instruction.size(); i += 2) instruction[i] = now(instruction[i]);
     std::erase_if(blocks_, [](const Block& block) { return block.body.empty(); });
   }
@@ -132,7 +132,7 @@ class Flattener {
  private:
   void count(const Block& block) {
     const Instruction& last = block.body.back();
-    switch (opcode_of(last)) {
+    switch (spirv::opcode_of(last)) {
       case spv::OpBranch:
         ++edges_[last[1]];
         break;
@@ -149,9 +149,9 @@ class Flattener {
     }
     if (block.body.size() < 2) return;
     const Instruction& merge = block.body[block.body.size() - 2];
-    if (opcode_of(merge) == spv::OpSelectionMerge || opcode_of(merge) == spv::OpLoopMerge)
+    if (spirv::opcode_of(merge) == spv::OpSelectionMerge || spirv::opcode_of(merge) == spv::OpLoopMerge)
       ++merges_[merge[1]];
-    if (opcode_of(merge) == spv::OpLoopMerge) ++merges_[merge[2]];
+    if (spirv::opcode_of(merge) == spv::OpLoopMerge) ++merges_[merge[2]];
   }
 
   Block& at(uint32_t label) { return blocks_[places_.at(label)]; }
@@ -167,7 +167,7 @@ class Flattener {
   bool is_harmless_arm(uint32_t label, uint32_t end) {
     if (label == end) return true;
     const std::vector<Instruction>& body = at(label).body;
-    if (edges_[label] != 1 || merges_[label] != 0 || opcode_of(body.back()) != spv::OpBranch ||
+    if (edges_[label] != 1 || merges_[label] != 0 || spirv::opcode_of(body.back()) != spv::OpBranch ||
         body.back()[1] != end)
       return false;
     return std::all_of(body.begin(), body.end() - 1, is_harmless);
@@ -184,7 +184,8 @@ class Flattener {
   bool flatten_at(Block& head) {
     if (head.body.size() < 2) return false;
     const Instruction branch = head.body.back(), merge = head.body[head.body.size() - 2];
-    if (opcode_of(branch) != spv::OpBranchConditional || opcode_of(merge) != spv::OpSelectionMerge)
+    if (spirv::opcode_of(branch) != spv::OpBranchConditional ||
+        spirv::opcode_of(merge) != spv::OpSelectionMerge)
       return false;
     const uint32_t condition = branch[1], yes = branch[2], no = branch[3], end = merge[1];
     if (yes == no || edges_[end] != 2 || !is_harmless_arm(yes, end) || !is_harmless_arm(no, end))
@@ -193,16 +194,16 @@ class Flattener {
     // Make selects that choose the same values as the phis.
     std::vector<Instruction>& rest = at(end).body;
     const auto phis_end =
-        std::ranges::find_if(rest, [](const auto& i) { return opcode_of(i) != spv::OpPhi; });
+        std::ranges::find_if(rest, [](const auto& i) { return spirv::opcode_of(i) != spv::OpPhi; });
     if (std::any_of(rest.begin(), phis_end, [&](const auto& phi) { return types_.components(phi[1]) == 0; }))
       return false;
     std::vector<Instruction> chosen;
     for (auto phi = rest.begin(); phi != phis_end; ++phi) {
       const uint32_t type = (*phi)[1], result = (*phi)[2];
       const uint32_t by = types_.condition(condition, types_.components(type), chosen);
-      chosen.push_back(
-          spirv_instruction(spv::OpSelect, {type, result, by, value_from(*phi, yes == end ? head.label : yes),
-                                            value_from(*phi, no == end ? head.label : no)}));
+      chosen.push_back(spirv::instruction(spv::OpSelect,
+                                          {type, result, by, value_from(*phi, yes == end ? head.label : yes),
+                                           value_from(*phi, no == end ? head.label : no)}));
     }
 
     // Move into the head both arms, the selects and, if no other construct ends at `end`, the rest of that
@@ -222,7 +223,7 @@ class Flattener {
       rest.clear();
       joined_[end] = head.label;
     } else {
-      head.body.push_back(spirv_instruction(spv::OpBranch, {end}));
+      head.body.push_back(spirv::instruction(spv::OpBranch, {end}));
     }
     return true;
   }
@@ -238,10 +239,10 @@ class Flattener {
 }  // namespace
 
 std::vector<uint32_t> flatten_selections(std::span<const uint32_t> spirv) {
-  SpirvModule module = read_spirv(spirv);
+  spirv::Module module = spirv::read(spirv);
   Types types(module);
-  for (SpirvFunction& function : module.functions) Flattener(function.blocks, types).flatten();
-  return write_spirv(module);
+  for (spirv::Function& function : module.functions) Flattener(function.blocks, types).flatten();
+  return spirv::write(module);
 }
 
 }  // namespace eyeray::engine::gpu

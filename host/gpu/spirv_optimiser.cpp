@@ -9,7 +9,7 @@
 #include <spirv-tools/optimizer.hpp>
 
 #include "host/gpu/selection_flattener.hpp"
-#include "host/gpu/spirv.hpp"
+#include "host/spirv/words.hpp"
 
 namespace eyeray::engine::gpu {
 namespace {
@@ -75,7 +75,7 @@ uint64_t inlined_instructions(std::span<const uint32_t> spirv) {
   };
   std::map<uint32_t, Function> functions;
   Function* current = nullptr;
-  for_each_instruction(spirv, [&](uint32_t opcode, std::span<const uint32_t> instruction) {
+  spirv::for_each_instruction(spirv, [&](uint32_t opcode, std::span<const uint32_t> instruction) {
     if (opcode == spv::OpFunction) current = &functions[instruction[2]];
     if (!current) return;
     ++current->instructions;

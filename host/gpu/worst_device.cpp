@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "host/gpu/float_policy.hpp"
-#include "host/gpu/spirv_module.hpp"
+#include "host/spirv/module.hpp"
 
 namespace eyeray::engine::gpu {
 namespace {
@@ -18,8 +18,8 @@ enum class Scalar { boolean, uint32, float32, float64 };
 // The scalars and vectors of a module, by the kind and the count of their components.
 class NumberTypes {
  public:
-  explicit NumberTypes(SpirvModule& module) : module_(module) {
-    for (const SpirvInstruction& i : module.declarations) see(i);
+  explicit NumberTypes(spirv::Module& module) : module_(module) {
+    for (const spirv::Instruction& i : module.declarations) see(i);
   }
 
   // The number of components of a type; 0 if it is neither a scalar nor a vector of that kind.
@@ -39,19 +39,20 @@ class NumberTypes {
       if (kind == std::pair(scalar, components)) return id;
     if (components > 1) {
       const uint32_t component = type(scalar, 1);
-      return declare(spirv_instruction(spv::OpTypeVector, {module_.new_id(), component, components}));
+      return declare(spirv::instruction(spv::OpTypeVector, {module_.new_id(), component, components}));
     }
     switch (scalar) {
       case Scalar::boolean:
-        return declare(spirv_instruction(spv::OpTypeBool, {module_.new_id()}));
+        return declare(spirv::instruction(spv::OpTypeBool, {module_.new_id()}));
       case Scalar::uint32:
-        return declare(spirv_instruction(spv::OpTypeInt, {module_.new_id(), 32, 0}));
+        return declare(spirv::instruction(spv::OpTypeInt, {module_.new_id(), 32, 0}));
       case Scalar::float32:
-        return declare(spirv_instruction(spv::OpTypeFloat, {module_.new_id(), 32}));
+        return declare(spirv::instruction(spv::OpTypeFloat, {module_.new_id(), 32}));
       case Scalar::float64:
-        module_.declarations.insert(module_.declarations.begin(),
-                                    spirv_instruction(spv::OpCapability, {uint32_t(spv::CapabilityFloat64)}));
-        return declare(spirv_instruction(spv::OpTypeFloat, {module_.new_id(), 64}));
+        module_.declarations.insert(
+            module_.declarations.begin(),
+            spirv::instruction(spv::OpCapability, {uint32_t(spv::CapabilityFloat64)}));
+        return declare(spirv::instruction(spv::OpTypeFloat, {module_.new_id(), 64}));
     }
     return 0;
   }
@@ -63,7 +64,7 @@ class NumberTypes {
     const uint32_t its_type = type(Scalar::uint32, components);
     const uint32_t component = components > 1 ? constant(value, 1) : 0;
     id = module_.new_id();
-    SpirvInstruction made{0, its_type, id};
+    spirv::Instruction made{0, its_type, id};
     made.insert(made.end(), components > 1 ? components : 1, components > 1 ? component : value);
     made[0] = uint32_t(made.size()) << spv::WordCountShift |
               uint32_t(components > 1 ? spv::OpConstantComposite : spv::OpConstant);
@@ -72,73 +73,75 @@ class NumberTypes {
   }
 
  private:
-  void see(const SpirvInstruction& i) {
-    if (opcode_of(i) == spv::OpTypeBool) kinds_[i[1]] = {Scalar::boolean, 1};
-    if (opcode_of(i) == spv::OpTypeInt && i[2] == 32 && i[3] == 0) kinds_[i[1]] = {Scalar::uint32, 1};
-    if (opcode_of(i) == spv::OpTypeFloat) kinds_[i[1]] = {i[2] == 32 ? Scalar::float32 : Scalar::float64, 1};
-    if (opcode_of(i) == spv::OpTypeVector && kinds_.contains(i[2])) kinds_[i[1]] = {kinds_[i[2]].first, i[3]};
+  void see(const spirv::Instruction& i) {
+    if (spirv::opcode_of(i) == spv::OpTypeBool) kinds_[i[1]] = {Scalar::boolean, 1};
+    if (spirv::opcode_of(i) == spv::OpTypeInt && i[2] == 32 && i[3] == 0) kinds_[i[1]] = {Scalar::uint32, 1};
+    if (spirv::opcode_of(i) == spv::OpTypeFloat)
+      kinds_[i[1]] = {i[2] == 32 ? Scalar::float32 : Scalar::float64, 1};
+    if (spirv::opcode_of(i) == spv::OpTypeVector && kinds_.contains(i[2]))
+      kinds_[i[1]] = {kinds_[i[2]].first, i[3]};
   }
-  uint32_t declare(SpirvInstruction instruction) {
+  uint32_t declare(spirv::Instruction instruction) {
     module_.declarations.push_back(std::move(instruction));
     see(module_.declarations.back());
     return module_.declarations.back()[1];
   }
 
-  SpirvModule& module_;
+  spirv::Module& module_;
   std::map<uint32_t, std::pair<Scalar, uint32_t>> kinds_;
   std::map<std::pair<uint32_t, uint32_t>, uint32_t> constants_;
 };
 
-std::set<uint32_t> with_no_contraction(const SpirvModule& module) {
+std::set<uint32_t> with_no_contraction(const spirv::Module& module) {
   std::set<uint32_t> ids;
-  for (const SpirvInstruction& i : module.declarations)
-    if (opcode_of(i) == spv::OpDecorate && i[2] == spv::DecorationNoContraction) ids.insert(i[1]);
+  for (const spirv::Instruction& i : module.declarations)
+    if (spirv::opcode_of(i) == spv::OpDecorate && i[2] == spv::DecorationNoContraction) ids.insert(i[1]);
   return ids;
 }
 
 // Replaces instructions one by one by several.
 class Rewriter {
  protected:
-  explicit Rewriter(SpirvModule& module) : module_(module), types_(module) {}
+  explicit Rewriter(spirv::Module& module) : module_(module), types_(module) {}
 
   // Calls rewrite(i) for every instruction of every function. It adds the instructions that replace i.
   template <typename Rewrite>
   void rewrite_all(const Rewrite& rewrite) {
-    for (SpirvFunction& function : module_.functions) {
-      for (SpirvBlock& block : function.blocks) {
-        for (SpirvInstruction& i : std::exchange(block.body, {})) rewrite(i);
+    for (spirv::Function& function : module_.functions) {
+      for (spirv::Block& block : function.blocks) {
+        for (spirv::Instruction& i : std::exchange(block.body, {})) rewrite(i);
         block.body = std::exchange(body_, {});
       }
     }
   }
 
-  void add(SpirvInstruction instruction) { body_.push_back(std::move(instruction)); }
+  void add(spirv::Instruction instruction) { body_.push_back(std::move(instruction)); }
   // Adds an instruction with a result, which gets the id `result`, or a new one.
   uint32_t add(spv::Op opcode, uint32_t type, std::initializer_list<uint32_t> operands, uint32_t result = 0) {
     if (result == 0) result = module_.new_id();
-    SpirvInstruction i{0, type, result};
+    spirv::Instruction i{0, type, result};
     i.insert(i.end(), operands);
     i[0] = uint32_t(i.size()) << spv::WordCountShift | uint32_t(opcode);
     add(std::move(i));
     return result;
   }
 
-  SpirvModule& module_;
+  spirv::Module& module_;
   NumberTypes types_;
 
  private:
-  std::vector<SpirvInstruction> body_;
+  std::vector<spirv::Instruction> body_;
 };
 
 // Rounds a·b ± c and c ± a·b once, in float64, where neither operation has NoContraction, and fma in any
 // case. The optimiser also makes an fma of operations that may be contracted.
 class Contractor : Rewriter {
  public:
-  explicit Contractor(SpirvModule& module) : Rewriter(module), exact_(with_no_contraction(module)) {}
+  explicit Contractor(spirv::Module& module) : Rewriter(module), exact_(with_no_contraction(module)) {}
 
   void run() {
-    rewrite_all([&](const SpirvInstruction& i) {
-      const spv::Op opcode = opcode_of(i);
+    rewrite_all([&](const spirv::Instruction& i) {
+      const spv::Op opcode = spirv::opcode_of(i);
       if (opcode == spv::OpFMul || opcode == spv::OpVectorTimesScalar) products_[i[2]] = i;
       if (opcode == spv::OpExtInst && i[4] == GLSLstd450Fma) return fuse(i);
       const bool sums = opcode == spv::OpFAdd || opcode == spv::OpFSub;
@@ -153,7 +156,7 @@ class Contractor : Rewriter {
   }
 
  private:
-  void fuse(const SpirvInstruction& fma) {
+  void fuse(const spirv::Instruction& fma) {
     const uint32_t wide = types_.type(Scalar::float64, types_.components(fma[1]));
     const uint32_t a = add(spv::OpFConvert, wide, {fma[5]}), b = add(spv::OpFConvert, wide, {fma[6]});
     const uint32_t c = add(spv::OpFConvert, wide, {fma[7]});
@@ -163,26 +166,26 @@ class Contractor : Rewriter {
 
   bool is_free(uint32_t id) const { return products_.contains(id) && !exact_.contains(id); }
 
-  uint32_t widened(const SpirvInstruction& product, uint32_t wide) {
-    const bool scales = opcode_of(product) == spv::OpVectorTimesScalar;
+  uint32_t widened(const spirv::Instruction& product, uint32_t wide) {
+    const bool scales = spirv::opcode_of(product) == spv::OpVectorTimesScalar;
     const uint32_t a = add(spv::OpFConvert, wide, {product[3]});
     const uint32_t b = add(spv::OpFConvert, scales ? types_.type(Scalar::float64, 1) : wide, {product[4]});
-    return add(opcode_of(product), wide, {a, b});
+    return add(spirv::opcode_of(product), wide, {a, b});
   }
 
   std::set<uint32_t> exact_;
-  std::map<uint32_t, SpirvInstruction> products_;
+  std::map<uint32_t, spirv::Instruction> products_;
 };
 
 // Lets FMin and FMax, and FClamp, which is both, return their second operand if it equals the first or one is
 // NaN: the opposite of `minimum` and `maximum` (math/math.glsl).
 class ExtremeChooser : Rewriter {
  public:
-  explicit ExtremeChooser(SpirvModule& module) : Rewriter(module) {}
+  explicit ExtremeChooser(spirv::Module& module) : Rewriter(module) {}
 
   void run() {
-    rewrite_all([&](const SpirvInstruction& i) {
-      const uint32_t function = opcode_of(i) == spv::OpExtInst ? i[4] : 0;
+    rewrite_all([&](const spirv::Instruction& i) {
+      const uint32_t function = spirv::opcode_of(i) == spv::OpExtInst ? i[4] : 0;
       if (function == GLSLstd450FMin || function == GLSLstd450FMax) {
         choose(i, function, i[5], i[6], i[2]);
       } else if (function == GLSLstd450FClamp) {
@@ -196,7 +199,7 @@ class ExtremeChooser : Rewriter {
   }
 
  private:
-  void choose(const SpirvInstruction& i, uint32_t function, uint32_t a, uint32_t b, uint32_t result) {
+  void choose(const spirv::Instruction& i, uint32_t function, uint32_t a, uint32_t b, uint32_t result) {
     const uint32_t count = types_.components(i[1]);
     const uint32_t own = add(spv::OpExtInst, i[1], {i[3], function, a, b});
     const uint32_t free = add(spv::OpFUnordEqual, types_.type(Scalar::boolean, count), {a, b});
@@ -207,18 +210,18 @@ class ExtremeChooser : Rewriter {
 // Flushes denormal operands and results of arithmetic, and denormal operands of comparisons and conversions.
 class Flusher : Rewriter {
  public:
-  explicit Flusher(SpirvModule& module) : Rewriter(module), exact_(with_no_contraction(module)) {
-    for (const SpirvFunction& function : module.functions)
-      for (const SpirvBlock& block : function.blocks)
-        for (const SpirvInstruction& i : block.body)
+  explicit Flusher(spirv::Module& module) : Rewriter(module), exact_(with_no_contraction(module)) {
+    for (const spirv::Function& function : module.functions)
+      for (const spirv::Block& block : function.blocks)
+        for (const spirv::Instruction& i : block.body)
           if (computes(i)) flushed_.insert(i[2]);
   }
 
   void run() {
-    rewrite_all([&](SpirvInstruction& i) {
+    rewrite_all([&](spirv::Instruction& i) {
       const bool result = computes(i);
       if (!result && !reads(i)) return add(std::move(i));
-      if (!result || opcode_of(i) != spv::OpFConvert) flush_operands(i);
+      if (!result || spirv::opcode_of(i) != spv::OpFConvert) flush_operands(i);
       if (!result) return add(std::move(i));
       const uint32_t own = module_.new_id();
       const uint32_t given = std::exchange(i[2], own);
@@ -227,28 +230,29 @@ class Flusher : Rewriter {
       add(std::move(i));
       flush(own, count, given);
     });
-    for (SpirvInstruction& i : module_.declarations)
-      if (opcode_of(i) == spv::OpDecorate && i[2] == spv::DecorationNoContraction && renamed_.contains(i[1]))
+    for (spirv::Instruction& i : module_.declarations)
+      if (spirv::opcode_of(i) == spv::OpDecorate && i[2] == spv::DecorationNoContraction &&
+          renamed_.contains(i[1]))
         i[1] = renamed_[i[1]];
   }
 
  private:
-  bool computes(const SpirvInstruction& i) const {
-    const spv::Op opcode = opcode_of(i);
+  bool computes(const spirv::Instruction& i) const {
+    const spv::Op opcode = spirv::opcode_of(i);
     const bool arithmetic = is_float_arithmetic(opcode) || opcode == spv::OpFConvert ||
                             (opcode == spv::OpExtInst && functions.contains(i[4]));
     return arithmetic && opcode != spv::OpDot && types_.components(i[1], Scalar::float32) > 0;
   }
-  static bool reads(const SpirvInstruction& i) {
-    const spv::Op opcode = opcode_of(i);
+  static bool reads(const spirv::Instruction& i) {
+    const spv::Op opcode = spirv::opcode_of(i);
     return (opcode >= spv::OpFOrdEqual && opcode <= spv::OpFUnordGreaterThanEqual) ||
            opcode == spv::OpConvertFToS || opcode == spv::OpConvertFToU || opcode == spv::OpFConvert;
   }
 
   // All operands of an instruction have as many components as its result, except for the factor of a vector.
-  void flush_operands(SpirvInstruction& i) {
-    for (size_t k = opcode_of(i) == spv::OpExtInst ? 5 : 3; k < i.size(); ++k) {
-      const bool is_factor = opcode_of(i) == spv::OpVectorTimesScalar && k == 4;
+  void flush_operands(spirv::Instruction& i) {
+    for (size_t k = spirv::opcode_of(i) == spv::OpExtInst ? 5 : 3; k < i.size(); ++k) {
+      const bool is_factor = spirv::opcode_of(i) == spv::OpVectorTimesScalar && k == 4;
       if (!flushed_.contains(i[k])) i[k] = flush(i[k], is_factor ? 1 : types_.components(i[1]), 0);
     }
   }
@@ -272,20 +276,20 @@ class Flusher : Rewriter {
   std::map<uint32_t, uint32_t> renamed_;
 };
 
-bool preserves_denormals(const SpirvModule& module) {
-  return std::ranges::any_of(module.declarations, [](const SpirvInstruction& i) {
-    return opcode_of(i) == spv::OpExecutionMode && i[2] == spv::ExecutionModeDenormPreserve;
+bool preserves_denormals(const spirv::Module& module) {
+  return std::ranges::any_of(module.declarations, [](const spirv::Instruction& i) {
+    return spirv::opcode_of(i) == spv::OpExecutionMode && i[2] == spv::ExecutionModeDenormPreserve;
   });
 }
 
 }  // namespace
 
 std::vector<uint32_t> on_worst_device(std::span<const uint32_t> spirv, const WorstDevice& worst) {
-  SpirvModule module = read_spirv(spirv);
+  spirv::Module module = spirv::read(spirv);
   if (worst.contraction) Contractor(module).run();
   if (worst.nan) ExtremeChooser(module).run();
   if (worst.denormals && !preserves_denormals(module)) Flusher(module).run();
-  return write_spirv(module);
+  return spirv::write(module);
 }
 
 }  // namespace eyeray::engine::gpu

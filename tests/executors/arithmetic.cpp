@@ -2,8 +2,8 @@
 #include <set>
 
 #include "host/gpu/float_policy.hpp"
-#include "host/gpu/spirv.hpp"
 #include "host/gpu/spirv_optimiser.hpp"
+#include "host/spirv/words.hpp"
 #include "tests/support/entries.hpp"
 #include "tests/support/random_scene.hpp"
 
@@ -52,7 +52,7 @@ TEST_CASE("no entry contains an operation whose rounding is left to the driver" 
         CHECK(gpu::decorate_no_contraction(optimised) == optimised);  // the optimiser keeps all decorations
         for (const auto& spirv : {written, optimised}) {
           int instructions = 0;
-          gpu::for_each_instruction(spirv, [&](uint32_t opcode, std::span<const uint32_t> instruction) {
+          spirv::for_each_instruction(spirv, [&](uint32_t opcode, std::span<const uint32_t> instruction) {
             ++instructions;
             CHECK(opcode != op_dot);
             if (opcode == op_ext_inst) CHECK(allowed_extended.contains(instruction[4]));

@@ -5,7 +5,7 @@
 #include <spirv-tools/libspirv.hpp>
 #include <spirv/unified1/spirv.hpp>
 
-#include "host/gpu/spirv.hpp"
+#include "host/spirv/words.hpp"
 #include "support.hpp"
 
 using namespace eyeray::engine;
@@ -28,7 +28,7 @@ void main() {
 
 size_t count(const std::vector<uint32_t>& spirv, spv::Op wanted, uint32_t third = 0) {
   size_t found = 0;
-  gpu::for_each_instruction(spirv, [&](uint32_t opcode, std::span<const uint32_t> instruction) {
+  spirv::for_each_instruction(spirv, [&](uint32_t opcode, std::span<const uint32_t> instruction) {
     found += opcode == uint32_t(wanted) && (third == 0 || instruction[2] == third);
   });
   return found;
@@ -51,7 +51,7 @@ std::map<uint32_t, int> decorations(const std::vector<uint32_t>& spirv) {
                                                  spv::OpOuterProduct,
                                                  spv::OpDot};
   std::map<uint32_t, int> times, decorated;
-  gpu::for_each_instruction(spirv, [&](uint32_t opcode, std::span<const uint32_t> instruction) {
+  spirv::for_each_instruction(spirv, [&](uint32_t opcode, std::span<const uint32_t> instruction) {
     if (opcode == spv::OpDecorate && instruction[2] == spv::DecorationNoContraction)
       ++decorated[instruction[1]];
     if (arithmetic_opcodes.contains(opcode)) times[instruction[2]] = decorated[instruction[2]];

@@ -3,7 +3,7 @@
 #include <spirv-tools/libspirv.hpp>
 #include <spirv/unified1/spirv.hpp>
 
-#include "host/gpu/spirv.hpp"
+#include "host/spirv/words.hpp"
 #include "support.hpp"
 #include "tests/support/process.hpp"
 
@@ -14,7 +14,7 @@ namespace {
 
 size_t count(const std::vector<uint32_t>& spirv, std::initializer_list<spv::Op> wanted) {
   size_t found = 0;
-  gpu::for_each_instruction(spirv, [&](uint32_t opcode, std::span<const uint32_t>) {
+  spirv::for_each_instruction(spirv, [&](uint32_t opcode, std::span<const uint32_t>) {
     found += std::find(wanted.begin(), wanted.end(), spv::Op(opcode)) != wanted.end();
   });
   return found;

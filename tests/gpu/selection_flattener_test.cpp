@@ -5,8 +5,8 @@
 #include <spirv-tools/libspirv.hpp>
 #include <spirv/unified1/spirv.hpp>
 
-#include "host/gpu/spirv.hpp"
 #include "host/gpu/spirv_optimiser.hpp"
+#include "host/spirv/words.hpp"
 #include "support.hpp"
 
 using namespace eyeray::engine;
@@ -16,14 +16,14 @@ namespace {
 
 int count(const std::vector<uint32_t>& spirv, spv::Op wanted) {
   int found = 0;
-  gpu::for_each_instruction(
+  spirv::for_each_instruction(
       spirv, [&](uint32_t opcode, std::span<const uint32_t>) { found += spv::Op(opcode) == wanted; });
   return found;
 }
 
 bool writes_whole_part(const std::vector<uint32_t>& spirv) {
   bool found = false;
-  gpu::for_each_instruction(spirv, [&](uint32_t opcode, std::span<const uint32_t> instruction) {
+  spirv::for_each_instruction(spirv, [&](uint32_t opcode, std::span<const uint32_t> instruction) {
     found = found || (opcode == spv::OpExtInst && instruction[4] == GLSLstd450Modf);
   });
   return found;
