@@ -148,6 +148,7 @@ PacketHit packet_of_hit(Hit hit, uint flags) {
   packet.flags = flags;
   packet.u = hit.uv.x;
   packet.v = hit.uv.y;
+  packet.unused_0 = packet.unused_1 = 0u;
   return packet;
 }
 

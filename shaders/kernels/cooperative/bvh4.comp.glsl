@@ -51,7 +51,9 @@ void main() {
   if (there) hits[slot] = packet_of_hit(found.hit, loops_cut_off(LOOP_PROBE) | iteration_limit(found));
 #else
   uvec4 counts = uvec4(0u, 0u, 0u, 0u);
-  Hit hit = hit_of_packet(hits[slot], counts);
+  // A lane without a path reads no other path's hit, which that path's lane may be about to change.
+  Hit hit = traversal_state(T_MISS).hit;
+  if (there) hit = hit_of_packet(hits[slot], counts);
   bool on_surface;
   Interaction at_hit = vertex_at(frame, path, bounced, hit, there, on_surface);
   uint flags = 0u;

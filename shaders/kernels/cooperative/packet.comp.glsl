@@ -54,9 +54,10 @@ uint slot_of(uint packet, uint i) {
 // The interaction at the hit of the camera ray at `slot`; on_surface: whether it hits anything.
 Interaction interaction_of(uint slot, out bool on_surface) {
   uvec4 counts = uvec4(0u, 0u, 0u, 0u);
-  uint there = slot == NONE ? 0u : slot;
-  Hit hit = hit_of_packet(hits[there], counts);
-  Path path = eye_path(there);
+  // A lane without a ray reads no other ray's hit, which that ray's lane may be about to change.
+  Hit hit = traversal_state(T_MISS).hit;
+  if (slot != NONE) hit = hit_of_packet(hits[slot], counts);
+  Path path = eye_path(slot == NONE ? 0u : slot);
   return vertex_at(load_frame(), path, make_ray(path.o, path.d), hit, slot != NONE, on_surface);
 }
 #endif
