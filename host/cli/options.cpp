@@ -296,8 +296,9 @@ void add_backend_option(CLI::App& command, executors::Backend& backend) {
   const auto parse = [&backend](const std::string& name) { backend = executors::parse_backend(name); };
   command
       .add_option_function<std::string>("--backend", parse,
-                                        "The executor: gpu, twin (the same shaders as C++ on the CPU) or "
-                                        "reference (float64, written independently).")
+                                        "The executor: gpu, twin (the same shaders as C++ on the CPU), "
+                                        "reference (float64, written independently) or emulator (the gpu's "
+                                        "kernels on the CPU).")
       ->option_text("NAME=gpu")
       ->group("Device");
 }

@@ -38,6 +38,7 @@ struct VerifyCommand {
   bool quiet = false;
   bool json = false;
   bool record = false;
+  bool emulate = false;
   bool keep_passed = false;
   std::string junit;
   std::string page_folder;
@@ -216,6 +217,8 @@ void VerifyCommand::check_options() const {
 
 ExitCode VerifyCommand::run() {
   const OptionBackends backends;
+  if (emulate && std::ranges::find(options.backends, executors::Backend::emulator) == options.backends.end())
+    options.backends.push_back(executors::Backend::emulator);
   if (record) {
     const std::string changed = scene_options.as_written();
     if (!changed.empty() || options.crop.pixels() > 0 || options.max_explained)
@@ -292,13 +295,18 @@ void add_verify(CLI::App& app, Run& run) {
   const auto parse = [&how](const std::string& list) {
     how.backends = parse_backends(list);
     if (std::ranges::find(how.backends, executors::Backend::reference) != how.backends.end())
-      throw Error(ExitCode::bad_input,
-                  "--backends must be gpu, twin or gpu,twin: the executors to compare with the reference");
+      throw Error(
+          ExitCode::bad_input,
+          "--backends must be some of gpu, twin and emulator: the executors to compare with the reference");
   };
   command
       ->add_option_function<std::string>("--backends", parse,
-                                         "The executors to compare with the reference: gpu, twin, or both.")
+                                         "The executors to compare with the reference: gpu, twin, emulator.")
       ->option_text("LIST=gpu,twin")
+      ->group("Device");
+  command
+      ->add_flag("--emulate", options->emulate,
+                 "Run the kernels' SPIR-V by the emulator, too. Gate S fails if it finds a fault in them.")
       ->group("Device");
   command
       ->add_option("--max-explained", how.max_explained,

@@ -99,6 +99,9 @@ std::vector<std::string> Report::failures() const {
   // Faults within one picture come first: they make the comparisons fail too.
   for (const Participant& p : participants) {
     if (!p.soundness.ok()) failures.push_back(fmt::format("{}: {}", p.name, compare::describe(p.soundness)));
+    if (p.findings && !p.findings->empty())
+      failures.push_back(fmt::format("gate S: faults in the kernels: {}; the first is {}", p.findings->size(),
+                                     p.findings->front()));
   }
   if (photons && !photons->passes())
     failures.push_back(fmt::format(

@@ -27,6 +27,8 @@ struct Participant {
   double seconds = 0;
   uint64_t rays = 0;
   Soundness soundness;
+  // Gate S: the faults that the emulator found in the kernels, a sentence each. Other executors have none.
+  std::optional<std::vector<std::string>> findings{};
 };
 
 // Gate A for a pair of executors.

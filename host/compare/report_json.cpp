@@ -58,10 +58,17 @@ Json json(const Tally& tally) {
 
 Json json(const Participant& p) {
   const Soundness& s = p.soundness;
-  return {{"name", p.name},         {"passed", s.ok()},       {"description", p.description},
-          {"seconds", p.seconds},   {"rays", p.rays},         {"nan", s.nan},
-          {"infinite", s.infinite}, {"negative", s.negative}, {"incomplete_pixels", s.flagged_pixels},
-          {"flags", s.flags}};
+  return {{"name", p.name},
+          {"passed", s.ok()},
+          {"description", p.description},
+          {"seconds", p.seconds},
+          {"rays", p.rays},
+          {"nan", s.nan},
+          {"infinite", s.infinite},
+          {"negative", s.negative},
+          {"incomplete_pixels", s.flagged_pixels},
+          {"flags", s.flags},
+          {"gate_s", p.findings ? Json(*p.findings) : Json()}};
 }
 
 Json json(const ExactResult& result) {

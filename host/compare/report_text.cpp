@@ -213,6 +213,12 @@ std::string to_text(const Report& report) {
   for (const Participant& p : report.participants) {
     line(text, "  {} ({} rays in {:.3g} s)", p.description, p.rays, p.seconds);
   }
+  for (const Participant& p : report.participants) {
+    if (!p.findings) continue;
+    line(text, "  gate S {} {}, faults in its kernels: {}", p.findings->empty() ? "passed" : "FAILED", p.name,
+         p.findings->size());
+    for (const std::string& finding : *p.findings) line(text, "    {}", finding);
+  }
   for (const ExactResult& result : report.exact) {
     if (result.comparison.incomparable.empty()) add(text, report, result);
   }

@@ -12,6 +12,7 @@
 #include "host/core/pixel.hpp"
 #include "host/core/ray_tree.hpp"
 #include "host/core/stopwatch.hpp"
+#include "host/emulator/finding.hpp"
 #include "host/executors/made_kernel.hpp"
 #include "host/executors/options.hpp"
 #include "host/scene/query.hpp"
@@ -19,8 +20,9 @@
 
 namespace eyeray::engine::executors {
 
-enum class Backend { gpu, twin, reference };
-// Convert between a backend and its name: "gpu", "twin" or "reference". Error (bad_input) for another name.
+enum class Backend { gpu, twin, reference, emulator };
+// Convert between a backend and its name: "gpu", "twin", "reference" or "emulator". Error (bad_input) for
+// another name.
 Backend parse_backend(std::string_view name);
 std::string_view backend_name(Backend backend);
 
@@ -43,6 +45,8 @@ struct ExecutorFacts {
 
   // Seconds of the longest dispatch of photons or of a tile so far; 0 without a device.
   double longest_dispatch = 0;
+
+  std::vector<emulator::Finding> findings;  // faults that the emulator found
 
   // The next two grow as kernels are made. Some kernels are made only when they are first needed.
   uint64_t geometry_bytes = 0;                      // bytes of geometry and the BVHs over it; 0 where unknown

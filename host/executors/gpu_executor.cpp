@@ -124,7 +124,9 @@ class GpuExecutor final : public Executor {
   std::string description() const {
     const gpu::DeviceInfo& info = device_.info();
     const std::string text =
-        fmt::format("gpu: {}, {}; {}", info.name, info.driver_version, describe(profile_));
+        options_.gpu.emulate
+            ? fmt::format("emulator: the kernels for {}, {}", info.name, info.driver_version)
+            : fmt::format("gpu: {}, {}; {}", info.name, info.driver_version, describe(profile_));
     return is_exact() ? text : text + "; arithmetic not exact, " + kept_numbers();
   }
 
@@ -281,6 +283,7 @@ class GpuExecutor final : public Executor {
       if (x == grid.width()) x = 0, y += tile.height;
     }
     check_validation();
+    facts_.findings = device_.findings();
     return true;
   }
 
@@ -331,7 +334,7 @@ std::unique_ptr<Executor> make_gpu_executor(const Scene& scene, const ExecutorOp
   StageTimes times;
   records::PackedScene packed = times.measure("pack", [&] { return pack::pack(scene, options.pack); });
   const GpuOptions& gpu = options.gpu;
-  std::shared_ptr<OpenDevice> device = gpu.open_device;
+  std::shared_ptr<OpenDevice> device = gpu.emulate ? nullptr : gpu.open_device;
   if (!device) {
     const bool wide = gpu.wide_vectors && wants_wide_vectors(gpu.profile, scene.image, packed);
     device = std::make_shared<OpenDevice>(gpu, wide, times);

@@ -11,6 +11,20 @@ namespace {
 
 constexpr size_t most_kernels = 8;
 
+// The results of the self-test. Kernels for the emulator are those for the device, so the device is tested.
+gpu::DeviceFacts facts_of(gpu::Device& device, const GpuOptions& options, const DiskCache& cache) {
+  if (device.info().compiles_only) return gpu::expected_of_gpus();
+  if (options.emulate) {
+    GpuOptions own = options;
+    own.emulate = false;
+    gpu::Device tested(device_options(own, false));
+    return facts_of(tested, own, cache);
+  }
+  return gpu::self_test(
+      device, [](std::string_view name) { return ShaderFiles({}, "").read(name); }, cache,
+      options.worst_device);
+}
+
 }  // namespace
 
 gpu::DeviceOptions device_options(const GpuOptions& options, bool wide_vectors) {
@@ -22,17 +36,14 @@ gpu::DeviceOptions device_options(const GpuOptions& options, bool wide_vectors) 
   device.wide_vectors = wide_vectors;
   device.sets_environment = options.sets_environment;
   device.examines_kernels = options.examines_kernels;
+  device.emulate = options.emulate;
+  device.emulated_subgroup = options.emulated_subgroup;
   return device;
 }
 
 OpenDevice::OpenDevice(const GpuOptions& options, bool wide_vectors, StageTimes& times)
     : device_(times.measure("device", [&] { return gpu::Device(device_options(options, wide_vectors)); })),
-      facts_(times.measure("self-test", [&] {
-        if (device_.info().compiles_only) return gpu::expected_of_gpus();
-        return gpu::self_test(
-            device_, [](std::string_view name) { return ShaderFiles({}, "").read(name); }, cache_,
-            options.worst_device);
-      })) {}
+      facts_(times.measure("self-test", [&] { return facts_of(device_, options, cache_); })) {}
 
 std::shared_ptr<gpu::Kernel> OpenDevice::kernel(std::span<const uint32_t> spirv, const std::string& name) {
   const std::string hash = ContentHash().add(std::as_bytes(spirv)).hex();
@@ -51,6 +62,7 @@ gpu::KernelOptions kernel_options(const GpuOptions& options, OpenDevice& device)
   gpu::KernelOptions how{.strict = device.device().info().float_modes,
                          .optimise = options.optimise,
                          .worst = options.worst_device,
+                         .lines = options.emulate ? gpu::Lines::kept : gpu::Lines::dropped,
                          .validate = options.validate_spirv};
   how.exact = options.division == Division::exact ||
               (options.division == Division::automatic && !device.facts().exact_division);

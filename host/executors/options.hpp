@@ -31,6 +31,8 @@ struct GpuOptions {
   bool fast_math = false;  // let the driver contract and re-associate
   Division division = Division::automatic;
   gpu::WorstDevice worst_device;       // for tests: KernelOptions::worst
+  bool emulate = false;                // run kernels by the emulator, as the device would get them
+  uint32_t emulated_subgroup = 0;      // DeviceOptions::emulated_subgroup
   bool validate_spirv = false;         // validate a kernel's SPIR-V before the driver gets it
   bool constants = true;               // compile the primitives of a small scene into the kernel
   bool formula_numbers = false;        // kernels load the numbers of formulas, and so suit other numbers too

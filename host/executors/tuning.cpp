@@ -76,6 +76,12 @@ const Tuning tuning_rows[] = {
                               : value == "own" ? Division::own
                                                : Division::exact;
      }},
+    {"subgroup",
+     {"own", "1", "2", "4", "8", "16", "32", "64"},
+     "for the emulator: the invocations of a subgroup",
+     [](ExecutorOptions& options, std::string_view value) {
+       options.gpu.emulated_subgroup = value == "own" ? 0 : uint32_t(std::stoul(std::string(value)));
+     }},
     {"device-division",
      {"own", "worst"},
      "for tests: makes the device's division and roots as wrong as Vulkan allows",

@@ -25,6 +25,17 @@ void CommandList::dispatch(const Kernel& kernel, std::span<const std::byte> push
   CHECK_LE(groups.x, context_->info.limits.groups[0]);
   CHECK_LE(groups.y, context_->info.limits.groups[1]);
   CHECK_LE(groups.z, context_->info.limits.groups[2]);
+  name_ += (name_.empty() ? "'" : ", '") + kernel.name() + "'";
+  if (context_->emulates) {
+    context_->dispatches.push_back([&objects,
+                                    pushed = std::vector(push_constants.begin(), push_constants.end()),
+                                    groups](emulator::Work work) {
+      work.buffers = objects.spans;
+      work.push_constants = pushed;
+      objects.emulated->run(work, {groups.x, groups.y, groups.z});
+    });
+    return;
+  }
   const VkCommandBuffer commands = context_->commands;
   vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, objects.pipeline);
   if (objects.set)
@@ -34,10 +45,10 @@ void CommandList::dispatch(const Kernel& kernel, std::span<const std::byte> push
     vkCmdPushConstants(commands, objects.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                        uint32_t(push_constants.size()), push_constants.data());
   vkCmdDispatch(commands, groups.x, groups.y, groups.z);
-  name_ += (name_.empty() ? "'" : ", '") + kernel.name() + "'";
 }
 
 void CommandList::barrier() {
+  if (context_->emulates) return;  // which runs dispatches in order
   record_barrier(context_->commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
                  VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
@@ -49,8 +60,9 @@ RunTime CommandList::run() {
 
 RunTime CommandList::run(double timeout_seconds) {
   // Let the host see the kernels' writes.
-  record_barrier(context_->commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-                 VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
+  if (!context_->emulates)
+    record_barrier(context_->commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                   VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
   if (context_->timestamps)
     vkCmdWriteTimestamp(context_->commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, context_->timestamps, 1);
   const Stopwatch watch;

@@ -25,10 +25,14 @@ void record_barrier(VkCommandBuffer commands, VkPipelineStageFlags stages, VkAcc
 }
 
 Context::Context(const DeviceOptions& device_options, InstanceOnly)
-    : options(device_options), instance(std::make_unique<Instance>(options)) {}
+    : options(device_options), emulates(options.emulate), instance(std::make_unique<Instance>(options)) {}
 
 Context::Context(const DeviceOptions& device_options) : Context(device_options, InstanceOnly{}) {
   choose();
+  if (emulates) {
+    if (options.emulated_subgroup) info.limits.subgroup_size = options.emulated_subgroup;
+    return;
+  }
   create_device();
 }
 
@@ -42,7 +46,7 @@ void Context::choose() {
   physical = handles[size_t(info.index)];
   vkGetPhysicalDeviceMemoryProperties(physical, &memory);
   const bool same_memory = info.type == DeviceType::cpu || info.type == DeviceType::integrated;
-  shares_memory = same_memory && !options.force_staging;
+  shares_memory = (same_memory && !options.force_staging) || emulates;
 }
 
 void Context::create_device() {
@@ -115,21 +119,24 @@ Context::~Context() {
 void Context::begin() {
   CHECK(!recording);
   CHECK(!abandoned);
+  recording = true;
+  dispatches.clear();
+  if (emulates) return;
   auto info_begin = make<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
   info_begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
   check(vkBeginCommandBuffer(commands, &info_begin), "begin a command buffer");
-  recording = true;
 }
 
 void Context::cancel() noexcept {
   if (!recording) return;
   recording = false;
-  vkResetCommandBuffer(commands, 0);
+  if (!emulates) vkResetCommandBuffer(commands, 0);
 }
 
 void Context::submit_and_wait(std::string_view what, double timeout_seconds) {
   CHECK(recording);
   recording = false;
+  if (emulates) return emulate(what, timeout_seconds);
   check(vkEndCommandBuffer(commands), "end a command buffer");
   check(vkResetFences(device, 1, &fence), "reset a fence");
   auto submit = make<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
@@ -153,6 +160,20 @@ void Context::submit_and_wait(std::string_view what, double timeout_seconds) {
     if (stopping && stopping->seconds() >= grace)
       abandon(Error(ExitCode::interrupted, "interrupted; the device was still busy and is left behind"));
   }
+}
+
+// Runs the recorded dispatches in order.
+void Context::emulate(std::string_view what, double timeout_seconds) {
+  const Stopwatch watch;
+  const emulator::Work work{.subgroup_size = info.limits.subgroup_size,
+                            .watch =
+                                [&](uint64_t) {
+                                  if (watch.seconds() > timeout_seconds)
+                                    throw time_out(what, timeout_seconds);
+                                  if (signalled()) throw Error(ExitCode::interrupted, "interrupted");
+                                },
+                            .findings = &findings};
+  for (const auto& dispatch : dispatches) dispatch(work);
 }
 
 Error Context::time_out(std::string_view what, double seconds) const {

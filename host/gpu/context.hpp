@@ -1,9 +1,12 @@
 // The Vulkan objects that buffers, kernels and command lists share; for the .cpp files of this layer.
 #pragma once
 
+#include <functional>
 #include <string_view>
+#include <vector>
 
 #include "host/core/error.hpp"
+#include "host/emulator/emulator.hpp"
 #include "host/gpu/device.hpp"
 #include "host/gpu/instance.hpp"
 
@@ -32,6 +35,10 @@ struct Context {
   Error time_out(std::string_view what, double seconds) const;
 
   DeviceOptions options;
+  // The emulator has none of the objects below that need a VkDevice: they are null.
+  const bool emulates;
+  emulator::Findings findings;
+  std::vector<std::function<void(emulator::Work)>> dispatches;  // recorded for the emulator
   std::unique_ptr<Instance> instance;
   VkPhysicalDevice physical = VK_NULL_HANDLE;
   DeviceInfo info;
@@ -51,6 +58,7 @@ struct Context {
   bool abandoned = false;  // nobody waits for the device, which may be busy: destroy none of its objects
 
  private:
+  void emulate(std::string_view what, double timeout_seconds);
   struct InstanceOnly {};
   Context(const DeviceOptions& options,
           InstanceOnly);  // the public constructor completes such a context, and cleans up if it cannot

@@ -27,6 +27,9 @@ void check_choice(const DeviceOptions& options) {
 
 Device::Device(const DeviceOptions& options) : context_(std::make_shared<Context>(options)) {}
 
+std::vector<emulator::Finding> Device::findings() const {
+  return context_->findings.all();
+}
 const DeviceInfo& Device::info() const {
   return context_->info;
 }

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "host/emulator/finding.hpp"
+
 namespace eyeray::engine::gpu {
 
 enum class DeviceType { discrete, integrated, virtual_gpu, cpu, other };
@@ -68,6 +70,9 @@ struct DeviceOptions {
   bool force_staging = false;    // tests: copy through staging buffers even where memory is shared
   // Compile each kernel anew, with the driver's statistics if it has any; null hardware suffices.
   bool examines_kernels = false;
+  // Run kernels by the emulator, as the chosen device would get them.
+  bool emulate = false;
+  uint32_t emulated_subgroup = 0;  // invocations of its subgroups; 0: as many as the device's have
 };
 
 struct Context;
@@ -85,6 +90,8 @@ class Device {
   bool shares_memory() const;
   // The warnings and errors of the validation layer so far; empty if it is off.
   std::vector<std::string> validation_messages() const;
+  // The emulator's findings so far.
+  std::vector<emulator::Finding> findings() const;
 
   const std::shared_ptr<Context>& context() const { return context_; }
 

@@ -110,6 +110,10 @@ Kernel::Kernel(Device& device, std::span<const uint32_t> spirv, std::string name
       reflection_(reflect(spirv)),
       objects_(std::make_unique<Objects>(context_)) {
   check_limits(reflection_, context_->info, name_);
+  if (context_->emulates) {
+    objects_->emulated = std::make_unique<emulator::Kernel>(spirv, name_);
+    return;
+  }
   create_layout();
   create_pipeline(spirv, cache);
 }
@@ -213,6 +217,11 @@ void Kernel::bind(uint32_t binding, const Buffer& buffer, size_t offset, size_t 
                 "as eyeray's own kernels/bindings.glsl does",
                 name_, binding, kind == BindingKind::texels ? "texel" : "storage");
   if (context_->info.compiles_only) return;  // buffers have no memory there
+  objects_->bound.insert(binding);
+  if (context_->emulates) {
+    objects_->spans[binding] = {buffer.raw().mapped() + offset, bytes};
+    return;
+  }
   const VkDescriptorBufferInfo info{buffer.raw().handle(), offset, bytes};
   VkBufferView view = VK_NULL_HANDLE;
   auto write = make<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
@@ -226,7 +235,6 @@ void Kernel::bind(uint32_t binding, const Buffer& buffer, size_t offset, size_t 
     write.pTexelBufferView = &view;
   }
   vkUpdateDescriptorSets(context_->device, 1, &write, 0, nullptr);
-  objects_->bound.insert(binding);
 }
 
 }  // namespace eyeray::engine::gpu

@@ -39,6 +39,7 @@ CompiledShader compile(const ShaderSource& source, const std::string& preamble, 
       .add(compiler_version())
       .add(options.optimise ? optimiser_version(options.flatten) : "");
   hash.add(options.strict ? "strict" : "fast");
+  if (options.lines == Lines::kept) hash.add("lines");
   hash.add(preamble).add(source.entry);
   for (const auto& [path, text] : source.files) hash.add(path).add(text);
   const std::string name = "spirv-" + hash.hex();
@@ -49,7 +50,7 @@ CompiledShader compile(const ShaderSource& source, const std::string& preamble, 
     std::memcpy(found.spirv.data(), bytes->data(), bytes->size());
     return found;
   }
-  CompiledShader compiled = compile_shader(source, preamble);
+  CompiledShader compiled = compile_shader(source, preamble, options.lines);
   if (options.exact) compiled.spirv = call_for_arithmetic(compiled.spirv, "exact");
   if (options.worst.division) compiled.spirv = call_for_arithmetic(compiled.spirv, "worst");
   if (options.strict) compiled.spirv = decorate_no_contraction(compiled.spirv);

@@ -18,7 +18,8 @@ struct KernelOptions {
   bool flatten = false;                   // flatten selections, too; only if `optimise`
   bool exact = false;                     // corrects division and square root; only if `strict`
   WorstDevice worst = {};  // for tests: simulates a device that keeps no more than Vulkan promises
-  bool validate = false;   // checks the result by SPIRV-Tools' validator, as spirv-val does
+  Lines lines = Lines::dropped;
+  bool validate = false;  // checks the result by SPIRV-Tools' validator, as spirv-val does
 };
 
 // The source files of this layer. Their code decides the SPIR-V of a shader.

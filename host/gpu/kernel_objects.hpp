@@ -13,7 +13,7 @@ namespace eyeray::engine::gpu {
 struct Kernel::Objects {
   explicit Objects(std::shared_ptr<Context> the_context) : context(std::move(the_context)) {}
   ~Objects() {
-    if (context->abandoned) return;
+    if (context->abandoned || context->emulates) return;
     for (const auto& [binding, view] : views) vkDestroyBufferView(context->device, view, nullptr);
     vkDestroyPipeline(context->device, pipeline, nullptr);
     vkDestroyPipelineLayout(context->device, layout, nullptr);
@@ -45,6 +45,8 @@ struct Kernel::Objects {
   bool dispatched = false;  // at least once
   std::set<uint32_t> bound;
   std::map<uint32_t, VkBufferView> views;
+  std::unique_ptr<const emulator::Kernel> emulated;  // on the emulator, which has none of the above
+  std::map<uint32_t, std::span<std::byte>> spans;    // by binding, there
 };
 
 }  // namespace eyeray::engine::gpu

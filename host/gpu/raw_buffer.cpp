@@ -6,6 +6,11 @@ namespace eyeray::engine::gpu {
 
 RawBuffer::RawBuffer(std::shared_ptr<Context> context, size_t bytes, MemoryKind kind, std::string_view name)
     : context_(std::move(context)) {
+  if (context_->emulates) {
+    emulated_ = std::make_unique<std::byte[]>(bytes);
+    mapped_ = emulated_.get();
+    return;
+  }
   auto info = make<VkBufferCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO);
   info.size = bytes;
   info.usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
@@ -38,7 +43,7 @@ void RawBuffer::destroy() {
 }
 
 RawBuffer::~RawBuffer() {
-  if (!context_->abandoned) destroy();
+  if (!context_->abandoned && !context_->emulates) destroy();
 }
 
 }  // namespace eyeray::engine::gpu

@@ -29,6 +29,7 @@ class RawBuffer {
   VkBuffer buffer_ = VK_NULL_HANDLE;
   VkDeviceMemory memory_ = VK_NULL_HANDLE;
   std::byte* mapped_ = nullptr;
+  std::unique_ptr<std::byte[]> emulated_;  // the bytes, on the emulator
 };
 
 }  // namespace eyeray::engine::gpu

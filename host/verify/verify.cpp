@@ -71,8 +71,14 @@ compare::Frame render_frame(executors::Backend backend, executors::Executor& exe
   frame.flagged_pixels = rendering.flagged_pixels;
   frame.flags = rendering.flags;
   frame.samples = std::move(samples);
-  report.participants.push_back({std::string(executors::backend_name(backend)), executor.facts().description,
-                                 rendering.seconds, rendering.rays, compare::inspect(frame)});
+  compare::Participant& participant = report.participants.emplace_back(
+      compare::Participant{std::string(executors::backend_name(backend)), executor.facts().description,
+                           rendering.seconds, rendering.rays, compare::inspect(frame)});
+  if (backend == executors::Backend::emulator) {
+    participant.findings.emplace();
+    for (const emulator::Finding& each : executor.facts().findings)
+      participant.findings->push_back(emulator::describe(each));
+  }
   return frame;
 }
 

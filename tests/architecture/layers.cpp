@@ -38,8 +38,8 @@ struct Library {
 };
 const Library libraries[] = {
     {std::regex(R"((volk|vulkan|glslang|spirv-tools|spirv)([/.].*))"),
-     {"spirv", "gpu", "formula"},
-     {"spirv", "gpu", "formula"}},
+     {"spirv", "emulator", "gpu", "formula"},
+     {"spirv", "emulator", "gpu", "formula"}},
     {std::regex(R"(toml\+\+/.*)"), {"reading", "loader"}, {"reading", "loader"}},
     {std::regex(R"(nlohmann/json\.hpp)"),
      {"shards", "film", "bench", "bench_cli", "cli", "compare", "dev", "importers", "loader", "program",

@@ -169,6 +169,6 @@ TEST_CASE("pixels that cannot be probed are refused in one line") {
   CHECK(error({"1,1", "--sample", "1"}) ==
         "eyeray: error: --sample 1: a pixel has 1 sample, the first is 0\n");
   CHECK(error({"1,1", "--backends", "gpu,cpu"}) ==
-        "eyeray: error: no backend is named 'cpu': choose gpu, twin or reference\n");
+        "eyeray: error: no backend is named 'cpu': choose gpu, twin, reference or emulator\n");
   CHECK(error({}).find("PIXEL is required") != std::string::npos);
 }

@@ -81,7 +81,8 @@ TEST_CASE("a wrong command line gives one line with a suggestion, and code 2") {
        "--crop 0,0,0,5 has no pixels: width and height must be at least 1"},
       {{"render", scene, "--crop", "1,1,2147483647,2147483647"},
        "the crop 1,1,2147483647,2147483647 extends beyond the picture, which is 64x48"},
-      {{"render", scene, "--backend", "cpu"}, "no backend is named 'cpu': choose gpu, twin or reference"},
+      {{"render", scene, "--backend", "cpu"},
+       "no backend is named 'cpu': choose gpu, twin, reference or emulator"},
       {{"render", scene, "--timeout", "nan"},
        "--timeout must be a number from 0.001 to 1000000, not 'nan' (see eyeray render --help)"},
       {{"render", scene, "--aov", "dept"},
@@ -110,8 +111,8 @@ TEST_CASE("a wrong command line gives one line with a suggestion, and code 2") {
       {{"render", scene, "--tune", "rays"}, "--tune must be KEY=VALUE, such as rays=lanes, not 'rays'"},
       {{"verify", scene, "--tune", "ray=lanes"},
        "--tune has no key 'ray'; did you mean 'rays'? There are acceleration, splits, profile, loads, rays, "
-       "incoherent, stack, denoise, constants, optimiser, division, device-division, device-contraction, "
-       "device-denormals, device-nan"},
+       "incoherent, stack, denoise, constants, optimiser, division, subgroup, device-division, "
+       "device-contraction, device-denormals, device-nan"},
       {{"probe", scene, "1,1", "--tune", "rays=packets", "--tune", "constants=no"},
        "--tune constants must be one of on, off, not 'no'"},
       {{"render", scene, "--band-memory", "0"},

@@ -42,6 +42,9 @@ std::vector<Expected> all_expected() {
   const char* denoised_bits = "gate A: gpu and twin, denoised";
   const char* denoised = "gate B: gpu against the reference, denoised";
   const std::vector<std::string> denoised_box = {"scenes/path/cornell_box.toml", "--spp", "4", "--denoise"};
+  const std::vector<std::string> watched = {
+      "scenes/sphereflake.toml", "--backends", "twin",        "--emulate", "--tune",
+      "acceleration=bvh",        "--tune",     "rays=packets"};
   return {
       {"near_root", {bits, counts, colors}},
       {"edge", {bits, first_hits, counts, colors, "diverges at primitive"}},
@@ -126,6 +129,10 @@ std::vector<Expected> all_expected() {
       {"photon_aim", {bits, paths}, {"scenes/sppm/points.toml", "--spp", "1"}},
       {"photon_index", {bits, paths}, {"scenes/sppm/paperweight.toml", "--spp", "1"}},
       {"photon_behind", {bits, paths}, {"scenes/sppm/frosted.toml", "--spp", "1"}},
+      {"unset", {"gate S", "not initialised"}, watched},
+      {"lane_reads", {"gate S", "packet.comp.glsl", "race"}, watched},
+      {"next_hit", {"gate S", "packet.comp.glsl", "out of bounds"}, watched},
+      {"list_count", {"gate S", "wavefront.comp.glsl", "race"}, watched},
       {"denoise_own", {denoised, denoised_bits}, denoised_box},
       {"denoise_cost", {denoised, denoised_bits}, denoised_box},
       {"denoise_patch", {denoised, denoised_bits}, denoised_box},

@@ -118,6 +118,17 @@ inline constexpr Fault faults[] = {
     {"photon_aim", "lights/photon_aim.glsl", "/ (2.0f * PI * sum)", "/ (2.01f * PI * sum)"},
     {"photon_index", "integrators/photon.glsl", " / squared_index(path.media, path.throughput)", ""},
     {"photon_behind", "integrators/sppm.glsl", "before ? n : -n", "n"},
+    // Kernels that the emulator watches.
+    {"unset", "bvh/traverse.glsl", "  state.hit.slot = NONE;\n", ""},
+    {"lane_reads", "kernels/cooperative/packet.comp.glsl",
+     "if (slot != NONE) hit = hit_of_packet(hits[slot], counts);",
+     "hit = hit_of_packet(hits[slot == NONE ? 0u : slot], counts);"},
+    {"next_hit", "kernels/cooperative/packet.comp.glsl", "hits[slot[k]] = packet_of_hit(",
+     "hits[slot[k] + 1u] = packet_of_hit("},
+    {"list_count", "kernels/wavefront.comp.glsl",
+     "    queue_path(slot, all.next);\n    next_list[1u + atomicAdd(next_list[0], 1u)] = slot;",
+     "    queue_path(slot, all.next);\n    next_list[0] = next_list[0] + 1u;\n    next_list[next_list[0]] = "
+     "slot;"},
     // Denoising.
     {"denoise_own", "denoise/distance.glsl", "0.25f / float(values)", "0.3f / float(values)"},
     {"denoise_cost", "denoise/regression.glsl", "COEFFICIENT_COST 1.0e-3f", "COEFFICIENT_COST 2.0e-3f"},

@@ -1,0 +1,312 @@
+#include "host/emulator/lowering.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "host/core/error.hpp"
+#include "host/emulator/block_order.hpp"
+#include "host/emulator/executes.hpp"
+#include "host/spirv/words.hpp"
+
+namespace eyeray::engine::emulator {
+namespace {
+
+// Words of registers of one invocation at most.
+constexpr uint64_t most_registers = 1 << 24;
+
+}  // namespace
+
+Program lower(std::span<const uint32_t> spirv) {
+  return Lowering(spirv).run();
+}
+
+Location Lowering::location(const spirv::Instruction& i) const {
+  bool has_result = false, has_type = false;
+  const spv::Op op = spirv::opcode_of(i);
+  spv::HasResultAndType(op, &has_result, &has_type);
+  const uint32_t id = has_result ? i[has_type ? 2 : 1] : 0;
+  return {.opcode = uint32_t(op), .id = id, .file = file_, .line = line_, .column = column_};
+}
+
+void Lowering::refuse(const spirv::Instruction& i) const {
+  throw Error(ExitCode::bad_input, "the emulator does not have the instruction {}",
+              describe(location(i), program_.files));
+}
+
+const Lowering::Value& Lowering::value(uint32_t id) const {
+  const auto found = values_.find(id);
+  if (found == values_.end()) throw Error(ExitCode::bad_input, "a kernel's SPIR-V has no value %{}", id);
+  return found->second;
+}
+
+Source Lowering::part(const Source& source, uint32_t first, uint32_t words) const {
+  CHECK_LE(uint64_t{first} + words, source.words);
+  return {.at = source.at + first, .words = words, .constant = source.constant};
+}
+
+Source Lowering::constant(std::span<const uint32_t> words) {
+  const auto at = uint32_t(program_.constants.size());
+  program_.constants.insert(program_.constants.end(), words.begin(), words.end());
+  return {.at = at, .words = uint32_t(words.size()), .constant = true};
+}
+
+uint32_t Lowering::registers(uint64_t words) {
+  const uint32_t at = program_.registers;
+  if (at + words > most_registers)
+    throw Error(ExitCode::bad_input,
+                "the emulator has room for {} numbers of one invocation, and the kernel needs more",
+                most_registers);
+  program_.registers += uint32_t(words);
+  return at;
+}
+
+void Lowering::decorate(const spirv::Instruction& i) {
+  types_.decorate(i);
+  if (spirv::opcode_of(i) == spv::OpDecorate) decorations_[i[1]][i[2]] = i.size() > 3 ? i[3] : 0;
+}
+
+void Lowering::declare(const spirv::Instruction& i) {
+  switch (const spv::Op op = spirv::opcode_of(i)) {
+    case spv::OpString:
+      files_[i[1]] = uint32_t(program_.files.size());
+      program_.files.push_back(spirv::string_at(i, 2));
+      return;
+    case spv::OpName:
+      names_[i[1]] = spirv::string_at(i, 2);
+      return;
+    case spv::OpExtInstImport:
+      if (spirv::string_at(i, 2) == "GLSL.std.450") glsl_ = i[1];
+      return;
+    case spv::OpEntryPoint:
+      if (i[1] != spv::ExecutionModelGLCompute)
+        throw Error(ExitCode::bad_input, "the emulator runs compute shaders only");
+      entry_ = i[2];
+      return;
+    case spv::OpExecutionMode:
+      if (i[2] == spv::ExecutionModeLocalSize) program_.group = {i[3], i[4], i[5]};
+      return;
+    case spv::OpDecorate:
+    case spv::OpMemberDecorate:
+      decorate(i);
+      return;
+    case spv::OpVariable:
+      add_global(i);
+      return;
+    case spv::OpConstant:
+    case spv::OpConstantTrue:
+    case spv::OpConstantFalse:
+    case spv::OpConstantNull:
+    case spv::OpConstantComposite:
+    case spv::OpSpecConstant:
+    case spv::OpSpecConstantTrue:
+    case spv::OpSpecConstantFalse:
+    case spv::OpSpecConstantComposite:
+    case spv::OpUndef:
+      add_constant(i);
+      return;
+    case spv::OpSpecConstantOp:
+    case spv::OpTypeForwardPointer:
+      refuse(i);
+    default: {
+      bool has_result = false, has_type = false;
+      spv::HasResultAndType(op, &has_result, &has_type);
+      if (has_result && !has_type) types_.add(i, whole_constants_);
+    }
+  }
+}
+
+void Lowering::add_constant(const spirv::Instruction& i) {
+  const uint32_t words = types_.at(i[1]).words;
+  Value made{.type = i[1]};
+  switch (spirv::opcode_of(i)) {
+    case spv::OpConstant:
+    case spv::OpSpecConstant:
+      made.source = constant(std::span(i).subspan(3));
+      whole_constants_[i[2]] = i[3];
+      break;
+    case spv::OpConstantTrue:
+    case spv::OpSpecConstantTrue:
+      made.source = constant(std::vector<uint32_t>{1});
+      break;
+    case spv::OpConstantComposite:
+    case spv::OpSpecConstantComposite: {
+      std::vector<uint32_t> all;
+      for (const uint32_t id : std::span(i).subspan(3)) {
+        const Source from = source(id);
+        all.insert(all.end(), program_.constants.begin() + from.at,
+                   program_.constants.begin() + from.at + from.words);
+      }
+      made.source = constant(all);
+      break;
+    }
+    case spv::OpUndef:
+      // Registers that nothing ever sets.
+      made.source = {.at = registers(words), .words = words};
+      program_.privates.emplace_back(made.source.at, words);
+      break;
+    default:
+      made.source = constant(std::vector<uint32_t>(words));
+  }
+  values_[i[2]] = made;
+}
+
+void Lowering::add_global(const spirv::Instruction& i) {
+  const Type& pointer = types_.at(i[1]);
+  const Type& target = types_.at(pointer.element);
+  const std::map<uint32_t, uint32_t>& decorations = decorations_[i[2]];
+  Root root{.size = target.words, .name = names_[i[2]]};
+  // An anonymous block has the name of its type alone.
+  if (root.name.empty()) root.name = names_[pointer.element];
+  switch (pointer.storage) {
+    case spv::StorageClassInput: {
+      const auto kind = decorations.find(spv::DecorationBuiltIn);
+      if (kind == decorations.end()) refuse(i);
+      root.at = registers(target.words);
+      program_.built_ins.push_back({spv::BuiltIn(kind->second), root.at});
+      break;
+    }
+    case spv::StorageClassPrivate:
+      root.at = registers(target.words);
+      program_.privates.emplace_back(root.at, target.words);
+      break;
+    case spv::StorageClassWorkgroup:
+      root.space = Space::shared;
+      root.at = program_.shared;
+      program_.shared += target.words;
+      break;
+    case spv::StorageClassStorageBuffer:
+    case spv::StorageClassUniform:
+    case spv::StorageClassUniformConstant: {
+      const auto binding = decorations.find(spv::DecorationBinding);
+      const bool one = target.op == spv::OpTypeStruct || target.op == spv::OpTypeImage;
+      if (binding == decorations.end() || !one) refuse(i);
+      root.space = Space::buffer;
+      root.at = binding->second;
+      break;
+    }
+    case spv::StorageClassPushConstant:
+      root.space = Space::pushed;
+      break;
+    default:
+      refuse(i);
+  }
+  const uint32_t zero = 0;
+  values_[i[2]] = {.type = i[1], .source = constant({&zero, 1}), .root = uint32_t(program_.roots.size())};
+  program_.roots.push_back(root);
+  if (i.size() > 4 && root.space == Space::own)
+    program_.prelude.push_back({.execute = concatenate,
+                                .to = root.at,
+                                .words = root.size,
+                                .from = {source(i[4])},
+                                .location = location(i)});
+}
+
+Program Lowering::run() {
+  program_.scratch = registers(1);
+  for (const spirv::Instruction& i : module_.declarations) declare(i);
+  for (const auto& [id, decorations] : decorations_) {
+    const auto kind = decorations.find(spv::DecorationBuiltIn);
+    if (kind == decorations.end() || kind->second != spv::BuiltInWorkgroupSize) continue;
+    for (uint32_t axis = 0; axis < 3; ++axis) program_.group[axis] = program_.constants[source(id).at + axis];
+  }
+  for (const spirv::Function& function : module_.functions) {
+    function_index_[function.head[0][2]] = uint32_t(function_index_.size());
+    allot(function);
+  }
+  for (const spirv::Function& function : module_.functions)
+    program_.functions.push_back(lower_function(function));
+  program_.entry = function_index_.at(entry_);
+  return std::move(program_);
+}
+
+// Gives every value of the function its register, since a phi may name values of later blocks.
+void Lowering::allot(const spirv::Function& function) {
+  const uint32_t zero = 0;
+  const auto give = [&](const spirv::Instruction& i) {
+    bool has_result = false, has_type = false;
+    spv::HasResultAndType(spirv::opcode_of(i), &has_result, &has_type);
+    if (!has_type) return;
+    const Type& type = types_.at(i[1]);
+    Value made{.type = i[1]};
+    if (type.op == spv::OpTypePointer) {
+      made.source = {.at = registers(1), .words = 1};
+    } else if (type.op != spv::OpTypeImage) {
+      made.source = {.at = registers(type.words), .words = type.words};
+    }
+    if (spirv::opcode_of(i) == spv::OpVariable) {
+      const uint32_t words = types_.at(type.element).words;
+      made.source = constant({&zero, 1});
+      made.root = uint32_t(program_.roots.size());
+      program_.roots.push_back({.at = registers(words), .size = words});
+    }
+    values_[i[2]] = made;
+  };
+  for (const spirv::Instruction& i : function.head) {
+    if (spirv::opcode_of(i) != spv::OpFunctionParameter) continue;
+    give(i);
+    std::vector<uint32_t>& roots = parameter_roots_[function.head[0][2]];
+    roots.push_back(no_root);
+    if (types_.at(i[1]).op != spv::OpTypePointer) continue;
+    values_[i[2]].root = roots.back() = uint32_t(program_.roots.size());
+    program_.roots.push_back({});
+  }
+  for (const spirv::Block& block : function.blocks)
+    for (const spirv::Instruction& i : block.body) give(i);
+}
+
+Function Lowering::lower_function(const spirv::Function& from) {
+  Function function;
+  for (const spirv::Instruction& i : from.head)
+    if (spirv::opcode_of(i) == spv::OpFunctionParameter) function.parameters.push_back(source(i[2]).at);
+  function.roots = parameter_roots_[from.head[0][2]];
+  const uint32_t words = types_.at(from.head[0][1]).words;
+  function.result = registers(words);
+
+  std::map<uint32_t, const spirv::Block*> blocks;
+  for (const spirv::Block& block : from.blocks) blocks[block.label] = &block;
+  const std::vector<uint32_t> order = structured_order(from);
+  std::map<uint32_t, uint32_t> index_of;
+  for (const uint32_t label : order) index_of[label] = uint32_t(index_of.size());
+  for (const uint32_t label : order) {
+    Block& block = function.blocks.emplace_back();
+    for (const spirv::Instruction& i : blocks.at(label)->body) lower_instruction(function, block, i);
+    end_block(from, index_of, block, *blocks.at(label));
+  }
+  return function;
+}
+
+void Lowering::end_block(const spirv::Function& function, const std::map<uint32_t, uint32_t>& index_of,
+                         Block& block, const spirv::Block& from) {
+  const spirv::Instruction& end = from.body.back();
+  block.end = spirv::opcode_of(end);
+  block.location = location(end);
+  switch (block.end) {
+    case spv::OpReturnValue:
+    case spv::OpBranchConditional:
+    case spv::OpSwitch:
+      block.condition = source(end[1]);
+      break;
+    case spv::OpReturn:
+    case spv::OpBranch:
+    case spv::OpUnreachable:
+      break;
+    default:
+      refuse(end);
+  }
+  if (block.end == spv::OpSwitch)
+    for (size_t n = 3; n < end.size(); n += 2) block.cases.push_back(end[n]);
+  for (const uint32_t label : successors(end)) {
+    Way& way = block.ways.emplace_back();
+    way.block = index_of.at(label);
+    const auto target = std::ranges::find(function.blocks, label, &spirv::Block::label);
+    for (const spirv::Instruction& phi : target->body) {
+      if (spirv::opcode_of(phi) == spv::OpLine || spirv::opcode_of(phi) == spv::OpNoLine) continue;
+      if (spirv::opcode_of(phi) != spv::OpPhi) break;
+      for (size_t n = 3; n + 1 < phi.size(); n += 2)
+        if (phi[n + 1] == from.label) way.moves.push_back({source(phi[2]).at, source(phi[n])});
+    }
+  }
+}
+
+}  // namespace eyeray::engine::emulator

@@ -1,0 +1,310 @@
+#include <algorithm>
+
+#include "host/core/error.hpp"
+#include "host/emulator/executes.hpp"
+#include "host/emulator/lowering.hpp"
+
+namespace eyeray::engine::emulator {
+
+Operation Lowering::operation(const spirv::Instruction& i) const {
+  Operation made{.location = location(i)};
+  bool has_result = false, has_type = false;
+  spv::HasResultAndType(spirv::opcode_of(i), &has_result, &has_type);
+  if (!has_type) return made;
+  const Source to = source(i[2]);
+  made.to = to.at;
+  made.words = to.words;
+  return made;
+}
+
+std::pair<uint32_t, uint32_t> Lowering::find_part(uint32_t id, std::span<const uint32_t> indices) const {
+  uint32_t first = 0;
+  for (const uint32_t index : indices) {
+    const Type& type = types_.at(id);
+    if (type.op == spv::OpTypeStruct) {
+      first += types_.words_before(type, index);
+      id = type.members.at(index);
+    } else {
+      id = type.element;
+      first += index * types_.at(id).words;
+    }
+  }
+  return {first, id};
+}
+
+void Lowering::lower_instruction(Function& function, Block& block, const spirv::Instruction& i) {
+  switch (spirv::opcode_of(i)) {
+    case spv::OpLine:
+      file_ = files_.at(i[1]);
+      line_ = i[2];
+      column_ = i[3];
+      return;
+    case spv::OpNoLine:
+      line_ = column_ = 0;
+      return;
+    case spv::OpNop:
+    case spv::OpPhi:
+    case spv::OpSelectionMerge:
+    case spv::OpLoopMerge:
+    case spv::OpBranch:
+    case spv::OpBranchConditional:
+    case spv::OpSwitch:
+    case spv::OpReturn:
+    case spv::OpReturnValue:
+    case spv::OpUnreachable:
+      return;  // end_block
+    case spv::OpVariable:
+      return lower_variable(function, block, i);
+    case spv::OpAccessChain:
+    case spv::OpInBoundsAccessChain:
+      return lower_chain(block, i);
+    case spv::OpCompositeExtract:
+    case spv::OpCompositeConstruct:
+    case spv::OpCompositeInsert:
+    case spv::OpVectorShuffle:
+    case spv::OpCopyObject:
+    case spv::OpCopyLogical:
+    case spv::OpUndef:
+      return lower_composite(block, i);
+    case spv::OpFunctionCall:
+      return lower_call(block, i);
+    default:
+      if (!lower_memory(block, i)) lower_arithmetic(block, i);
+  }
+}
+
+void Lowering::lower_variable(Function& function, Block& block, const spirv::Instruction& i) {
+  const Root& root = program_.roots[value(i[2]).root];
+  function.variables.emplace_back(root.at, root.size);
+  if (i.size() <= 4) return;
+  block.operations.push_back({.execute = concatenate,
+                              .to = root.at,
+                              .words = root.size,
+                              .from = {source(i[4])},
+                              .location = location(i)});
+}
+
+// Sums the constant indices up; the others are steps.
+void Lowering::lower_chain(Block& block, const spirv::Instruction& i) {
+  const Value base = value(i[3]);
+  Value& made = values_.at(i[2]);
+  made.root = base.root;
+  made.placement = base.placement;
+  const Space space = program_.roots[base.root].space;
+  const bool bytes = space == Space::buffer || space == Space::pushed;
+  uint32_t id = types_.at(base.type).element;
+  uint64_t offset = 0;
+  Operation chain = operation(i);
+  for (const uint32_t index : std::span(i).subspan(4)) {
+    const Type& type = types_.at(id);
+    const auto known = whole_constants_.find(index);
+    if (type.op == spv::OpTypeStruct) {
+      const uint32_t member = known->second;
+      offset += bytes ? type.placements.at(member).offset : types_.words_before(type, member);
+      made.placement = type.placements.at(member);
+      id = type.members.at(member);
+      continue;
+    }
+    uint32_t stride = types_.at(type.element).words;
+    const Placement& in = made.placement;
+    if (bytes && type.op == spv::OpTypeMatrix) {
+      stride = in.row_major ? 4 : in.matrix_stride;
+    } else if (bytes && type.op == spv::OpTypeVector) {
+      stride = in.row_major && in.matrix_stride ? in.matrix_stride : 4;
+    } else if (bytes) {
+      stride = type.stride;
+    }
+    if (known != whole_constants_.end() && known->second < type.count) {
+      offset += uint64_t{known->second} * stride;
+    } else {
+      chain.steps.push_back({source(index), stride, type.count, uint32_t(offset)});
+    }
+    id = type.element;
+  }
+  chain.execute = memory_operation(spv::OpAccessChain);
+  chain.root = base.root;
+  chain.from = {base.source};
+  chain.literals = {uint32_t(offset)};
+  // Without steps and from a variable's start the pointer is a constant.
+  if (chain.steps.empty() && base.source.constant) {
+    const uint32_t sum = program_.constants[base.source.at] + uint32_t(offset);
+    made.source = constant({&sum, 1});
+    return;
+  }
+  block.operations.push_back(std::move(chain));
+}
+
+// Parts of values that are known never move: they are where the whole is.
+void Lowering::lower_composite(Block& block, const spirv::Instruction& i) {
+  Value& made = values_.at(i[2]);
+  Operation whole = operation(i);
+  whole.execute = concatenate;
+  switch (spirv::opcode_of(i)) {
+    case spv::OpCompositeExtract:
+      made.source =
+          part(source(i[3]), find_part(value(i[3]).type, std::span(i).subspan(4)).first, whole.words);
+      return;
+    case spv::OpCopyObject:
+      made = {.type = made.type,
+              .source = source(i[3]),
+              .root = value(i[3]).root,
+              .placement = value(i[3]).placement};
+      return;
+    case spv::OpCopyLogical:
+      made.source = source(i[3]);
+      return;
+    case spv::OpUndef:
+      return program_.privates.emplace_back(whole.to, whole.words), void();
+    case spv::OpCompositeConstruct:
+      for (const uint32_t id : std::span(i).subspan(3)) whole.from.push_back(source(id));
+      break;
+    case spv::OpCompositeInsert: {
+      const Source object = source(i[3]), all = source(i[4]);
+      const uint32_t first = find_part(made.type, std::span(i).subspan(5)).first,
+                     after = first + object.words;
+      whole.from = {part(all, 0, first), object, part(all, after, all.words - after)};
+      break;
+    }
+    default: {  // OpVectorShuffle
+      const Source a = source(i[3]), b = source(i[4]);
+      for (const uint32_t n : std::span(i).subspan(5)) {
+        if (n == UINT32_MAX)
+          whole.from.push_back(part(a, 0, 1));  // any value will do
+        else
+          whole.from.push_back(n < a.words ? part(a, n, 1) : part(b, n - a.words, 1));
+      }
+    }
+  }
+  block.operations.push_back(std::move(whole));
+}
+
+void Lowering::access(Operation& made, uint32_t pointer) {
+  const Value& to = value(pointer);
+  made.root = to.root;
+  made.from.insert(made.from.begin(), to.source);
+  const Space space = program_.roots[to.root].space;
+  if (space == Space::buffer || space == Space::pushed)
+    made.bytes = types_.bytes(types_.at(to.type).element, to.placement);
+}
+
+bool Lowering::lower_memory(Block& block, const spirv::Instruction& i) {
+  const spv::Op op = spirv::opcode_of(i);
+  Operation made = operation(i);
+  made.execute = memory_operation(op);
+  if (!made.execute) return false;
+  const auto writes = [&] {
+    if (program_.roots[made.root].space == Space::buffer)
+      program_.written.insert(program_.roots[made.root].at);
+  };
+  switch (op) {
+    case spv::OpLoad:
+      if (types_.at(i[1]).op == spv::OpTypeImage) {
+        values_.at(i[2]).root = value(i[3]).root;
+        return true;
+      }
+      access(made, i[3]);
+      break;
+    case spv::OpStore:
+      made.from = {source(i[2])};
+      access(made, i[1]);
+      writes();
+      break;
+    case spv::OpCopyMemory: {
+      // A load and a store.
+      const uint32_t words = types_.at(types_.at(value(i[1]).type).element).words;
+      Operation load{.execute = memory_operation(spv::OpLoad),
+                     .to = registers(words),
+                     .words = words,
+                     .location = made.location};
+      access(load, i[2]);
+      made.execute = memory_operation(spv::OpStore);
+      made.from = {Source{.at = load.to, .words = words}};
+      access(made, i[1]);
+      writes();
+      block.operations.push_back(std::move(load));
+      break;
+    }
+    case spv::OpArrayLength: {
+      const Type& type = types_.at(types_.at(value(i[3]).type).element);
+      made.root = value(i[3]).root;
+      made.literals = {type.placements.at(i[4]).offset, types_.at(type.members.at(i[4])).stride};
+      break;
+    }
+    case spv::OpImageRead:
+    case spv::OpImageFetch:
+    case spv::OpImageQuerySize:
+      made.root = value(i[3]).root;
+      if (i.size() > 4) made.from = {source(i[4])};
+      break;
+    case spv::OpImageWrite:
+      made.root = value(i[1]).root;
+      made.from = {source(i[2]), source(i[3])};
+      writes();
+      break;
+    case spv::OpControlBarrier:
+      made.literals = {source(i[1]).at, source(i[2]).at, source(i[3]).at};
+      for (uint32_t& each : made.literals) each = program_.constants.at(each);
+      break;
+    case spv::OpMemoryBarrier:
+      made.literals = {program_.constants.at(source(i[1]).at), program_.constants.at(source(i[2]).at)};
+      break;
+    default: {  // atomics: pointer, scope, semantics, [unequal semantics,] values
+      const bool stores = op == spv::OpAtomicStore;
+      const size_t pointer = stores ? 1 : 3, first = pointer + (op == spv::OpAtomicCompareExchange ? 4 : 3);
+      for (size_t n = first; n < i.size(); ++n) made.from.push_back(source(i[n]));
+      access(made, i[pointer]);
+      writes();
+    }
+  }
+  block.operations.push_back(std::move(made));
+  return true;
+}
+
+void Lowering::lower_call(Block& block, const spirv::Instruction& i) {
+  Operation call = operation(i);
+  const auto index = function_index_.find(i[3]);
+  if (index == function_index_.end()) refuse(i);
+  call.execute = nullptr;  // the machine's own
+  call.literals = {index->second};
+  for (const uint32_t id : std::span(i).subspan(4)) {
+    call.from.push_back(source(id));
+    call.literals.push_back(value(id).root);
+    const uint32_t root = value(id).root;
+    // A function may write through its parameter.
+    if (root != no_root && program_.roots[root].space == Space::buffer) refuse(i);
+  }
+  block.operations.push_back(std::move(call));
+}
+
+void Lowering::lower_arithmetic(Block& block, const spirv::Instruction& i) {
+  const spv::Op op = spirv::opcode_of(i);
+  Operation made = operation(i);
+  size_t first = 3;  // the first operand that is an id
+  if (op == spv::OpExtInst) {
+    if (i[3] != glsl_) return;  // debug information
+    made.execute = glsl_function(i[4]);
+    first = 5;
+  } else if ((made.execute = subgroup_operation(op))) {
+    first = 4;  // the scope comes first
+    if (op >= spv::OpGroupNonUniformIAdd && op <= spv::OpGroupNonUniformLogicalXor) {
+      made.literals = {i[4], i.size() > 6 ? program_.constants.at(source(i[6]).at) : 0, uint32_t(op)};
+      made.from = {source(i[5])};
+      first = i.size();
+    } else if (op == spv::OpGroupNonUniformBallotBitCount) {
+      made.literals = {i[4]};
+      first = 5;
+    }
+  } else {
+    made.execute = arithmetic(op);
+    if (!made.execute) made.execute = vector_operation(op);
+    if (op == spv::OpMatrixTimesMatrix || op == spv::OpTranspose) {
+      const Type& matrix = type_of(i[3]);
+      made.literals = {types_.at(matrix.element).count, matrix.count};
+    }
+  }
+  if (!made.execute) refuse(i);
+  for (size_t n = first; n < i.size(); ++n) made.from.push_back(source(i[n]));
+  block.operations.push_back(std::move(made));
+}
+
+}  // namespace eyeray::engine::emulator

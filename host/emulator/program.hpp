@@ -1,0 +1,127 @@
+// A compute kernel as operations on words, lowered from its SPIR-V. Private to this layer.
+//
+// Each value has a register of words. Each variable of a single invocation has one, too. All invocations of a
+// work group execute an operation together, as far as they have come to its block.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <spirv/unified1/spirv.hpp>
+
+#include "host/emulator/location.hpp"
+
+namespace eyeray::engine::emulator {
+
+// Words of an operand: of a register, or of the constants.
+struct Source {
+  uint32_t at = 0;
+  uint32_t words = 0;
+  bool constant = false;
+};
+
+enum class Space : uint8_t {
+  own,     // registers
+  shared,  // memory of the work group
+  buffer,  // storage, uniform and texel buffers
+  pushed,  // push constants
+};
+
+// The variable that a pointer points into. A pointer's register holds the offset from its start: words in
+// `own` and `shared`, else bytes.
+struct Root {
+  Space space = Space::own;
+  uint32_t at = 0;     // first register or shared word; of a buffer its binding
+  uint32_t size = 0;   // words, of variables
+  std::string name{};  // name of a buffer or of shared memory, for findings
+};
+
+// An index of an access chain.
+struct Step {
+  Source index;
+  uint32_t stride = 0;
+  uint32_t count = 0;   // elements; 0 for a run-time array, which ends with its buffer
+  uint32_t before = 0;  // the run-time array's start in the buffer, if no other index is in front of it
+};
+
+class Group;
+struct Operation;
+// Executes an operation for the active invocations of a work group.
+using Execute = void (*)(Group&, const Operation&);
+
+struct Operation {
+  Execute execute = nullptr;
+  uint32_t to = 0;     // the result's register
+  uint32_t words = 0;  // size of the result
+  std::vector<Source> from{};
+  std::vector<uint32_t> literals{};  // the instruction's operands that are no ids
+  uint32_t root = 0;                 // the pointer that is read, written or made
+  std::vector<uint32_t> bytes{};     // the bytes of a buffer's value, word by word
+  std::vector<Step> steps{};         // the steps of an access chain
+  Location location{};
+};
+
+struct Move {
+  uint32_t to = 0;
+  Source from;
+};
+
+// A way to another block, with the values that the block's phis get.
+struct Way {
+  uint32_t block = 0;  // index
+  std::vector<Move> moves{};
+};
+
+struct Block {
+  std::vector<Operation> operations{};
+  spv::Op end = spv::OpReturn;
+  Source condition{};             // the condition of a branch, or the returned value
+  std::vector<uint32_t> cases{};  // the values of a switch for its ways after the first, the default
+  std::vector<Way> ways{};
+  Location location{};
+};
+
+// Blocks are in an order in which every construct comes before its merge block, and a loop's continue block
+// after its body. So invocations that wait at the block of the greatest index reconverge there.
+struct Function {
+  std::vector<Block> blocks{};
+  std::vector<uint32_t> parameters{};  // registers
+  std::vector<uint32_t> roots{};       // the root that a call sets for each parameter, or none
+  std::vector<std::pair<uint32_t, uint32_t>> variables{};  // registers and words, without values at the start
+  uint32_t result = 0;                                     // register of the returned value
+};
+
+constexpr uint32_t no_root = UINT32_MAX;
+
+struct BuiltIn {
+  spv::BuiltIn kind = spv::BuiltInMax;
+  uint32_t at = 0;  // register
+};
+
+struct Program {
+  std::array<uint32_t, 3> group{1, 1, 1};  // invocations of a work group, along each axis
+  uint32_t registers = 0;                  // words
+  uint32_t scratch = 0;                    // a register for results that nobody wants
+  uint32_t shared = 0;                     // words
+  std::vector<uint32_t> constants{};
+  std::vector<Root> roots{};
+  std::set<uint32_t> written{};  // bindings that the kernel may write
+  std::vector<BuiltIn> built_ins{};
+  std::vector<std::pair<uint32_t, uint32_t>> privates{};  // registers and words of private variables
+  std::vector<Operation> prelude{};                       // the initial values of global variables
+  std::vector<Function> functions{};
+  std::vector<std::string> files{};
+  uint32_t entry = 0;  // index
+
+  uint32_t invocations() const { return group[0] * group[1] * group[2]; }
+};
+
+// Error (bad_input), with the instruction, for SPIR-V that the emulator does not have.
+Program lower(std::span<const uint32_t> spirv);
+
+}  // namespace eyeray::engine::emulator

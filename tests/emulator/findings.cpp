@@ -1,0 +1,74 @@
+#include "support.hpp"
+
+using namespace eyeray::engine;
+using namespace eyeray::engine::test;
+
+namespace {
+
+const std::vector<uint32_t> zeros(64);
+const How with_memory{.declarations = "shared uint list[64];"};
+
+// The body's findings contain this text, at the body's line.
+void check_found(const std::string& text, const Ran& ran) {
+  CAPTURE(ran.found());
+  CHECK(ran.found().find(text) != std::string::npos);
+  CHECK(ran.found().find("kernel.comp.glsl:5 (") != std::string::npos);
+}
+
+}  // namespace
+
+TEST_CASE("an access out of bounds is found, reads 0 and writes nothing") {
+  const Ran written = run("data[i + 60u] = 7u;", zeros);
+  check_found("out of bounds", written);
+  CHECK(written.data[60] == 7);
+  CHECK(written.data[59] == 0);
+  REQUIRE(written.findings.size() == 1);
+  CHECK(written.findings[0].count == 60);
+  CHECK(written.findings[0].invocation[0] == 4);
+  check_found("out of bounds", run("uint list[4] = uint[4](1u, 2u, 3u, 4u); data[i] = list[i];", zeros));
+  check_found("out of bounds",
+              run("list[i + 1u] = i; barrier(); data[i] = list[63u - i];", zeros, with_memory));
+  CHECK(run("data[i] = data.length();", zeros).data[0] == 64);
+}
+
+TEST_CASE("a value that was never set is found where it decides something or is stored") {
+  check_found("not initialised", run("uint x; if (i > 3u) x = 5u; data[i] = x;", zeros));
+  check_found("not initialised", run("uint x; data[i] = x > 3u ? 1u : 2u;", zeros));
+  check_found("not initialised", run("uint x; data[x & 7u] = 1u;", zeros));
+  check_found("not initialised", run("bool b; if (i > 3u) b = true; if (b) data[i] = 1u;", zeros));
+  check_found("not initialised",
+              run("if (i > 0u) list[i] = 1u; barrier(); data[i] = list[63u - i];", zeros, with_memory));
+  // A copy, and a choice that falls on another value, are no harm.
+  CHECK(run("uvec2 a; a.x = i; uvec2 b = a; data[i] = b.x;", zeros).found() == "");
+  CHECK(run("uint x; if (i > 3u) x = 5u; data[i] = i > 3u ? x : 1u;", zeros).found() == "");
+}
+
+TEST_CASE("a race is found, in shared memory and in buffers") {
+  check_found("race", run("list[i] = i; data[i] = list[63u - i];", zeros, with_memory));
+  check_found("race", run("data[0] = i;", zeros));
+  check_found("race", run("data[i] = data[(i + 1u) % 64u];", zeros));
+  check_found("race", run("list[i] = i; memoryBarrierShared(); data[i] = list[i ^ 1u];", zeros, with_memory));
+  check_found("race", run("data[i % 64u] = i;", zeros, {.groups = 2}));
+  check_found("race", run("atomicAdd(data[0], 1u); data[i] = data[0];", zeros));
+  CHECK(run("list[i] = i; barrier(); data[i] = list[63u - i];", zeros, with_memory).found() == "");
+  CHECK(run("atomicAdd(data[0], i);", zeros).data[0] == 63 * 32);
+  // A barrier of the subgroup orders its own invocations, and no others.
+  const std::string exchange =
+      "list[i] = i; subgroupMemoryBarrierShared(); subgroupBarrier(); data[i] = list[i ^ ";
+  CHECK(run(exchange + "1u];", zeros, with_memory).found() == "");
+  check_found("race", run(exchange + "8u];", zeros, with_memory));
+}
+
+TEST_CASE("a barrier that not all invocations come to is found") {
+  check_found("divergent barrier", run("if (i < 32u) barrier(); data[i] = i;", zeros));
+  check_found("divergent barrier", run("for (uint k = 0u; k < i % 3u; ++k) barrier(); data[i] = i;", zeros));
+  CHECK(run("for (uint k = 0u; k < 3u; ++k) barrier(); data[i] = i;", zeros).found() == "");
+}
+
+TEST_CASE("an operation on whole numbers without a result is found") {
+  check_found("undefined integer", run("data[i] = 5u / i;", zeros));
+  check_found("undefined integer", run("data[i] = 5u << i;", zeros));
+  check_found("undefined integer", run("data[i] = uint(float(i) - 2.5);", zeros));
+  check_found("undefined integer",
+              run("data[i] = uint(int(data[i] - 2147483647u - 1u) / int(i - 1u));", zeros));
+}
