@@ -32,8 +32,9 @@ function(eyeray_verify name label)
   set_tests_properties(${name} PROPERTIES LABELS "${label}" TIMEOUT 3600)
 endfunction()
 
-# eyeray_mode(NAME SCENES OPTION …): of the list of that name every twelfth scene, other ones in each mode; the rest each night.
-set(mode_share 12)
+# eyeray_mode(NAME SCENES OPTION …): of the list of that name one scene in 24, other ones in each mode; the rest each night.
+set(mode_share 24)
+set(mode_starts 12)
 set(mode_first 0)
 function(eyeray_mode name scenes)
   set(some "")
@@ -47,7 +48,7 @@ function(eyeray_mode name scenes)
   list(REMOVE_ITEM others ${some})
   eyeray_verify(mode.${name} mode ${some} ${ARGN})
   eyeray_verify(mode.${name}.others mode NIGHTLY ${others} ${ARGN})
-  math(EXPR next "(${mode_first} + 1) % ${mode_share}")
+  math(EXPR next "(${mode_first} + 1) % ${mode_starts}")
   set(mode_first ${next} PARENT_SCOPE)
 endfunction()
 
@@ -61,15 +62,15 @@ list(FILTER quick EXCLUDE REGEX "^scenes/edges/|/(gallery|group_shapes|mandelbul
 eyeray_verify(scenes.small scene QUICK ${quick} -s 48x36)
 eyeray_verify(scenes.edges scene QUICK ${EDGES})
 
-# Scenes as their files define them: those that are not above and every sixth other one with `--full`, all each night. Two take a minute or
+# Scenes as their files define them: those that are not above and every twelfth other one with `--full`, all each night. Three take a minute or
 # two, so that `--full` verifies their kernels in modes alone.
 set(number 0)
 foreach(scene IN LISTS SCENES)
   string(REGEX REPLACE "^scenes/(.*)\\.toml$" "\\1" name ${scene})
   string(REPLACE "/" "." name ${name})
-  math(EXPR of_six "${number} % 6")
+  math(EXPR of_twelve "${number} % 12")
   set(when NIGHTLY)
-  if(NOT scene MATCHES "/(mandelbulb|sculpture)" AND (of_six EQUAL 0 OR NOT scene IN_LIST quick AND NOT scene IN_LIST EDGES))
+  if(NOT scene MATCHES "/(mandelbulb|sculpture|sphere_sweep)" AND (of_twelve EQUAL 0 OR NOT scene IN_LIST quick AND NOT scene IN_LIST EDGES))
     set(when "")
   endif()
   eyeray_verify(scene.${name} scene ${when} ${scene})
@@ -157,6 +158,19 @@ eyeray_mode(packets.edges EDGES ${by_packets})
 # Vectors as wide as for big pictures, if the processor has them.
 eyeray_verify(mode.wide-vectors mode ${few} scenes/shapes/torus.toml scenes/shapes/csg.toml)
 set_tests_properties(mode.wide-vectors PROPERTIES ENVIRONMENT LP_NATIVE_VECTOR_WIDTH=512)
+# By the emulator: gates A and S. Each night with subgroups as wide as those of GPUs, too.
+set(emulated --backends twin,emulator)
+eyeray_verify(mode.emulated mode QUICK scenes/whitted.toml scenes/cornell.toml scenes/textures.toml scenes/meshes.toml scenes/groups.toml
+  scenes/shapes/text.toml scenes/bumps.toml scenes/shapes/torus.toml scenes/shapes/csg.toml scenes/edges/tiny.toml -s 32x24 ${emulated})
+eyeray_verify(mode.emulated.paths mode QUICK scenes/path/cornell_box.toml scenes/sppm/box.toml -s 32x24 --spp 1 ${emulated})
+eyeray_verify(mode.emulated.packets mode QUICK scenes/sphereflake.toml -s 32x24 ${emulated} ${by_packets})
+eyeray_verify(mode.emulated.cooperative mode scenes/path/cornell_box.toml -s 32x24 --spp 1 ${emulated} ${by_packets} --tune incoherent=cooperative)
+eyeray_verify(mode.emulated.all mode NIGHTLY ${SCENES} -s 32x24 --max-explained 0.05 ${emulated})
+eyeray_verify(mode.emulated.paths.all mode NIGHTLY ${PATHS} ${SHOWCASE} -s 32x24 --spp 1 --max-explained 0.05 ${emulated})
+foreach(size IN ITEMS 4 16 32 64)
+  eyeray_verify(mode.emulated.subgroups-${size} mode NIGHTLY ${bounces} -s 32x24 --spp 1 --max-explained 0.05 ${emulated}
+    --tune acceleration=bvh --tune constants=off --tune incoherent=cooperative --tune subgroup=${size})
+endforeach()
 eyeray_mode(raycast small -s 96x72 --integrator raycast)
 eyeray_mode(raycast.edges EDGES --integrator raycast)
 eyeray_mode(eye-rays views -s 96x72 --max-depth 0)
