@@ -191,7 +191,7 @@ void array_length(Group& group, const Operation& o) {
 }
 
 // F(the old number, the operands): the new one.
-template <auto F>
+template <auto F, bool Writes = true>
 void atomic(Group& group, const Operation& o) {
   const Root& root = group.root(o);
   const Row offset = group.read(o.from[0], 0);
@@ -207,7 +207,7 @@ void atomic(Group& group, const Operation& o) {
       group.row(o.to)[lane] = 0;
       return;
     }
-    note(group, o, lane, size_t(byte / 4), true, true);
+    note(group, o, lane, size_t(byte / 4), Writes, true);
     uint32_t before = 0;
     std::memcpy(&before, &bytes[size_t(byte)], 4);
     if (shared && group.shared_unset()[size_t(byte / 4)])
@@ -216,6 +216,7 @@ void atomic(Group& group, const Operation& o) {
     const uint32_t b = o.from.size() > 2 ? group.read(o.from[2], 0)[lane] : 0;
     const uint32_t after = F(before, a, b);
     std::memcpy(&bytes[size_t(byte)], &after, 4);
+    if (shared) group.shared_unset()[size_t(byte / 4)] = 0;
     group.row(o.to)[lane] = before;
   });
 }
@@ -304,7 +305,7 @@ Execute memory_operation(spv::Op op) {
     case spv::OpMemoryBarrier:
       return memory_barrier;
     case spv::OpAtomicLoad:
-      return atomic<([](U before, U, U) { return before; })>;
+      return atomic<([](U before, U, U) { return before; }), false>;
     case spv::OpAtomicStore:
       return atomic_store;
     case spv::OpAtomicExchange:

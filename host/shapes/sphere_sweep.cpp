@@ -290,10 +290,10 @@ class FormulaWriter {
       v = p - at.xyz;
       float square = max(dot(slope.xyz, slope.xyz), 1.0e-20);
       float ahead = dot(v, slope.xyz) / square;
-      float aside = sqrt(max(dot(v, v) - ahead * ahead * square, 0.0));
+      float across = sqrt(max(dot(v, v) - ahead * ahead * square, 0.0));
       float narrows = sqrt(max(1.0 - slope.w * slope.w / square, 1.0e-6));
-      u = aside * narrows - slope.w * ahead - at.w;
-      s = clamp(s + ahead + slope.w * aside / (narrows * square), 0.0, 1.0);
+      u = across * narrows - slope.w * ahead - at.w;
+      s = clamp(s + ahead + slope.w * across / (narrows * square), 0.0, 1.0);
 )glsl";
     add("      if (u < least) {{\n      least = u;\n");
     write_choice(i, "s");

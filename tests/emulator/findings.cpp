@@ -52,6 +52,11 @@ TEST_CASE("a race is found, in shared memory and in buffers") {
   check_found("race", run("atomicAdd(data[0], 1u); data[i] = data[0];", zeros));
   CHECK(run("list[i] = i; barrier(); data[i] = list[63u - i];", zeros, with_memory).found() == "");
   CHECK(run("atomicAdd(data[0], i);", zeros).data[0] == 63 * 32);
+  const How scoped{.declarations = "\n#extension GL_KHR_memory_scope_semantics : require\n"};
+  CHECK(run("data[64u + i] = data[0] + atomicLoad(data[0], gl_ScopeDevice, gl_StorageSemanticsBuffer, "
+            "gl_SemanticsRelaxed);",
+            std::vector<uint32_t>(128), scoped)
+            .found() == "");
   // A barrier of the subgroup orders its own invocations, and no others.
   const std::string exchange =
       "list[i] = i; subgroupMemoryBarrierShared(); subgroupBarrier(); data[i] = list[i ^ ";

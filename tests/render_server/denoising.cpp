@@ -21,7 +21,7 @@ target = [0, 0, 0]
 integrator = "path"
 background = [0.1, 0.1, 0.1]
 [[material]]
-name = "lamp"
+name = "light"
 type = "diffuse"
 emission = 20
 [[material]]
@@ -31,7 +31,7 @@ color = 0.5
 [[sphere]]
 center = [2, 3, 1]
 radius = 0.5
-material = "lamp"
+material = "light"
 [[plane]]
 point = [0, -1, 0]
 normal = [0, 1, 0]
