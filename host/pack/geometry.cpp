@@ -56,7 +56,7 @@ class GeometryPacker {
                (options_.acceleration == Acceleration::automatic &&
                 (world_.size() + packed_.shape_iterations > packed_.most_linear ||
                  !scene_.instances.empty() || !packed_.instances.empty()));
-    if (world_.size() > packed_.most_linear && packed_.instances.empty()) unbind_largest();
+    if (world_.size() > packed_.most_linear && packed_.instances.empty()) unbind_few();
     packed_.has_bvh = use_bvh_ && has_bounded(2);
     if (packed_.has_bvh) build_bvhs();
     lay_out_world();
@@ -225,17 +225,30 @@ class GeometryPacker {
     return at_each_crossing && optical_depth < OPTICAL_DEPTH_OPAQUE ? optical_depth / 2 : optical_depth;
   }
 
-  // Moves primitives with a large box to the linear list, for example a floor under many small shapes. The
-  // boxes of the BVH are then coded more finely, and its leaves may be of one kind.
-  void unbind_largest() {
+  // Moves primitives to the linear list that are few, and have a large box or another kind than nearly all
+  // others, for example a floor and lights around a mesh. The boxes of the BVH are then coded more finely,
+  // and its leaves may be of one kind: rays side by side would compute the tests of all kinds at every leaf.
+  void unbind_few() {
     bvh::Box all;
-    for (const bvh::Box& box : world_.boxes)
-      if (box.is_finite()) all.include(box);
-    std::vector<size_t> large;
-    for (size_t i = 0; i < world_.boxes.size() && large.size() <= most_in_linear_list; ++i)
-      if (world_.boxes[i].is_finite() && world_.boxes[i].area() >= most_of_scene * all.area())
+    std::vector<size_t> of_kind(shader::SHAPE_KINDS);
+    for (uint32_t i = 0; i < world_.boxes.size(); ++i) {
+      if (!world_.boxes[i].is_finite()) continue;
+      all.include(world_.boxes[i]);
+      ++of_kind[world_.kind(i)];
+    }
+    const auto most_common = std::ranges::max_element(of_kind) - of_kind.begin();
+    std::vector<size_t> large, others;
+    for (uint32_t i = 0; i < world_.boxes.size(); ++i) {
+      if (!world_.boxes[i].is_finite()) continue;
+      if (world_.boxes[i].area() >= most_of_scene * all.area())
         large.push_back(i);
-    if (large.size() > most_in_linear_list) return;
+      else if (world_.kind(i) != most_common)
+        others.push_back(i);
+    }
+    if (large.size() + others.size() <= most_in_linear_list)
+      large.insert(large.end(), others.begin(), others.end());
+    else if (large.size() > most_in_linear_list)
+      return;
     for (const size_t i : large)
       world_.boxes[i] = {glm::vec3(-std::numeric_limits<float>::infinity()),
                          glm::vec3(std::numeric_limits<float>::infinity())};

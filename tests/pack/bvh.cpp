@@ -211,7 +211,9 @@ TEST_CASE("the validation layers report nothing about BVHs, instances and both w
   }
 }
 
-TEST_CASE("a floor under many spheres is in the linear list; the BVH's leaves hold spheres alone") {
+TEST_CASE(
+    "few triangles beside many spheres are in the linear list, wherever they lie; the BVH holds spheres "
+    "alone") {
   Random random(5);
   Scene scene = test::empty_scene();
   const int material = test::add(scene, make_phong({}));
@@ -222,11 +224,14 @@ TEST_CASE("a floor under many spheres is in the linear list; the BVH's leaves ho
     triangle.vertices = {Vec3(-3, -0.5, -3), Vec3(3, -0.5, 3), Vec3(side, -0.5, -side)};
     test::add(scene, make_triangle(triangle), material);
   }
+  // A small one, high up.
+  test::add(scene, make_triangle({.vertices = {Vec3(0, 1, 0), Vec3(0.2, 1, 0), Vec3(0, 1.1, 0.2)}}),
+            material);
   const auto linear_triangles = [](const PackedScene& packed) {
     return packed.linear_ends[shader::KIND_triangle] - packed.first_linear(shader::KIND_triangle);
   };
   const PackedScene packed = pack::pack(scene, {});
-  CHECK(linear_triangles(packed) == 2);
+  CHECK(linear_triangles(packed) == 3);
   CHECK(packed.bvh_kinds == std::set<uint32_t>{shader::KIND_sphere});
 
   std::vector<shader::QueryRay> rays(5000);
@@ -235,7 +240,7 @@ TEST_CASE("a floor under many spheres is in the linear list; the BVH's leaves ho
   for (const bool any : {false, true})
     CHECK(test::differences(test::query_twin(packed, rays, any), test::query_twin(brute, rays, any)) == 0);
 
-  // Five such triangles would each be tested by every ray, so they go into the BVH.
+  // Six triangles would each be tested by every ray, so they go into the BVH.
   for (int i = 0; i < 3; ++i) {
     TriangleValues triangle;
     triangle.vertices = {Vec3(-3, -0.5, -3), Vec3(3, 0.1 * i, 3), Vec3(3, -0.5, -3)};
