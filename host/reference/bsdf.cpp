@@ -43,9 +43,10 @@ Vec3 once(const Fresnel& fresnel, const GgxAlbedo& albedo) {
   return fresnel.conductor ? fresnel.mean * albedo.once : once(fresnel, albedo.once, albedo.edge);
 }
 
-// The albedo of a layer, single and multiple reflection together: for one direction, and on average.
+// The albedo of a layer, single and multiple reflection together: for one direction, and on average. The
+// colour of a film may exceed 1 in a channel, which then lets no light through.
 Vec3 layer_albedo(const Fresnel& fresnel, const GgxAlbedo& albedo) {
-  return once(fresnel, albedo.once, albedo.edge) + often(fresnel, albedo) * (1 - albedo.once);
+  return glm::min(once(fresnel, albedo.once, albedo.edge) + often(fresnel, albedo) * (1 - albedo.once), 1.0);
 }
 Vec3 mean_layer_albedo(const Fresnel& fresnel, const GgxAlbedo& albedo) {
   return once(fresnel, albedo.mean_once, albedo.mean_edge) + often(fresnel, albedo) * (1 - albedo.mean_once);

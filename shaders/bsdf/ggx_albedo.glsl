@@ -20,7 +20,12 @@ vec3 mirrored_often(Fresnel fresnel, vec4 albedo) {
 }
 vec3 mirrored_once(Fresnel fresnel, vec4 albedo) { return fresnel.f0 * (1.0f - albedo.x - albedo.y) + fresnel.f90 * albedo.y; }
 vec3 layer_albedo(Fresnel fresnel, vec4 albedo) {
-  return mirrored_once(fresnel, albedo) + mirrored_often(fresnel, albedo) * albedo.x;
+  vec3 all = mirrored_once(fresnel, albedo) + mirrored_often(fresnel, albedo) * albedo.x;
+#if HAS_FILM
+  // A film's colour may exceed 1 in a channel.
+  all = vec3(minimum(all.x, 1.0f), minimum(all.y, 1.0f), minimum(all.z, 1.0f));
+#endif
+  return all;
 }
 vec3 mean_layer_albedo(Fresnel fresnel, vec4 albedo) {
   return fresnel.f0 * (1.0f - albedo.z - albedo.w) + fresnel.f90 * albedo.w + mirrored_often(fresnel, albedo) * albedo.z;

@@ -81,6 +81,8 @@ inline std::vector<Named> examples(double roughness) {
   Bsdf velvet = plastic(0.4, 0.7, 0.3);
   velvet.sheen = {0.9, 0.5, 0.3};
   velvet.sheen_roughness = roughness;
+  Bsdf diamond_leaf = leaf(0.8, 0.6, roughness);
+  diamond_leaf.layer = optics::schlick(Vec3(0.24), Vec3(1));
   return {
       {"matte", matte},
       {"gold", conductor(gold(), roughness)},
@@ -98,6 +100,7 @@ inline std::vector<Named> examples(double roughness) {
       {"brushed pane", brushed(pane(0.8, roughness))},
       {"oil on paint", filmed(plastic(0.6, roughness), 350, 1.4, 0.7)},
       {"film on copper", filmed(conductor(optics::schlick({0.9, 0.6, 0.4}, Vec3(1)), roughness), 500, 1.8)},
+      {"film on a diamond leaf", filmed(diamond_leaf, 2, 1.3, 0.5)},
       {"bubble", filmed(pane(0.9, roughness), 300, 1.33)}};
 }
 
