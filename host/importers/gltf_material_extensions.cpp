@@ -35,10 +35,10 @@ TexturePtr GltfMaterials::scaled(const GltfObject& material, const GltfObject& e
   const TexturePtr constant = textures::make_constant(factor);
   const auto reference = extension.object(map);
   if (!reference || factor == Vec3(0)) return constant;
-  const auto second = takes_second(material, *reference, "pictures of extensions");
-  if (!second) return constant;
+  const auto at = position(material, *reference, "pictures of extensions");
+  if (!at) return constant;
   const auto image = texture(*reference, content);
-  return image ? textures::make_image(image, factor, Vec2(1), *second) : constant;
+  return image ? textures::make_image(image, factor, *at) : constant;
 }
 
 void GltfMaterials::add_extension_textures(const GltfObject& material, std::vector<GltfObject>& textures) {

@@ -70,6 +70,36 @@ GltfUv uv_of(const GltfObject& reference) {
   return uv;
 }
 
+// The position, in uv of one kind, of a picture that takes another. Empty if one is turned or mirrored
+// against the other: normal maps need the directions of u and v.
+std::optional<textures::ImagePosition> position_in(const GltfUv& known, const GltfUv& wanted) {
+  if (known == wanted) return textures::ImagePosition{};
+  if (known.set != wanted.set) return std::nullopt;
+  // The map from known to wanted uv, both with v from the bottom, is p → scale · p + shift.
+  Vec2 scale, shift;
+  for (int i = 0; i < 2; ++i) {
+    const Vec2 from(known.linear[0][i], known.linear[1][i]), to(wanted.linear[0][i], wanted.linear[1][i]);
+    scale[i] = glm::dot(from, to) / glm::dot(from, from);
+    if (!(scale[i] > 0) || !std::isfinite(1 / scale[i]) ||
+        glm::length(to - scale[i] * from) > 1e-9 * glm::length(to))
+      return std::nullopt;
+    const double from_offset = i == 0 ? known.offset.x : 1 - known.offset.y,
+                 to_offset = i == 0 ? wanted.offset.x : 1 - wanted.offset.y;
+    shift[i] = to_offset - scale[i] * from_offset;
+  }
+  return textures::ImagePosition{.corner = -shift / scale, .size = 1.0 / scale};
+}
+
+// The same in the first of several kinds that allows it.
+std::optional<textures::ImagePosition> position_among(std::span<const GltfUv> known, const GltfUv& wanted) {
+  for (size_t i = 0; i < known.size(); ++i)
+    if (auto position = position_in(known[i], wanted)) {
+      position->second_uv = i == 1;
+      return position;
+    }
+  return std::nullopt;
+}
+
 }  // namespace
 
 void GltfLeftOut::add(const std::string& what, size_t count) {
@@ -173,13 +203,12 @@ std::shared_ptr<const ImageTexture> GltfMaterials::texture(const GltfObject& ref
   });
 }
 
-std::optional<bool> GltfMaterials::takes_second(const GltfObject& material, const GltfObject& reference,
-                                                const char* what) {
-  const std::vector<GltfUv> known = uv_of_material(material);
-  const auto at = std::ranges::find(known, uv_of(reference));
-  if (at != known.end()) return at != known.begin();
-  left_out_.add(fmt::format("{} with uv of a third kind", what));
-  return std::nullopt;
+std::optional<textures::ImagePosition> GltfMaterials::position(const GltfObject& material,
+                                                               const GltfObject& reference,
+                                                               const char* what) {
+  const auto position = position_among(uv_of_material(material), uv_of(reference));
+  if (!position) left_out_.add(fmt::format("{} with uv of a third kind", what));
+  return position;
 }
 
 TexturePtr GltfMaterials::emission(const GltfObject& material) {
@@ -197,8 +226,8 @@ TexturePtr GltfMaterials::emission(const GltfObject& material) {
   if (!reference) return textures::make_constant(color);
   const auto image = texture(*reference, Content::color);
   if (!image) return none;
-  const auto second = takes_second(material, *reference, "emission maps");
-  return second ? textures::make_image(image, color, Vec2(1), *second) : none;
+  const auto at = position(material, *reference, "emission maps");
+  return at ? textures::make_image(image, color, *at) : none;
 }
 
 GltfMaterials::Surface GltfMaterials::surface(const GltfObject& material) {
@@ -223,8 +252,8 @@ GltfMaterials::Surface GltfMaterials::surface(const GltfObject& material) {
       const Vec2 mean = mean_green_blue(*image);
       surface.roughness *= mean.x;
       surface.metalness *= mean.y;
-      if (const auto second = takes_second(material, *reference, "variations of metalness and roughness"))
-        surface.metal_rough = textures::make_image(image, factors, Vec2(1), *second);
+      if (const auto at = position(material, *reference, "variations of metalness and roughness"))
+        surface.metal_rough = textures::make_image(image, factors, *at);
     }
   }
   return surface;
@@ -285,9 +314,9 @@ std::optional<NormalMap> GltfMaterials::normal_map(const GltfObject& material,
   if (!reference) return std::nullopt;
   const auto image = texture(*reference, Content::data);
   if (!image) return std::nullopt;
-  const auto second = takes_second(material, *reference, "normal maps");
-  if (!second) return std::nullopt;
-  return NormalMap{textures::make_image(image, Vec3(1), Vec2(1), *second), reference->number("scale", 1)};
+  const auto at = position(material, *reference, "normal maps");
+  if (!at) return std::nullopt;
+  return NormalMap{textures::make_image(image, Vec3(1), *at), reference->number("scale", 1)};
 }
 
 // The alpha mask of the material; nothing if its cutoff of 0 cuts nothing out.
@@ -328,8 +357,7 @@ std::vector<GltfObject> GltfMaterials::textures_of(const GltfObject& material) {
 std::vector<GltfUv> GltfMaterials::uv_of_material(const GltfObject& material) {
   std::vector<GltfUv> found;
   for (const GltfObject& texture : textures_of(material))
-    if (const GltfUv uv = uv_of(texture); found.size() < 2 && std::ranges::find(found, uv) == found.end())
-      found.push_back(uv);
+    if (const GltfUv uv = uv_of(texture); found.size() < 2 && !position_among(found, uv)) found.push_back(uv);
   return found;
 }
 
@@ -341,7 +369,8 @@ GltfUvUse GltfMaterials::uv_use(size_t index) const {
     if (!normal) normal = anisotropy->object("anisotropyTexture");
     if (use.uv.empty()) use.uv.emplace_back();
   }
-  use.second_tangents = normal && use.uv.size() == 2 && uv_of(*normal) == use.uv[1];
+  const auto at = normal ? position_among(use.uv, uv_of(*normal)) : std::nullopt;
+  use.second_tangents = at && at->second_uv;
   return use;
 }
 

@@ -97,9 +97,10 @@ class GltfMaterials {
   static std::vector<GltfObject> textures_of(const GltfObject& material);
   static void add_extension_textures(const GltfObject& material, std::vector<GltfObject>& textures);
   static std::vector<GltfUv> uv_of_material(const GltfObject& material);
-  // True if the picture takes the second set of uv. Empty if it takes a third, which a vertex does not have:
-  // the loss is counted as `what`.
-  std::optional<bool> takes_second(const GltfObject& material, const GltfObject& reference, const char* what);
+  // The picture's position in the uv that a vertex has. Empty if it needs others: the loss is counted as
+  // `what`.
+  std::optional<textures::ImagePosition> position(const GltfObject& material, const GltfObject& reference,
+                                                  const char* what);
   void note_rest(const GltfObject& material);
   // A number that is a share, from 0 to 1.
   double factor(const GltfObject& owner, const char* key, double fallback);

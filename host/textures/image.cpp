@@ -110,38 +110,38 @@ uint32_t flags_of(const ImageTexture& image, bool srgb, bool second_uv) {
 
 class Image final : public Texture {
  public:
-  Image(std::shared_ptr<const ImageTexture> image, bool srgb, const Vec3& tint, const Vec2& size,
-        bool second_uv)
-      : image_(std::move(image)), srgb_(srgb), tint_(tint), size_(size), second_uv_(second_uv) {}
+  Image(std::shared_ptr<const ImageTexture> image, bool srgb, const Vec3& tint, const ImagePosition& position)
+      : image_(std::move(image)), srgb_(srgb), tint_(tint), position_(position) {}
 
   Vec3 at(const TextureContext& point) const override { return tint_ * Vec3(texel_mean(point)); }
   double alpha_at(const TextureContext& point) const override { return tint_.x * texel_mean(point).w; }
-  TexturePtr as_data() const override {
-    return std::make_shared<Image>(image_, false, tint_, size_, second_uv_);
-  }
-  bool reads_second_uv() const override { return second_uv_; }
+  TexturePtr as_data() const override { return std::make_shared<Image>(image_, false, tint_, position_); }
+  bool reads_second_uv() const override { return position_.second_uv; }
   // The size of a texel in uv.
-  double detail() const override { return std::min(size_.x / image_->width, size_.y / image_->height); }
+  double detail() const override {
+    return std::min(position_.size.x / image_->width, position_.size.y / image_->height);
+  }
 
   uint32_t pack(records::Packer& packer) const override {
-    return packer.add(shader::Texture{.color = glm::vec3(tint_),
-                                      .kind = shader::TEXTURE_image,
-                                      .a = shader::vec4(0),
-                                      .b = shader::vec4(glm::vec2(1.0 / size_), 0, 0),
-                                      .c = {uint32_t(image_->width), uint32_t(image_->height),
-                                            packer.add_image(image_), flags_of(*image_, srgb_, second_uv_)}});
+    return packer.add(
+        shader::Texture{.color = glm::vec3(tint_),
+                        .kind = shader::TEXTURE_image,
+                        .a = shader::vec4(0),
+                        .b = shader::vec4(1.0 / position_.size, -position_.corner / position_.size),
+                        .c = {uint32_t(image_->width), uint32_t(image_->height), packer.add_image(image_),
+                              flags_of(*image_, srgb_, position_.second_uv)}});
   }
 
  private:
   Vec4 texel_mean(const TextureContext& point) const {
-    return filtered(*image_, srgb_, (second_uv_ ? point.second_uv : point.uv) / size_);
+    const Vec2& uv = position_.second_uv ? point.second_uv : point.uv;
+    return filtered(*image_, srgb_, (uv - position_.corner) / position_.size);
   }
 
   std::shared_ptr<const ImageTexture> image_;
   bool srgb_;
   Vec3 tint_;
-  Vec2 size_;
-  bool second_uv_;
+  ImagePosition position_;
 };
 
 TexturePtr parse(TableReader& table) {
@@ -154,17 +154,17 @@ TexturePtr parse(TableReader& table) {
   wanted.wrap_u = static_cast<Wrap>(wrap_u);
   wanted.wrap_v = static_cast<Wrap>(wrap_v);
   auto image = table.load_image("image", std::move(wanted));
-  return image ? make_image(std::move(image), table.color("tint"), table.scale2("scale")) : nullptr;
+  return image ? make_image(std::move(image), table.color("tint"), {.size = table.scale2("scale")}) : nullptr;
 }
 
 }  // namespace
 
 extern const TextureType image_type{.name = "image", .manual = manual, .keys = keys, .parse = parse};
 
-TexturePtr make_image(std::shared_ptr<const ImageTexture> image, const Vec3& tint, const Vec2& size,
-                      bool second_uv) {
+TexturePtr make_image(std::shared_ptr<const ImageTexture> image, const Vec3& tint,
+                      const ImagePosition& position) {
   const bool srgb = image->srgb;
-  return std::make_shared<Image>(std::move(image), srgb, tint, size, second_uv);
+  return std::make_shared<Image>(std::move(image), srgb, tint, position);
 }
 
 }  // namespace eyeray::engine::textures

@@ -17,10 +17,15 @@ TexturePtr make_checker(const Vec3& even, const Vec3& odd, const Vec2& size);
 // The colour that the formula gives for uv, each component clamped to [0, 1], times `tint`.
 TexturePtr make_formula(std::shared_ptr<const formula::Formula> formula, const Vec3& tint = Vec3(1));
 
-// A picture in uv, times `tint`: (0, 0) is its lower left corner, `size` its upper right. Its alpha is the
-// picture's alpha times the first component of `tint`. `second_uv`: true if it takes a mesh's second uv, as
-// an alpha never does.
+// The position of a picture in uv.
+struct ImagePosition {
+  Vec2 corner{0};          // its lower left
+  Vec2 size{1};            // from there to the upper right; not 0
+  bool second_uv = false;  // it lies in a mesh's second uv, as an alpha never does
+};
+
+// A picture in uv, times `tint`. Its alpha is the picture's alpha times the first component of `tint`.
 TexturePtr make_image(std::shared_ptr<const ImageTexture> image, const Vec3& tint = Vec3(1),
-                      const Vec2& size = Vec2(1), bool second_uv = false);
+                      const ImagePosition& position = {});
 
 }  // namespace eyeray::engine::textures

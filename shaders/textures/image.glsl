@@ -8,6 +8,7 @@
 SHADER_BEGIN
 
 vec2 image_copies(Texture texture) { return vec2(texture.b); }  // per unit of u and of v
+vec2 image_shift(Texture texture) { return vec2(texture.b.z, texture.b.w); }  // position in the image, in copies, of uv = (0, 0)
 uint image_width(Texture texture) { return texture.c.x; }
 uint image_height(Texture texture) { return texture.c.y; }
 uint image_first_texel(Texture texture) { return texture.c.z; }
@@ -61,8 +62,9 @@ struct TexelQuad {
 
 TexelQuad texels_at(Texture texture, vec2 uv) {
   vec2 copies = image_copies(texture);
-  float u = uv.x * copies.x;
-  float v = uv.y * copies.y;
+  vec2 shift = image_shift(texture);
+  float u = uv.x * copies.x + shift.x;
+  float v = uv.y * copies.y + shift.y;
   uint wrap_u = (image_flags(texture) >> IMAGE_WRAP_U_SHIFT) & IMAGE_WRAP_MASK;
   uint wrap_v = (image_flags(texture) >> IMAGE_WRAP_V_SHIFT) & IMAGE_WRAP_MASK;
   bool nearest = (image_flags(texture) & IMAGE_NEAREST) != 0u;

@@ -1,7 +1,9 @@
 // Tests of the texture coordinates that the pictures of a glTF material read.
+#include <cmath>
 #include <limits>
 
 #include "gltf_files.hpp"
+#include "tests/support/random.hpp"
 
 using namespace eyeray::engine;
 using namespace eyeray::engine::importers;
@@ -29,10 +31,13 @@ GltfFile two_uv_file(const Json& material) {
 Json texture_of_set(int set) {
   return {{"index", 0}, {"texCoord", set}};
 }
-Json scaled(double scale) {
-  Json scaled = texture_of_set(0);
-  scaled["extensions"]["KHR_texture_transform"]["scale"] = {scale, scale};
-  return scaled;
+Json transformed(const Json& transform) {
+  Json texture = texture_of_set(0);
+  texture["extensions"]["KHR_texture_transform"] = transform;
+  return texture;
+}
+Json turned(double scale) {
+  return transformed({{"scale", {scale, scale}}, {"rotation", M_PI / 2}});
 }
 
 // A material whose base colour's picture reads set 0, and whose emission's picture reads as `emission`
@@ -45,12 +50,16 @@ Json glowing(const Json& emission) {
 
 }  // namespace
 
-TEST_CASE("a picture may use another set of uv, or another transform of the same set") {
-  for (const Json& emission : {texture_of_set(1), scaled(0.5)}) {
+TEST_CASE("a picture may use another set of uv, or the same set turned") {
+  for (const Json& emission : {texture_of_set(1), turned(0.5)}) {
     const ImportedScene scene = import_sound(two_uv_file(glowing(emission)).gltf(), "a.gltf");
     CHECK(scene.warnings.empty());
     CHECK(scene.meshes[0].uv == std::vector<Vec2>{{0, 1}, {1, 1}, {1, 0}, {0, 0}});
-    CHECK(scene.meshes[0].second_uv == std::vector<Vec2>{{0, 1}, {0.5, 1}, {0.5, 0.5}, {0, 0.5}});
+    const bool turns = emission != texture_of_set(1);
+    const std::vector<Vec2> expected = turns ? std::vector<Vec2>{{0, 1}, {0, 1.5}, {0.5, 1.5}, {0.5, 1}}
+                                             : std::vector<Vec2>{{0, 1}, {0.5, 1}, {0.5, 0.5}, {0, 0.5}};
+    REQUIRE(scene.meshes[0].second_uv.size() == 4);
+    for (size_t i = 0; i < 4; ++i) CHECK(glm::length(scene.meshes[0].second_uv[i] - expected[i]) < 1e-12);
     CHECK_FALSE(scene.meshes[0].second_tangents);
     const Material& material = *scene.materials[0];
     const Vec2 here(0.1, 0.9), there(0.9, 0.1);
@@ -66,7 +75,40 @@ TEST_CASE("a picture may use another set of uv, or another transform of the same
   CHECK(alone.meshes[0].second_uv.empty());
 }
 
-TEST_CASE("any picture may read the second uv, and a third is left out") {
+TEST_CASE("pictures that are scaled and shifted against each other share one uv") {
+  // The specification's map of uv, with v from the top, for uv with v from the bottom.
+  const auto transform = [](const Vec2& uv, const Json& by) {
+    const Vec2 scale(by["scale"][0], by["scale"][1]), offset(by["offset"][0], by["offset"][1]);
+    const Vec2 from_top = scale * Vec2(uv.x, 1 - uv.y) + offset;
+    return Vec2(from_top.x, 1 - from_top.y);
+  };
+  const auto emitted = [](const ImportedScene& scene, const Vec2& uv) {
+    return scene.materials[0]
+        ->scattering({.point = {uv, Vec3(0)}, .cos_view = 1, .ior_from = 1, .ior_to = 1})
+        .emitted;
+  };
+  const Json of_base = {{"scale", {3, 0.25}}, {"offset", {-0.4, 0.7}}};
+  const Json of_emission = {{"scale", {0.5, 2}}, {"offset", {0.3, 0.1}}};
+  Json material = glowing(transformed(of_emission));
+  const ImportedScene plain = import_sound(two_uv_file(glowing(texture_of_set(0))).gltf(), "a.gltf");
+  for (const bool base_too : {false, true}) {
+    if (base_too) material["pbrMetallicRoughness"]["baseColorTexture"] = transformed(of_base);
+    const ImportedScene scene = import_sound(two_uv_file(material).gltf(), "a.gltf");
+    CHECK(scene.warnings.empty());
+    CHECK(scene.meshes[0].second_uv.empty());
+    Random random(1);
+    for (int i = 0; i < 100; ++i) {
+      const Vec2 uv(random.uniform(), random.uniform());
+      const Vec2 stored = base_too ? transform(uv, of_base) : uv;
+      CHECK(glm::length(emitted(scene, stored) - emitted(plain, transform(uv, of_emission))) < 1e-9);
+    }
+  }
+  // A mirrored picture has a uv of its own: normal maps need the direction of u.
+  material = glowing(transformed({{"scale", {-1, 1}}}));
+  CHECK(import_sound(two_uv_file(material).gltf(), "a.gltf").meshes[0].second_uv.size() == 4);
+}
+
+TEST_CASE("any picture may read the second uv, and a third that is turned is left out") {
   for (const std::pair<const char*, const char*>& texture :
        {std::pair("/pbrMetallicRoughness/metallicRoughnessTexture", "variations of metalness and roughness"),
         std::pair("/normalTexture", "normal maps"),
@@ -78,7 +120,7 @@ TEST_CASE("any picture may read the second uv, and a third is left out") {
     material["extensions"]["KHR_materials_clearcoat"]["clearcoatFactor"] = 1;
     material[Json::json_pointer(pointer)] = texture_of_set(1);
     CHECK(import_sound(two_uv_file(material).gltf(), "a.gltf").warnings.empty());
-    material[Json::json_pointer(pointer)] = scaled(3);
+    material[Json::json_pointer(pointer)] = turned(3);
     const ImportedScene third = import_sound(two_uv_file(material).gltf(), "a.gltf");
     CHECK(warns(third, fmt::format("left out: {} with uv of a third kind (1)", left_out)));
     CHECK(third.meshes[0].second_uv.size() == 4);

@@ -43,7 +43,7 @@ Scene ball_and_cube(bool swapped) {
 
   Random random(5);
   const auto image = [&](int least, double tint, bool other) {
-    return textures::make_image(picture(random, least), Vec3(tint), Vec2(1), other != swapped);
+    return textures::make_image(picture(random, least), Vec3(tint), {.second_uv = other != swapped});
   };
   PrincipledValues values;
   values.color = image(60, 1, false);

@@ -54,7 +54,7 @@ Scene patchwork(Random& random, int across, int down) {
       const Vec3 tint{random.uniform(), random.uniform(), 1};
       const auto image = random_image(random);
       const Vec2 size{random.log_uniform(0.5, 2), random.log_uniform(0.5, 2)};
-      PhongValues values{.diffuse = textures::make_image(image, tint, size)};
+      PhongValues values{.diffuse = textures::make_image(image, tint, {.size = size})};
       if (random.below(3) == 0) values.ambient = textures::make_constant(Vec3(0.5));
       if (random.below(3) == 0)
         values.highlight.specular = textures::make_checker(Vec3(1), Vec3(0.2), Vec2(0.3));

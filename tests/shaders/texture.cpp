@@ -177,7 +177,8 @@ TEST_CASE("200 000 points of random images: the shader agrees with the formulas 
     image->srgb = random.below(2) == 0;
     const Vec3 tint{random.uniform(), random.uniform(), random.uniform()};
     const Vec2 size{random.log_uniform(0.1, 10), random.log_uniform(0.1, 10)};
-    const TexturePtr texture = make_image(image, tint, size);
+    const Vec2 corner{random.uniform(-2, 2), random.uniform(-2, 2)};
+    const TexturePtr texture = make_image(image, tint, {.corner = corner, .size = size});
 
     Packer packer(Vec3(0));
     const uint32_t index = texture->pack(packer);
@@ -186,9 +187,12 @@ TEST_CASE("200 000 points of random images: the shader agrees with the formulas 
     const double reach = random.log_uniform(0.5, 1000);
     for (int i = 0; i < 500; ++i) {
       const glm::vec2 uv(random.uniform(-reach, reach), random.uniform(-reach, reach));
-      // The largest displacement of the point, in texels, by three roundings of a float32.
-      const Vec2 position = Vec2(uv) / size * Vec2(width, height);
-      const Vec2 error = (glm::abs(position) + Vec2(width, height)) * 3.0 * 0x1p-24;
+      // The largest displacement of the point, in texels, by the roundings of a float32.
+      const Vec2 texels_a_unit = Vec2(width, height) / size;
+      const Vec2 position = (Vec2(uv) - corner) * texels_a_unit;
+      const Vec2 error =
+          ((glm::abs(Vec2(uv)) + glm::abs(corner)) * texels_a_unit * 5.0 + Vec2(width, height) * 3.0) *
+          0x1p-24;
       const Vec2 to_border = glm::abs(position - glm::round(position));
       if (filter == Filter::nearest && (to_border.x <= error.x || to_border.y <= error.y)) continue;
       const Vec3 difference =

@@ -231,8 +231,8 @@ TEST_CASE("each part of a textured area light is as bright as its texel") {
   with_second.second_uv = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   second.meshes.push_back(with_second);
   const int glow =
-      add(second,
-          make_phong({.diffuse = gray(0), .emission = textures::make_image(halves, Vec3(4), Vec2(1), true)}));
+      add(second, make_phong({.diffuse = gray(0),
+                              .emission = textures::make_image(halves, Vec3(4), {.second_uv = true})}));
   second.instances.push_back({.mesh = 0, .transform = Mat4(1.0), .material = glow, .position = {}});
   check(second, shown(4 * left + 0.8 * right), 1e-4);
   // If the camera sees the area light itself, its radiance is the one with which it lights the floor.
@@ -241,8 +241,8 @@ TEST_CASE("each part of a textured area light is as bright as its texel") {
       Scene seen = patch({0, 0, 0}, a + share * u + 0.5 * v, 4);
       seen.render.integrator = integrator;
       seen.meshes.push_back(with_second);
-      seen.materials.push_back(
-          make_phong({.diffuse = gray(0), .emission = textures::make_image(halves, Vec3(4), Vec2(1), true)}));
+      seen.materials.push_back(make_phong(
+          {.diffuse = gray(0), .emission = textures::make_image(halves, Vec3(4), {.second_uv = true})}));
       seen.instances.push_back({.mesh = 0, .transform = Mat4(1.0), .material = 0, .position = {}});
       check(seen, radiance);
     }
