@@ -8,7 +8,12 @@
 #include "host/materials/registry.hpp"
 
 namespace eyeray::engine::loader {
+
+using reading::Key, reading::KeyType;
+
 namespace {
+
+constexpr std::string_view alpha_modes[] = {"mask", "blend"};
 
 constexpr size_t most_media = 255;  // a medium's number is a byte in the shaders' stack of media
 
@@ -23,6 +28,83 @@ void bend_normals(reading::TableReader& reader, Material& material) {
 }
 
 }  // namespace
+
+std::span<const Key> material_keys() {
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> all;
+    for (const materials::MaterialType* type : materials::types()) all.push_back(type->name);
+    return all;
+  }();
+  static const Key keys[] = {
+      {.name = "name",
+       .type = KeyType::string,
+       .doc = "Name by which shapes refer to the material, unique in the scene."},
+      {.name = "type", .type = KeyType::choice, .doc = "Kind; see below.", .choices = names},
+      {.name = "alpha",
+       .type = KeyType::texture,
+       .doc = "Opacity of the surface. The first component of a color counts, and the alpha of an image. "
+              "Only for planes, triangles, polygons, parallelograms, disks and meshes, whose faces a ray "
+              "hits at most once.",
+       .max = 1,
+       .optional = true},
+      {.name = "alpha_mode",
+       .type = KeyType::choice,
+       .doc = "\"mask\": the surface does not exist where `alpha` is below `alpha_cutoff`. \"blend\": a ray "
+              "hits the surface with probability `alpha`, so that on average the surface transmits the rest.",
+       .fallback = "\"mask\"",
+       .choices = alpha_modes},
+      {.name = "alpha_cutoff",
+       .type = KeyType::number,
+       .doc = "Smallest `alpha` at which the surface exists in the mode \"mask\".",
+       .fallback = "0.5",
+       .min = 0,
+       .max = 1,
+       .above_min = true},
+      {.name = "emission_side",
+       .type = KeyType::choice,
+       .doc = "Sides of the surface that emit light: both, or only the side to which the normals point.",
+       .fallback = "\"both\"",
+       .choices = emission_sides},
+      {.name = "emission_sampled",
+       .type = KeyType::boolean,
+       .doc = "Send shadow rays of `path` to the surfaces that emit. With `false` paths find their light by "
+              "chance, which is "
+              "better for a surface as dim as its surroundings.",
+       .fallback = "true"},
+      {.name = "normal",
+       .type = KeyType::texture,
+       .doc =
+           "A normal map, as in glTF: the apparent direction of the surface in tangent space, red along u, "
+           "green along v, with [0.5, 0.5, 1] straight out. Codes of an image are used without conversion.",
+       .max = 1,
+       .optional = true},
+      {.name = "normal_scale",
+       .type = KeyType::number,
+       .doc = "Strength of the normal map. A negative value bends the normals in the opposite direction.",
+       .fallback = "1",
+       .min = -1000,
+       .max = 1000},
+      {.name = "bump",
+       .type = KeyType::texture,
+       .doc = "Bump map: apparent heights of the surface, 0 where the map is black. The luminance of a color "
+              "counts. Codes of an image are used without conversion.",
+       .max = 1,
+       .optional = true},
+      {.name = "bump_height",
+       .type = KeyType::number,
+       .doc = "Height of white in the bump map, in world units. With a negative value the surface sinks.",
+       .fallback = "0.1"},
+      {.name = "bump_width",
+       .type = KeyType::number,
+       .doc = "Distance to each side at which heights are compared, and so half the width of the slope at a "
+              "step. It is in uv, or in world units for patterns in space. When absent: one texel of an "
+              "image, 0.03 units of a pattern, or 0.01 of uv.",
+       .min = 0,
+       .above_min = true,
+       .optional = true},
+  };
+  return keys;
+}
 
 void Materials::add(const Section& section, const toml::table& table) {
   auto [type, reader] = read_kind(section, &table, materials::types(), values_, log_);
@@ -63,6 +145,7 @@ void Materials::add(const Section& section, const toml::table& table) {
   material->emits_in_front = reader.choice("emission_side") == 1;
   if (material->emits_in_front && !material->emits())
     reader.error("emission_side", "`emission_side` needs an `emission`");
+  material->samples_emission = reader.boolean("emission_sampled");
   bend_normals(reader, *material);
   material->name = name;
   entry->second.index = static_cast<int>(scene_.materials.size());

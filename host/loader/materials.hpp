@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
 #include <tuple>
 
@@ -10,6 +11,9 @@
 #include "host/scene/scene.hpp"
 
 namespace eyeray::engine::loader {
+
+// The keys of [[material]] that all kinds have.
+std::span<const reading::Key> material_keys();
 
 class Materials {
  public:

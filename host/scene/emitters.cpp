@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "host/core/error.hpp"
+#include "host/scene/integrator.hpp"
 #include "host/scene/primitive_ids.hpp"
 #include "host/scene/scene.hpp"
 #include "host/scene/triangle.hpp"
@@ -53,7 +54,11 @@ class Collector {
 
  private:
   const Material& material(int index) const { return *scene_.materials[size_t(index)]; }
-  bool emits(int index) const { return material(index).emits(); }
+  // True if shapes of the material are emitters. Photons must come from all that emit.
+  bool emits(int index) const {
+    const Material& its = material(index);
+    return its.emits() && (its.samples_emission || sends_photons(scene_.render.integrator));
+  }
 
   void add_group(size_t index) {
     const GroupInstance& instance = scene_.group_instances[index];

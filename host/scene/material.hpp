@@ -120,6 +120,7 @@ class Material {
 
   std::string name;
   bool emits_in_front = false;    // emits only on the side of the normals; else on both sides
+  bool samples_emission = true;   // paths send shadow rays to its surfaces; else they find them by chance
   bool front_only = false;        // for meshes: rays from behind do not hit it, and it emits in front
   std::optional<AlphaMask> mask;  // never set if there is a medium
   std::optional<NormalMap> normal_map;

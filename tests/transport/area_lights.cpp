@@ -102,16 +102,20 @@ TEST_CASE("a cylinder and an upright tube light the floor below by their closed 
   check(tube, shown(M_PI * (0.25 / 1.25 - 0.25 / 9.25)));
 }
 
-TEST_CASE("inside an emitting body the radiance is L / (1 − ρ)") {
-  const auto inside = [](std::unique_ptr<Shape> body) {
-    Scene scene = patch({0.1, 0.2, 0.15}, {0.1, -0.3, -0.4}, 256);
-    scene.render.max_depth = 64;
-    add(scene, std::move(body), add(scene, make_phong({.diffuse = gray(0.6), .emission = gray(1)})));
-    check(scene, 1 / (1 - 0.6), 1e-4);
+TEST_CASE("inside an emitting body the radiance is L / (1 − ρ), by shadow rays or by chance") {
+  const auto inside = [](const std::function<std::unique_ptr<Shape>()>& body) {
+    for (const bool sampled : {true, false}) {
+      Scene scene = patch({0.1, 0.2, 0.15}, {0.1, -0.3, -0.4}, 256);
+      scene.render.max_depth = 64;
+      const int material = add(scene, make_phong({.diffuse = gray(0.6), .emission = gray(1)}));
+      scene.materials[size_t(material)]->samples_emission = sampled;
+      add(scene, body(), material);
+      check(scene, 1 / (1 - 0.6), 1e-4);
+    }
   };
-  inside(make_box({-0.5, -0.5, -0.5}, {0.5, 0.7, 0.6}));
-  inside(make_ellipsoid({0, 0, 0}, {0.8, 0.6, 0.7}));
-  inside(make_cylinder({0, -0.5, 0}, {0, 0.6, 0}, 0.7));
+  inside([] { return make_box({-0.5, -0.5, -0.5}, {0.5, 0.7, 0.6}); });
+  inside([] { return make_ellipsoid({0, 0, 0}, {0.8, 0.6, 0.7}); });
+  inside([] { return make_cylinder({0, -0.5, 0}, {0, 0.6, 0}, 0.7); });
 }
 
 TEST_CASE("a one-sided area light shines in front, and is dark from behind") {

@@ -59,6 +59,17 @@ TEST_CASE("emitters that cannot be sampled are reported: those with holes, and o
   CHECK(emitters(scene).unsampled.size() == 2);
 }
 
+TEST_CASE("an emitter that shall not be sampled is no light of paths, but sends photons") {
+  Scene scene = empty_scene();
+  const int dim = emissive(scene, 1);
+  scene.materials[size_t(dim)]->samples_emission = false;
+  add(scene, make_sphere({0, 0, 0}, 1), dim);
+  CHECK(emitters(scene).sampled.empty());
+  CHECK(emitters(scene).unsampled.empty());  // so nothing is reported
+  scene.render.integrator = IntegratorType::sppm;
+  CHECK(emitters(scene).sampled.size() == 1);
+}
+
 TEST_CASE("an area light without power has its share, and more than 2^20 are refused") {
   Scene scene = empty_scene();
   scene.render.light_sampler = LightSampler::power;
