@@ -1,9 +1,12 @@
 #include "host/loader/mesh_scene.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
 
 #include "host/loader/mesh_reading.hpp"
 #include "host/scene/affine.hpp"
@@ -168,6 +171,8 @@ decltype(importers::ImportedScene::lights) studio_lights(const importers::Import
 // `radius`.
 class Studio {
  public:
+  static constexpr Vec3 background{0.30, 0.31, 0.33};
+
   Studio(const Bounds& model, const importers::ImportedCamera& camera)
       : model_(model), middle_(middle_of(model)), radius_(std::max(glm::length(model.max - middle_), 1e-9)) {
     const Vec3 back = camera.eye - camera.target;
@@ -191,13 +196,31 @@ class Studio {
                        {"radius", 9 * radius_},
                        {"material", "studio floor"}};
   }
-  static toml::table floor_material(bool fades) {
-    constexpr const char* fade =
-        "vec3 color(vec2 uv) { return vec3(1.0 - smoothstep(0.17, 1.0, 2.0 * length(uv - vec2(0.5)))); }";
+
+  // The floor may blend with anything behind it as it fades. Or it may emit the constant background in the
+  // same measure, which looks the same and has no noise.
+  enum class Fade { none, blends, emits };
+  static toml::table floor_material(Fade fade) {
+    const auto formula = [](const std::string& color) {
+      return toml::table{
+          {"formula",
+           toml::table{
+               {"code",
+                fmt::format("vec3 color(vec2 uv) {{\n"
+                            "  float there = 1.0 - smoothstep(0.17, 1.0, 2.0 * length(uv - vec2(0.5)));\n"
+                            "  return {};\n"
+                            "}}\n",
+                            color)}}}};
+    };
     toml::table material{{"name", "studio floor"}, {"type", "diffuse"}, {"color", 0.5}};
-    if (fades) {
-      material.insert("alpha", toml::table{{"formula", toml::table{{"code", fade}}}});
+    if (fade == Fade::blends) {
+      material.insert("alpha", formula("vec3(there)"));
       material.insert("alpha_mode", "blend");
+    } else if (fade == Fade::emits) {
+      material.insert_or_assign("color", formula("vec3(0.5 * there)"));
+      material.insert("emission", formula(fmt::format("vec3({}, {}, {}) * (1.0 - there)", background.x,
+                                                      background.y, background.z)));
+      material.insert("emission_sampled", false);
     }
     return material;
   }
@@ -240,7 +263,7 @@ bool has_room_for_studio(const importers::ImportedScene& framed) {
 
 toml::table mesh_scene(const std::filesystem::path& file, const importers::ImportedScene& import,
                        const importers::ImportedScene& framed, const MeshView& view) {
-  const auto [around, look, formulas, transparent, turntable, reading] = view;
+  const auto [around, usual_paths, look, formulas, transparent, turntable, reading] = view;
   const importers::ImportedCamera camera =
       import.cameras.empty() ? framing(framed, turntable > 0) : import.cameras.front();
   const bool own_lights = import.lights.empty() && !around;
@@ -269,16 +292,19 @@ toml::table mesh_scene(const std::filesystem::path& file, const importers::Impor
       root.insert("render", toml::table{{"background", toml::array{0.34, 0.41, 0.5}}, {"ambient", 0.14}});
   } else {
     const Studio studio(bounds_of(framed), camera);
-    root.insert("image", toml::table{{"samples", 16}, {"exposure", "auto"}, {"tone", "neutral"}});
+    root.insert("image", toml::table{{"samples", 9}, {"exposure", "auto"}, {"tone", "neutral"}});
     const bool under_sky = own_lights && look == MeshLook::sky;
     toml::table render{{"integrator", "path"}, {"denoise", true}};
-    if (!around && !under_sky) render.insert("background", toml::array{0.30, 0.31, 0.33});
+    if (!around && !under_sky) render.insert("background", list(Studio::background));
     root.insert("render", std::move(render));
     if (under_sky) root.insert("environment", studio.sky());
     if (own_lights && !under_sky) lights = studio.area_lights();
     toml::array materials;
     if (import.lights.empty() && !transparent) {
-      materials.push_back(Studio::floor_material(formulas));
+      const bool emits = usual_paths && !around && !under_sky;
+      materials.push_back(Studio::floor_material(!formulas ? Studio::Fade::none
+                                                 : emits   ? Studio::Fade::emits
+                                                           : Studio::Fade::blends));
       root.insert("disk", toml::array{studio.floor()});
     }
     if (look == MeshLook::clay) {

@@ -12,6 +12,7 @@ namespace eyeray::engine::loader {
 
 struct MeshView {
   bool around;  // there will be an [environment], which replaces background, ambient light and own lights
+  bool usual_paths;  // paths go through no medium to the look's own background
   MeshLook look;
   bool formulas;             // the scene may have formulas, as a floor needs to fade
   bool transparent = false;  // the picture has an alpha: it shows no floor

@@ -108,8 +108,13 @@ Document read_mesh(const fs::path& file, std::vector<Override>& overrides, bool 
   if (choices.reading.line_width && loaded.scene->lines.empty())
     log.warning({}, "has no lines, so --line-width changes nothing");
   choose_camera(loaded.scene->cameras, choices.camera, file, log);
-  const bool around = std::ranges::any_of(
-      overrides, [](const Override& each) { return each.text.starts_with("environment"); });
+  const auto overrides_any = [&](std::initializer_list<std::string_view> keys) {
+    return std::ranges::any_of(overrides, [&](const Override& each) {
+      return std::ranges::any_of(keys, [&](std::string_view key) { return each.text.starts_with(key); });
+    });
+  };
+  const bool around = overrides_any({"environment"});
+  const bool usual_paths = !overrides_any({"render.integrator", "render.background", "medium"});
   const toml::table image = overridden(overrides, "image.transparent");
   const bool transparent = image["image"]["transparent"].value_or(false);
   const importers::ImportedScene& framed = rest ? *rest : *loaded.scene;
@@ -119,7 +124,7 @@ Document read_mesh(const fs::path& file, std::vector<Override>& overrides, bool 
                 "reaches beyond 1e10, where a floor and lights around it have no room: it is shown plain");
   }
   return {mesh_scene(file, *loaded.scene, framed,
-                     {around, look, formulas, transparent, choices.turntable, choices.reading}),
+                     {around, usual_paths, look, formulas, transparent, choices.turntable, choices.reading}),
           {}};
 }
 

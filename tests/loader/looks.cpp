@@ -63,18 +63,44 @@ TEST_CASE("studio and clay have three area lights and a floor that touches the m
   }
 }
 
-TEST_CASE(
-    "an environment replaces a look's lights, other options change it, and floors need formulas to fade") {
+TEST_CASE("an environment replaces a look's lights, and other options change it") {
   const Scene around = look("studio", {{"environment.type=sky"}, {"environment.sun=[0,1,0]"}});
   CHECK(emitters(around) == 0);
   CHECK(look("studio", {{"image.samples=7"}}).image.samples == 7);
   CHECK(look("studio", {{"look=\"plain\""}}).shapes.empty());
-  const auto fades = [](const Scene& scene) {
-    return std::ranges::any_of(scene.materials,
-                               [](const auto& material) { return material->mask.has_value(); });
+}
+
+TEST_CASE(
+    "the floor fades into the background: it emits a constant one, blends with others, and needs formulas") {
+  const auto floor = [](const Scene& scene) -> const Material& {
+    return *std::ranges::find(scene.materials, "studio floor", &Material::name)->get();
   };
-  CHECK(fades(look("studio")));
-  CHECK(!fades(look("studio", {}, {.formulas = false})));
+  const auto seen = [](const Material& material, double radius) {
+    const TextureContext point{Vec2(0.5 + radius / 2, 0.5), Vec3(0)};
+    const Scattering at =
+        material.scattering({.point = point, .cos_view = 1, .ior_from = 1, .ior_to = 1, .color = Vec3(1)});
+    return std::pair(at.emitted, at.diffuse);
+  };
+  const Scene studio = look("studio");
+  CHECK(!floor(studio).mask);
+  CHECK(!floor(studio).samples_emission);
+  const Vec3 background = studio.render.background, color = seen(floor(studio), 0).second;
+  CHECK(seen(floor(studio), 0).first == Vec3(0));
+  CHECK(glm::length(seen(floor(studio), 1).first - background) < 1e-7);
+  CHECK(seen(floor(studio), 1).second == Vec3(0));
+  // In between, the shares of both add up to 1.
+  const auto [emitted, reflected] = seen(floor(studio), 0.6);
+  CHECK(emitted.x / background.x + reflected.x / color.x == doctest::Approx(1));
+  CHECK(reflected.x > 0);
+  CHECK(reflected.x < color.x);
+
+  for (const char* other : {"render.background=1", "render.integrator=sppm", "medium.absorption=0.1"})
+    CHECK(floor(look("studio", {{other}})).mask);
+  CHECK(floor(look("studio", {{"environment.type=sky"}, {"environment.sun=[0,1,0]"}})).mask);
+  CHECK(floor(look("sky")).mask);
+  const Scene unfaded = look("studio", {}, {.formulas = false});
+  CHECK(!floor(unfaded).mask);
+  CHECK(!floor(unfaded).emits());
 }
 
 TEST_CASE("a mesh alone has the look of a studio, but a plain one under integrators without random paths") {
