@@ -1,7 +1,7 @@
 // Runs compute kernels from their SPIR-V, on the processor, and watches them.
 //
 // Numbers have 32 bits. Floats are IEEE 754's, every operation is rounded to nearest, none is fused, and
-// denormals are kept. Memory is that of storage buffers, texel buffers, push constants and the work group.
+// denormals are kept. Memory is that of storage, uniform and texel buffers, push constants and the work group.
 // Subgroups have a size of one's choice. An access out of bounds reads 0 and writes nothing.
 //
 // The invocations of a work group run together: they wait for each other where

@@ -20,6 +20,8 @@ const char* name(Fault fault) {
       return "undefined integer";
     case Fault::unreachable:
       return "unreachable";
+    case Fault::not_a_number:
+      return "not a number";
   }
   return "unknown";
 }

@@ -17,6 +17,7 @@ enum class Fault : uint8_t {
   divergent_barrier,  // not all invocations of the work group come to a barrier
   undefined_integer,  // division by 0, shift by 32 or more, conversion of a float beyond the integer's range
   unreachable,        // an invocation comes to OpUnreachable
+  not_a_number,       // an operation on numbers gives NaN, which reaches a buffer or an image
 };
 
 // "out of bounds".
@@ -28,12 +29,12 @@ struct Finding {
   std::string kernel{};
   std::string location{};                // "blur.comp:12:5 (OpLoad %17)"
   std::array<uint32_t, 3> invocation{};  // gl_GlobalInvocationID
-  std::string detail{};                  // "index 12 of 8"
+  std::string detail{};                  // "index 12 of 8 in 'destination'"
   uint64_t count = 0;
 };
 
-// "render.comp:12:5 (OpLoad %17): out of bounds: index 12 of 8, in invocation 3, 0, 0 of kernel 'blur'; 4
-// times"
+// "blur.comp:12:5 (OpLoad %17): out of bounds: index 12 of 8 in 'destination', in invocation 3, 0, 0 of
+// kernel 'blur'; 4 times"
 std::string describe(const Finding& finding);
 
 class Findings {

@@ -5,6 +5,7 @@
 
 #include <bit>
 #include <cstring>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,7 @@ struct How {
   uint32_t groups = 1;
   uint32_t subgroup_size = 8;
   std::string declarations{};
+  std::map<uint32_t, std::vector<uint32_t>> more{};  // further buffers, by binding
 };
 
 inline Ran run(const std::string& body, std::vector<uint32_t> data, const How& how = {}) {
@@ -49,9 +51,11 @@ inline Ran run(const std::string& body, std::vector<uint32_t> data, const How& h
       how.declarations + "\n" + "void main() { const uint i = gl_GlobalInvocationID.x; " + body + " }\n";
   const emulator::Kernel kernel(compile(text), "kernel");
   emulator::Findings findings;
-  const emulator::Work work{.buffers = {{0, std::as_writable_bytes(std::span(data))}},
-                            .subgroup_size = how.subgroup_size,
-                            .findings = &findings};
+  std::map<uint32_t, std::vector<uint32_t>> more = how.more;
+  emulator::Work work{.buffers = {{0, std::as_writable_bytes(std::span(data))}},
+                      .subgroup_size = how.subgroup_size,
+                      .findings = &findings};
+  for (auto& [binding, words] : more) work.buffers[binding] = std::as_writable_bytes(std::span(words));
   kernel.run(work, {how.groups, 1, 1});
   return {std::move(data), findings.all()};
 }
