@@ -51,6 +51,10 @@ Source Lowering::constant(std::span<const uint32_t> words) {
   return {.at = at, .words = uint32_t(words.size()), .constant = true};
 }
 
+Source Lowering::pointer_to(uint32_t offset) {
+  return constant(std::vector<uint32_t>{offset, 0, 0});
+}
+
 uint32_t Lowering::registers(uint64_t words) {
   const uint32_t at = program_.registers;
   if (at + words > most_registers)
@@ -191,8 +195,7 @@ void Lowering::add_global(const spirv::Instruction& i) {
     default:
       refuse(i);
   }
-  const uint32_t zero = 0;
-  values_[i[2]] = {.type = i[1], .source = constant({&zero, 1}), .root = uint32_t(program_.roots.size())};
+  values_[i[2]] = {.type = i[1], .source = pointer_to(0), .root = uint32_t(program_.roots.size())};
   program_.roots.push_back(root);
   if (i.size() > 4 && root.space == Space::own)
     program_.prelude.push_back({.execute = concatenate,
@@ -222,7 +225,6 @@ Program Lowering::run() {
 
 // Gives every value of the function its register, since a phi may name values of later blocks.
 void Lowering::allot(const spirv::Function& function) {
-  const uint32_t zero = 0;
   const auto give = [&](const spirv::Instruction& i) {
     bool has_result = false, has_type = false;
     spv::HasResultAndType(spirv::opcode_of(i), &has_result, &has_type);
@@ -230,15 +232,15 @@ void Lowering::allot(const spirv::Function& function) {
     const Type& type = types_.at(i[1]);
     Value made{.type = i[1]};
     if (type.op == spv::OpTypePointer) {
-      made.source = {.at = registers(1), .words = 1};
+      made.source = {.at = registers(pointer_words), .words = pointer_words};
     } else if (type.op != spv::OpTypeImage) {
       made.source = {.at = registers(type.words), .words = type.words};
     }
     if (spirv::opcode_of(i) == spv::OpVariable) {
       const uint32_t words = types_.at(type.element).words;
-      made.source = constant({&zero, 1});
+      made.source = pointer_to(0);
       made.root = uint32_t(program_.roots.size());
-      program_.roots.push_back({.at = registers(words), .size = words});
+      program_.roots.push_back({.at = registers(words), .size = words, .name = names_[i[2]]});
     }
     values_[i[2]] = made;
   };

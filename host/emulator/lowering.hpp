@@ -54,6 +54,7 @@ class Lowering {
   // Words before the part that these literal indices name, and the part's type.
   std::pair<uint32_t, uint32_t> find_part(uint32_t type, std::span<const uint32_t> indices) const;
   Source constant(std::span<const uint32_t> words);
+  Source pointer_to(uint32_t offset);  // a constant pointer
   uint32_t registers(uint64_t words);
   void access(Operation& operation, uint32_t pointer);  // takes the pointer's root, offset and layout
 

@@ -128,7 +128,7 @@ void Lowering::lower_chain(Block& block, const spirv::Instruction& i) {
   // Without steps and from a variable's start the pointer is a constant.
   if (chain.steps.empty() && base.source.constant) {
     const uint32_t sum = program_.constants[base.source.at] + uint32_t(offset);
-    made.source = constant({&sum, 1});
+    made.source = pointer_to(sum);
     return;
   }
   block.operations.push_back(std::move(chain));
@@ -180,6 +180,10 @@ void Lowering::lower_composite(Block& block, const spirv::Instruction& i) {
 
 void Lowering::access(Operation& made, uint32_t pointer) {
   const Value& to = value(pointer);
+  if (to.root == no_root)
+    throw Error(ExitCode::bad_input,
+                "the emulator needs to know the variable of a pointer, and {} has a pointer that was chosen",
+                describe(made.location, program_.files));
   made.root = to.root;
   made.from.insert(made.from.begin(), to.source);
   const Space space = program_.roots[to.root].space;

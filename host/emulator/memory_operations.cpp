@@ -8,19 +8,26 @@
 namespace eyeray::engine::emulator {
 namespace {
 
-// The offset of a pointer whose index is out of bounds.
-constexpr uint32_t nowhere = UINT32_MAX;
-
 constexpr uint32_t texel_bytes = 16;
 
-// "byte 12 of 8 of 'Data'"; `offset` may be nowhere.
-void report_outside(Group& group, const Operation& o, uint32_t lane, const char* unit, uint32_t offset,
+// "texel 12 of 8 in 'Data'".
+void report_outside(Group& group, const Operation& o, uint32_t lane, const char* unit, int64_t at,
                     uint64_t size) {
   const std::string& name = group.root(o).name;
-  const std::string of = name.empty() ? "" : fmt::format(" of '{}'", name);
-  group.report(o, lane, Fault::out_of_bounds,
-               offset == nowhere ? fmt::format("an index is not within its array{}", of)
-                                 : fmt::format("{} {} of {}{}", unit, offset, size, of));
+  const std::string in = name.empty() ? "" : fmt::format(" in '{}'", name);
+  group.report(o, lane, Fault::out_of_bounds, fmt::format("{} {} of {}{}", unit, at, size, in));
+}
+
+// The same of an access by the pointer o.from[0], whose root has this size: "index 12 of 8 in 'Data'".
+void report_outside(Group& group, const Operation& o, uint32_t lane, uint64_t size) {
+  const Source& pointer = o.from[0];
+  const uint32_t offset = group.read(pointer, 0)[lane];
+  if (offset == nowhere)
+    return report_outside(group, o, lane, "index", int32_t(group.read(pointer, 1)[lane]),
+                          group.read(pointer, 2)[lane]);
+  const Space space = group.root(o).space;
+  const bool words = space == Space::own || space == Space::shared;
+  report_outside(group, o, lane, words ? "number" : "byte", offset, size);
 }
 
 // Notes an access to a word of memory that invocations share, and reports a race. `word` counts from the
@@ -41,11 +48,15 @@ void note(Group& group, const Operation& o, uint32_t lane, size_t word, bool wri
 void access_chain(Group& group, const Operation& o) {
   const Root& root = group.root(o);
   const Row base = group.read(o.from[0], 0);
-  uint32_t* to = group.row(o.to);
+  uint32_t *to = group.row(o.to), *lost_index = group.row(o.to + 1), *lost_size = group.row(o.to + 2);
   for (const Step& step : o.steps) group.needs_set(o, step.index, "an index was never set");
   group.each([&](uint32_t lane) {
     uint64_t offset = base[lane];
     bool inside = offset != nowhere;
+    if (!inside) {
+      lost_index[lane] = group.read(o.from[0], 1)[lane];
+      lost_size[lane] = group.read(o.from[0], 2)[lane];
+    }
     offset += o.literals[0];
     for (const Step& step : o.steps) {
       const uint32_t index = group.read(step.index, 0)[lane];
@@ -54,7 +65,11 @@ void access_chain(Group& group, const Operation& o) {
       const uint64_t count = step.count                     ? step.count
                              : size > before && step.stride ? (size - before) / step.stride
                                                             : 0;
-      inside = inside && index < count;
+      if (inside && index >= count) {
+        inside = false;
+        lost_index[lane] = index;
+        lost_size[lane] = uint32_t(count);
+      }
       offset += uint64_t{index} * step.stride;
     }
     to[lane] = inside && offset < nowhere ? uint32_t(offset) : nowhere;
@@ -72,7 +87,7 @@ void each_buffer_word(Group& group, const Operation& o, size_t size, const F& f,
       if (offset[lane] != nowhere && byte + 4 <= size) {
         f(lane, size_t(byte), word);
       } else {
-        if (word == 0 || offset[lane] != nowhere) report_outside(group, o, lane, "byte", offset[lane], size);
+        if (word == 0 || offset[lane] != nowhere) report_outside(group, o, lane, size);
         g(lane, word);
       }
     }
@@ -96,7 +111,7 @@ void load(Group& group, const Operation& o) {
       const bool may_be_unset = group.any_unset({.at = root.at, .words = root.size});
       group.each([&](uint32_t lane) {
         const bool inside = uint64_t{offset[lane]} + o.words <= root.size;
-        if (!inside) report_outside(group, o, lane, "number", offset[lane], root.size);
+        if (!inside) report_outside(group, o, lane, root.size);
         for (uint32_t word = 0; word < o.words; ++word) {
           const uint32_t at = root.at + (inside ? offset[lane] : 0) + word;
           set(word, lane, inside ? group.row(at)[lane] : 0,
@@ -108,7 +123,7 @@ void load(Group& group, const Operation& o) {
     case Space::shared:
       group.each([&](uint32_t lane) {
         const bool inside = uint64_t{offset[lane]} + o.words <= root.size;
-        if (!inside) report_outside(group, o, lane, "number", offset[lane], root.size);
+        if (!inside) report_outside(group, o, lane, root.size);
         for (uint32_t word = 0; word < o.words; ++word) {
           const uint32_t at = root.at + (inside ? offset[lane] : 0) + word;
           if (inside) note(group, o, lane, at, false, false);
@@ -145,7 +160,7 @@ void store(Group& group, const Operation& o) {
       }
       group.each([&](uint32_t lane) {
         if (uint64_t{offset[lane]} + value.words > root.size)
-          return report_outside(group, o, lane, "number", offset[lane], root.size);
+          return report_outside(group, o, lane, root.size);
         for (uint32_t word = 0; word < value.words; ++word) {
           const uint32_t at = root.at + offset[lane] + word;
           group.row(at)[lane] = group.read(value, word)[lane];
@@ -156,7 +171,7 @@ void store(Group& group, const Operation& o) {
     case Space::shared:
       group.each([&](uint32_t lane) {
         if (uint64_t{offset[lane]} + value.words > root.size)
-          return report_outside(group, o, lane, "number", offset[lane], root.size);
+          return report_outside(group, o, lane, root.size);
         for (uint32_t word = 0; word < value.words; ++word) {
           const uint32_t at = root.at + offset[lane] + word;
           note(group, o, lane, at, true, false);
@@ -203,7 +218,7 @@ void atomic(Group& group, const Operation& o) {
     const uint64_t byte = shared ? (uint64_t{root.at} + offset[lane]) * 4 : uint64_t{offset[lane]};
     const uint64_t end = shared ? (uint64_t{root.at} + root.size) * 4 : bytes.size();
     if (offset[lane] == nowhere || byte + 4 > end) {
-      report_outside(group, o, lane, shared ? "number" : "byte", offset[lane], shared ? root.size : end);
+      report_outside(group, o, lane, shared ? root.size : end);
       group.row(o.to)[lane] = 0;
       return;
     }

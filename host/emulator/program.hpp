@@ -32,13 +32,18 @@ enum class Space : uint8_t {
   pushed,  // push constants
 };
 
-// The variable that a pointer points into. A pointer's register holds the offset from its start: words in
-// `own` and `shared`, else bytes.
+// A pointer has three words: the offset from the start of its root, in words for `own` and `shared`, else in
+// bytes. If an index on the way was out of bounds, the offset is `nowhere`, followed by that index and the
+// number of elements that it had to choose from.
+constexpr uint32_t pointer_words = 3;
+constexpr uint32_t nowhere = UINT32_MAX;
+
+// The variable that a pointer points into.
 struct Root {
   Space space = Space::own;
   uint32_t at = 0;     // first register or shared word; of a buffer its binding
   uint32_t size = 0;   // words, of variables
-  std::string name{};  // name of a buffer or of shared memory, for findings
+  std::string name{};  // for findings
 };
 
 // An index of an access chain.

@@ -25,8 +25,12 @@ TEST_CASE("an access out of bounds is found, reads 0 and writes nothing") {
   REQUIRE(written.findings.size() == 1);
   CHECK(written.findings[0].count == 60);
   CHECK(written.findings[0].invocation[0] == 4);
-  check_found("out of bounds", run("uint list[4] = uint[4](1u, 2u, 3u, 4u); data[i] = list[i];", zeros));
-  check_found("out of bounds",
+  CHECK(written.findings[0].detail == "index 64 of 64 in 'Data'");
+  check_found("out of bounds: index 4 of 4 in 'list', in invocation 4, 0, 0",
+              run("uint list[4] = uint[4](1u, 2u, 3u, 4u); data[i] = list[i];", zeros));
+  check_found("index -1 of 4 in 'list', in invocation 0, 0, 0",
+              run("uint list[4] = uint[4](1u, 2u, 3u, 4u); data[i] = i > 4u ? 0u : list[int(i) - 1];", zeros));
+  check_found("index 64 of 64 in 'list', in invocation 63, 0, 0",
               run("list[i + 1u] = i; barrier(); data[i] = list[63u - i];", zeros, with_memory));
   CHECK(run("data[i] = data.length();", zeros).data[0] == 64);
 }
