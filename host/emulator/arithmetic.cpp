@@ -3,89 +3,88 @@
 
 #include <fmt/format.h>
 
-#include "host/emulator/bits.hpp"
+#include "host/emulator/columns.hpp"
 #include "host/emulator/executes.hpp"
-#include "host/emulator/group.hpp"
 
 namespace eyeray::engine::emulator {
 namespace {
-
-// F of the words of one, two or three operands, word by word. A single word stands for every word of the
-// result.
-template <typename T, auto F>
-void unary(Group& group, const Operation& o) {
-  for (uint32_t word = 0; word < o.words; ++word) {
-    const Row a = group.read(o.from[0], word);
-    uint32_t* to = group.row(o.to + word);
-    group.each([&](uint32_t lane) { to[lane] = bits(F(as<T>(a[lane]))); });
-  }
-  group.spread_unset(o);
-}
-
-template <typename T, auto F>
-void binary(Group& group, const Operation& o) {
-  for (uint32_t word = 0; word < o.words; ++word) {
-    const Row a = group.read(o.from[0], word), b = group.read(o.from[1], o.from[1].words == 1 ? 0 : word);
-    uint32_t* to = group.row(o.to + word);
-    group.each([&](uint32_t lane) { to[lane] = bits(F(as<T>(a[lane]), as<T>(b[lane]))); });
-  }
-  group.spread_unset(o);
-}
 
 // Division, remainders and shifts, where some operands have no result. `allows`: whether the second operand
 // is allowed, given the first.
 template <typename T, auto Allows, auto F>
 void checked(Group& group, const Operation& o, const char* problem) {
-  for (uint32_t word = 0; word < o.words; ++word) {
-    const Row a = group.read(o.from[0], word), b = group.read(o.from[1], word);
-    uint32_t* to = group.row(o.to + word);
+  const uint32_t components = o.words / words_of<T>;
+  for (uint32_t component = 0; component < components; ++component) {
+    const Column<T> a = column<T>(group, o.from[0], component), b = column<T>(group, o.from[1], component);
+    const Target<T> to = target<T>(group, o, component);
     group.each([&](uint32_t lane) {
-      const T x = as<T>(a[lane]), y = as<T>(b[lane]);
+      const Computed<T> x = a[lane], y = b[lane];
       const bool defined = Allows(x, y);
-      to[lane] = defined ? bits(F(x, y)) : 0;
+      to.set(lane, defined ? Computed<T>(F(x, y)) : 0);
+      const uint32_t word = component * words_of<T>;
       if (!defined && !group.unset(o.from[0], word, lane) && !group.unset(o.from[1], word, lane))
         group.report(o, lane, Fault::undefined_integer, fmt::format("{} and {}: {}", x, y, problem));
     });
   }
-  group.spread_unset(o);
+  group.spread_unset(o, components);
 }
 
 template <typename T, auto F>
 void divide(Group& group, const Operation& o) {
-  constexpr auto allows = [](T x, T y) {
-    return y != 0 && !(std::is_signed_v<T> && x == std::numeric_limits<T>::min() && y == T(-1));
+  constexpr auto allows = [](Computed<T> x, Computed<T> y) {
+    return y != 0 && !(std::is_signed_v<T> && x == std::numeric_limits<T>::min() && y == Computed<T>(-1));
   };
   checked<T, allows, F>(group, o, "the quotient is undefined");
 }
-
 template <auto F>
-void shift(Group& group, const Operation& o) {
-  constexpr auto allows = [](uint32_t, uint32_t y) { return y < 32; };
-  checked<uint32_t, allows, F>(group, o, "a shift by 32 or more is undefined");
+Execute divide_naturals(uint32_t bits) {
+  return bits == 8    ? divide<uint8_t, F>
+         : bits == 16 ? divide<uint16_t, F>
+         : bits == 64 ? divide<uint64_t, F>
+                      : divide<uint32_t, F>;
+}
+template <auto F>
+Execute divide_integers(uint32_t bits) {
+  return bits == 8    ? divide<int8_t, F>
+         : bits == 16 ? divide<int16_t, F>
+         : bits == 64 ? divide<int64_t, F>
+                      : divide<int32_t, F>;
 }
 
-// A float as a whole number of type T.
-template <typename T>
-void to_whole(Group& group, const Operation& o) {
-  for (uint32_t word = 0; word < o.words; ++word) {
-    const Row a = group.read(o.from[0], word);
-    uint32_t* to = group.row(o.to + word);
+// The numbers of bits to shift by may have another width. They are unsigned.
+template <typename T, auto F>
+void shift(Group& group, const Operation& o) {
+  constexpr uint32_t bits = sizeof(T) * 8;
+  const uint32_t components = o.words / words_of<T>, by_words = o.from[1].words / components;
+  for (uint32_t component = 0; component < components; ++component) {
+    const Column<T> a = column<T>(group, o.from[0], component);
+    const Row by = group.read(o.from[1], component * by_words),
+              high = group.read(o.from[1], component * by_words + by_words - 1);
+    const Target<T> to = target<T>(group, o, component);
     group.each([&](uint32_t lane) {
-      const double x = std::trunc(double(as<float>(a[lane])));
-      const bool fits =
-          x >= double(std::numeric_limits<T>::min()) && x <= double(std::numeric_limits<T>::max());
-      to[lane] = fits ? bits(T(x)) : 0;
-      if (!fits && !group.unset(o.from[0], word, lane))
+      const bool defined = by[lane] < bits && (by_words == 1 || high[lane] == 0);
+      to.set(lane, defined ? Computed<T>(F(a[lane], by[lane])) : 0);
+      if (!defined && !group.unset(o.from[0], component * words_of<T>, lane) &&
+          !group.unset(o.from[1], component * by_words, lane))
         group.report(o, lane, Fault::undefined_integer,
-                     fmt::format("{} is not within the integer's range", as<float>(a[lane])));
+                     fmt::format("{} and {}: a shift by {} or more is undefined", a[lane], by[lane], bits));
     });
   }
-  group.spread_unset(o);
+  group.spread_unset(o, components);
+}
+template <bool Signed, auto F>
+Execute shifts(uint32_t bits) {
+  return bits == 8    ? shift<std::conditional_t<Signed, int8_t, uint8_t>, F>
+         : bits == 16 ? shift<std::conditional_t<Signed, int16_t, uint16_t>, F>
+         : bits == 64 ? shift<std::conditional_t<Signed, int64_t, uint64_t>, F>
+                      : shift<std::conditional_t<Signed, int32_t, uint32_t>, F>;
 }
 
+// A bool chooses a component, or the whole value.
 void select(Group& group, const Operation& o) {
+  const uint32_t words = o.words / o.from[0].words;  // that a bool chooses
   for (uint32_t word = 0; word < o.words; ++word) {
-    const uint32_t chooser = o.from[0].words == 1 ? 0 : word;
+    const uint32_t chooser = word / words;
     const Row condition = group.read(o.from[0], chooser);
     const Row a = group.read(o.from[1], word), b = group.read(o.from[2], word);
     uint32_t* to = group.row(o.to + word);
@@ -111,7 +110,7 @@ void any_or_all(Group& group, const Operation& o) {
       if ((group.read(o.from[0], word)[lane] != 0) == Wanted) result = Wanted;
     to[lane] = result;
   });
-  group.spread_unset(o);
+  group.spread_unset(o, 1);
 }
 
 constexpr auto bit_count = [](uint32_t x) { return uint32_t(std::popcount(x)); };
@@ -124,7 +123,8 @@ constexpr auto bit_reverse = [](uint32_t x) {
 // o.from: base, [insert,] offset, count.
 template <bool Inserts, bool Signed>
 void bit_field(Group& group, const Operation& o) {
-  for (uint32_t word = 0; word < o.words; ++word) {
+  const uint32_t components = o.words;
+  for (uint32_t word = 0; word < components; ++word) {
     const Row base = group.read(o.from[0], word), insert = group.read(o.from[1], Inserts ? word : 0);
     const Row offset = group.read(o.from[Inserts ? 2 : 1], 0), count = group.read(o.from[Inserts ? 3 : 2], 0);
     uint32_t* to = group.row(o.to + word);
@@ -146,36 +146,36 @@ void bit_field(Group& group, const Operation& o) {
       }
     });
   }
-  group.spread_unset(o);
+  group.spread_unset(o, components);
 }
 
 // The low and the high words of a product, one after the other.
 template <typename T, typename Wide>
 void multiply_extended(Group& group, const Operation& o) {
-  const uint32_t words = o.words / 2;
-  for (uint32_t word = 0; word < words; ++word) {
+  const uint32_t components = o.words / 2;
+  for (uint32_t word = 0; word < components; ++word) {
     const Row a = group.read(o.from[0], word), b = group.read(o.from[1], word);
     group.each([&](uint32_t lane) {
-      const auto whole = uint64_t(Wide{as<T>(a[lane])} * Wide{as<T>(b[lane])});
+      const auto whole = uint64_t(Wide{std::bit_cast<T>(a[lane])} * Wide{std::bit_cast<T>(b[lane])});
       group.row(o.to + word)[lane] = uint32_t(whole);
-      group.row(o.to + words + word)[lane] = uint32_t(whole >> 32);
+      group.row(o.to + components + word)[lane] = uint32_t(whole >> 32);
     });
   }
-  group.spread_unset(o);
+  group.spread_unset(o, 1);
 }
 
 template <bool Adds>
 void add_or_subtract_extended(Group& group, const Operation& o) {
-  const uint32_t words = o.words / 2;
-  for (uint32_t word = 0; word < words; ++word) {
+  const uint32_t components = o.words / 2;
+  for (uint32_t word = 0; word < components; ++word) {
     const Row a = group.read(o.from[0], word), b = group.read(o.from[1], word);
     group.each([&](uint32_t lane) {
       const uint32_t x = a[lane], y = b[lane];
       group.row(o.to + word)[lane] = Adds ? x + y : x - y;
-      group.row(o.to + words + word)[lane] = Adds ? x + y < x : x < y;
+      group.row(o.to + components + word)[lane] = Adds ? x + y < x : x < y;
     });
   }
-  group.spread_unset(o);
+  group.spread_unset(o, 1);
 }
 
 }  // namespace
@@ -183,154 +183,101 @@ void add_or_subtract_extended(Group& group, const Operation& o) {
 void concatenate(Group& group, const Operation& o) {
   uint32_t at = o.to;
   for (const Source& source : o.from) {
-    for (uint32_t word = 0; word < source.words; ++word, ++at) {
-      const Row from = group.read(source, word);
-      uint32_t* to = group.row(at);
-      group.each([&](uint32_t lane) { to[lane] = from[lane]; });
-      if (group.any_unset({.at = at, .words = 1}) || group.any_unset(source))
-        group.each([&](uint32_t lane) { group.set_unset(at, lane, group.unset(source, word, lane)); });
-    }
+    copy(group, at, source);
+    at += source.words;
   }
 }
 
-Execute arithmetic(spv::Op op) {
-  using U = uint32_t;
-  using S = int32_t;
-  using F = float;
+void copy(Group& group, uint32_t at, const Source& source) {
+  const bool marked = group.any_unset(source);
+  for (uint32_t word = 0; word < source.words; ++word, ++at) {
+    const Row from = group.read(source, word);
+    uint32_t* to = group.row(at);
+    if (!group.whole())
+      group.each([&](uint32_t lane) { to[lane] = from[lane]; });
+    else if (source.constant)
+      std::fill_n(to, group.lanes(), from[0]);
+    else
+      std::copy_n(from.words, group.lanes(), to);
+    if (marked || group.any_unset({.at = at, .words = 1}))
+      group.each([&](uint32_t lane) { group.set_unset(at, lane, group.unset(source, word, lane)); });
+  }
+}
+
+Execute arithmetic(spv::Op op, uint32_t bits) {
   switch (op) {
-    case spv::OpBitcast:
-      return concatenate;
     case spv::OpFNegate:
-      return unary<F, ([](F x) { return -x; })>;
+      return reals<1, ([](auto x) { return -x; })>(bits);
     case spv::OpFAdd:
-      return binary<F, ([](F x, F y) { return x + y; })>;
+      return reals<2, ([](auto x, auto y) { return x + y; })>(bits);
     case spv::OpFSub:
-      return binary<F, ([](F x, F y) { return x - y; })>;
+      return reals<2, ([](auto x, auto y) { return x - y; })>(bits);
     case spv::OpFMul:
     case spv::OpVectorTimesScalar:
     case spv::OpMatrixTimesScalar:
-      return binary<F, ([](F x, F y) { return x * y; })>;
+      return reals<2, ([](auto x, auto y) { return x * y; })>(bits);
     case spv::OpFDiv:
-      return binary<F, ([](F x, F y) { return x / y; })>;
+      return reals<2, ([](auto x, auto y) { return x / y; })>(bits);
     case spv::OpFRem:
-      return binary<F, ([](F x, F y) { return std::fmod(x, y); })>;
+      return reals<2, ([](auto x, auto y) { return std::fmod(x, y); })>(bits);
     case spv::OpFMod:
-      return binary<F, ([](F x, F y) { return x - y * std::floor(x / y); })>;
+      return reals<2, ([](auto x, auto y) { return x - y * std::floor(x / y); })>(bits);
     case spv::OpSNegate:
-      return unary<U, ([](U x) { return 0u - x; })>;
+      return naturals<1, ([](auto x) { return 0u - x; })>(bits);
     case spv::OpIAdd:
-      return binary<U, ([](U x, U y) { return x + y; })>;
+      return naturals<2, ([](auto x, auto y) { return x + y; })>(bits);
     case spv::OpISub:
-      return binary<U, ([](U x, U y) { return x - y; })>;
+      return naturals<2, ([](auto x, auto y) { return x - y; })>(bits);
     case spv::OpIMul:
-      return binary<U, ([](U x, U y) { return x * y; })>;
+      return naturals<2, ([](auto x, auto y) { return x * y; })>(bits);
     case spv::OpUDiv:
-      return divide<U, ([](U x, U y) { return x / y; })>;
+      return divide_naturals<([](auto x, auto y) { return x / y; })>(bits);
     case spv::OpUMod:
-      return divide<U, ([](U x, U y) { return x % y; })>;
+      return divide_naturals<([](auto x, auto y) { return x % y; })>(bits);
     case spv::OpSDiv:
-      return divide<S, ([](S x, S y) { return x / y; })>;
+      return divide_integers<([](auto x, auto y) { return x / y; })>(bits);
     case spv::OpSRem:
-      return divide<S, ([](S x, S y) { return x % y; })>;
+      return divide_integers<([](auto x, auto y) { return x % y; })>(bits);
     case spv::OpSMod:
-      return divide<S, ([](S x, S y) {
-                      const S rest = x % y;
-                      return rest != 0 && (rest < 0) != (y < 0) ? rest + y : rest;
-                    })>;
+      return divide_integers<([](auto x, auto y) {
+        const auto rest = x % y;
+        return rest != 0 && (rest < 0) != (y < 0) ? rest + y : rest;
+      })>(bits);
     case spv::OpUMulExtended:
-      return multiply_extended<U, uint64_t>;
+      return bits == 32 ? multiply_extended<uint32_t, uint64_t> : nullptr;
     case spv::OpSMulExtended:
-      return multiply_extended<S, int64_t>;
+      return bits == 32 ? multiply_extended<int32_t, int64_t> : nullptr;
     case spv::OpIAddCarry:
-      return add_or_subtract_extended<true>;
+      return bits == 32 ? add_or_subtract_extended<true> : nullptr;
     case spv::OpISubBorrow:
-      return add_or_subtract_extended<false>;
+      return bits == 32 ? add_or_subtract_extended<false> : nullptr;
     case spv::OpShiftLeftLogical:
-      return shift<([](U x, U y) { return x << y; })>;
+      return shifts<false, ([](auto x, uint32_t y) { return x << y; })>(bits);
     case spv::OpShiftRightLogical:
-      return shift<([](U x, U y) { return x >> y; })>;
+      return shifts<false, ([](auto x, uint32_t y) { return x >> y; })>(bits);
     case spv::OpShiftRightArithmetic:
-      return shift<([](U x, U y) { return S(x) >> y; })>;
+      return shifts<true, ([](auto x, uint32_t y) { return x >> y; })>(bits);
     case spv::OpBitwiseAnd:
     case spv::OpLogicalAnd:
-      return binary<U, ([](U x, U y) { return x & y; })>;
+      return naturals<2, ([](auto x, auto y) { return x & y; })>(bits);
     case spv::OpBitwiseOr:
     case spv::OpLogicalOr:
-      return binary<U, ([](U x, U y) { return x | y; })>;
+      return naturals<2, ([](auto x, auto y) { return x | y; })>(bits);
     case spv::OpBitwiseXor:
     case spv::OpLogicalNotEqual:
-      return binary<U, ([](U x, U y) { return x ^ y; })>;
+      return naturals<2, ([](auto x, auto y) { return x ^ y; })>(bits);
     case spv::OpNot:
-      return unary<U, ([](U x) { return ~x; })>;
+      return naturals<1, ([](auto x) { return ~x; })>(bits);
     case spv::OpBitCount:
-      return unary<U, bit_count>;
+      return bits == 32 ? map<uint32_t, uint32_t, 1, bit_count> : nullptr;
     case spv::OpBitReverse:
-      return unary<U, bit_reverse>;
+      return bits == 32 ? map<uint32_t, uint32_t, 1, bit_reverse> : nullptr;
     case spv::OpBitFieldInsert:
-      return bit_field<true, false>;
+      return bits == 32 ? bit_field<true, false> : nullptr;
     case spv::OpBitFieldUExtract:
-      return bit_field<false, false>;
+      return bits == 32 ? bit_field<false, false> : nullptr;
     case spv::OpBitFieldSExtract:
-      return bit_field<false, true>;
-    case spv::OpLogicalNot:
-      return unary<U, ([](U x) { return x ^ 1u; })>;
-    case spv::OpIEqual:
-    case spv::OpLogicalEqual:
-      return binary<U, ([](U x, U y) { return x == y; })>;
-    case spv::OpINotEqual:
-      return binary<U, ([](U x, U y) { return x != y; })>;
-    case spv::OpULessThan:
-      return binary<U, ([](U x, U y) { return x < y; })>;
-    case spv::OpULessThanEqual:
-      return binary<U, ([](U x, U y) { return x <= y; })>;
-    case spv::OpUGreaterThan:
-      return binary<U, ([](U x, U y) { return x > y; })>;
-    case spv::OpUGreaterThanEqual:
-      return binary<U, ([](U x, U y) { return x >= y; })>;
-    case spv::OpSLessThan:
-      return binary<S, ([](S x, S y) { return x < y; })>;
-    case spv::OpSLessThanEqual:
-      return binary<S, ([](S x, S y) { return x <= y; })>;
-    case spv::OpSGreaterThan:
-      return binary<S, ([](S x, S y) { return x > y; })>;
-    case spv::OpSGreaterThanEqual:
-      return binary<S, ([](S x, S y) { return x >= y; })>;
-    case spv::OpFOrdEqual:
-      return binary<F, ([](F x, F y) { return x == y; })>;
-    case spv::OpFUnordEqual:
-      return binary<F, ([](F x, F y) { return !(x < y || x > y); })>;
-    case spv::OpFOrdNotEqual:
-      return binary<F, ([](F x, F y) { return x < y || x > y; })>;
-    case spv::OpFUnordNotEqual:
-      return binary<F, ([](F x, F y) { return x != y; })>;
-    case spv::OpFOrdLessThan:
-      return binary<F, ([](F x, F y) { return x < y; })>;
-    case spv::OpFOrdLessThanEqual:
-      return binary<F, ([](F x, F y) { return x <= y; })>;
-    case spv::OpFOrdGreaterThan:
-      return binary<F, ([](F x, F y) { return x > y; })>;
-    case spv::OpFOrdGreaterThanEqual:
-      return binary<F, ([](F x, F y) { return x >= y; })>;
-    case spv::OpFUnordLessThan:
-      return binary<F, ([](F x, F y) { return !(x >= y); })>;
-    case spv::OpFUnordLessThanEqual:
-      return binary<F, ([](F x, F y) { return !(x > y); })>;
-    case spv::OpFUnordGreaterThan:
-      return binary<F, ([](F x, F y) { return !(x <= y); })>;
-    case spv::OpFUnordGreaterThanEqual:
-      return binary<F, ([](F x, F y) { return !(x < y); })>;
-    case spv::OpIsNan:
-      return unary<F, ([](F x) { return std::isnan(x); })>;
-    case spv::OpIsInf:
-      return unary<F, ([](F x) { return std::isinf(x); })>;
-    case spv::OpConvertFToU:
-      return to_whole<U>;
-    case spv::OpConvertFToS:
-      return to_whole<S>;
-    case spv::OpConvertUToF:
-      return unary<U, ([](U x) { return F(x); })>;
-    case spv::OpConvertSToF:
-      return unary<S, ([](S x) { return F(x); })>;
+      return bits == 32 ? bit_field<false, true> : nullptr;
     case spv::OpSelect:
       return select;
     case spv::OpAny:

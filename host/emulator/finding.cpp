@@ -35,6 +35,7 @@ std::string describe(const Finding& finding) {
 
 void Findings::add(Finding finding) {
   const auto key = std::tuple(finding.kernel, finding.location, finding.fault);
+  if (findings_.size() == most_findings && !findings_.contains(key)) return;
   const uint64_t count = std::max<uint64_t>(1, finding.count);
   finding.count = 0;
   findings_.try_emplace(key, std::move(finding)).first->second.count += count;

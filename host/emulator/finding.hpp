@@ -37,9 +37,12 @@ struct Finding {
 // kernel 'blur'; 4 times"
 std::string describe(const Finding& finding);
 
+constexpr size_t most_findings = 1000;
+
 class Findings {
  public:
-  // Counts a finding that is known by its kernel, location and fault. A count of 0 is one.
+  // Counts a finding that is known by its kernel, location and fault. A count of 0 is one. The first
+  // `most_findings` are kept.
   void add(Finding finding);
   std::vector<Finding> all() const;
 

@@ -2,10 +2,16 @@
 
 #include <algorithm>
 
+#include <fmt/ranges.h>
+
 #include "host/core/error.hpp"
+#include "host/emulator/bits.hpp"
+#include "host/emulator/executes.hpp"
 
 namespace eyeray::engine::emulator {
 namespace {
+
+constexpr uint32_t most_calls = 200;  // within each other
 
 constexpr uint64_t watched_operations =
     1 << 22;  // operations of single invocations between two calls of Work::watch
@@ -29,14 +35,24 @@ std::array<uint32_t, 3> Group::local_id(uint32_t lane) const {
   return {lane % size[0], lane / size[0] % size[1], lane / size[0] / size[1]};
 }
 
-Accesses* Group::accesses(uint32_t binding) {
-  const auto found = dispatch_.accesses.find(binding);
+Accesses* Group::accesses(const Root& root) {
+  if (!dispatch_.work.findings) return nullptr;
+  if (root.space == Space::shared) return &shared_accesses_;
+  const auto found = dispatch_.accesses.find(root.at);
   return found == dispatch_.accesses.end() ? nullptr : &found->second;
 }
 
 std::span<std::byte> Group::buffer(uint32_t binding) const {
   const auto found = dispatch_.work.buffers.find(binding);
   return found == dispatch_.work.buffers.end() ? std::span<std::byte>() : found->second;
+}
+
+Image Group::image(uint32_t binding) const {
+  const auto found = dispatch_.work.images.find(binding);
+  if (found != dispatch_.work.images.end()) return found->second;
+  const Format texels;
+  const std::span<std::byte> bytes = buffer(binding);
+  return {.extent = {uint32_t(bytes.size() / texels.bytes()), 1, 1}, .format = texels, .bytes = bytes};
 }
 
 Moment Group::moment(uint32_t lane) const {
@@ -66,23 +82,23 @@ bool Group::any_unset(const Source& source) const {
   return std::any_of(first, first + source.words, [](uint8_t each) { return each != 0; });
 }
 
-void Group::spread_unset(const Operation& operation) {
+void Group::spread_unset(const Operation& operation, uint32_t components) {
   const Source result{.at = operation.to, .words = operation.words};
   const auto any = [&](const Source& source) { return any_unset(source); };
   if (!any(result) && std::ranges::none_of(operation.from, any)) return;
-  // A component depends on the same component of operands of the same size, and on all of other operands.
-  for (uint32_t word = 0; word < operation.words; ++word)
+  const uint32_t result_words = operation.words / components;
+  for (uint32_t component = 0; component < components; ++component)
     each([&](uint32_t lane) {
       bool is_unset = false;
       for (const Source& source : operation.from) {
-        if (source.words == operation.words) {
+        const bool same = source.words % components == 0;
+        const uint32_t words = same ? source.words / components : source.words;
+        const uint32_t first = same ? component * words : 0;
+        for (uint32_t word = first; word < first + words; ++word)
           is_unset = is_unset || unset(source, word, lane);
-        } else {
-          for (uint32_t other = 0; other < source.words; ++other)
-            is_unset = is_unset || unset(source, other, lane);
-        }
       }
-      set_unset(operation.to + word, lane, is_unset);
+      for (uint32_t word = 0; word < result_words; ++word)
+        set_unset(operation.to + component * result_words + word, lane, is_unset);
     });
 }
 
@@ -91,6 +107,26 @@ void Group::needs_set(const Operation& operation, const Source& source, const ch
   for (const uint32_t lane : active_)
     for (uint32_t word = 0; word < source.words; ++word)
       if (unset(source, word, lane)) report(operation, lane, Fault::uninitialised, as);
+}
+
+uint32_t Group::birth(const Operation& operation, std::vector<double> operands) {
+  if (births_.size() < most_births) {
+    births_.push_back({&operation, std::move(operands)});
+    return uint32_t(births_.size());
+  }
+  // So many have no numbers of their own: take an earlier one of this operation, if there is one.
+  const auto found = std::ranges::find(births_, &operation, &Birth::operation);
+  return found == births_.end() ? 0 : uint32_t(found - births_.begin()) + 1;
+}
+
+void Group::report_birth(const Operation& operation, uint32_t lane, uint32_t number) {
+  if (number > births_.size()) return;
+  const Birth& birth = births_[number - 1];
+  const std::string of =
+      birth.operands.empty() ? "" : fmt::format("{} give ", fmt::join(birth.operands, " and "));
+  report(birth.operation->location, lane, Fault::not_a_number,
+         fmt::format("{}NaN, which reaches '{}' at {}", of, root(operation).name,
+                     describe(operation.location, dispatch_.program.files)));
 }
 
 void Group::forget(uint32_t at, uint32_t words, std::span<const uint32_t> lanes) {
@@ -142,15 +178,17 @@ void Group::set_built_in(const BuiltIn& built_in, const std::array<uint32_t, 3>&
 }
 
 void Group::start(const std::array<uint32_t, 3>& id) {
+  check_effort(may_be_unset_.size() + shared_.size());
   id_ = id;
   number_ = (id[2] * dispatch_.groups[1] + id[1]) * dispatch_.groups[0] + id[0];
   after_group_ = ++dispatch_.barriers;
   after_subgroup_.assign((lanes_ + subgroup_size() - 1) / subgroup_size(), after_group_);
   active_ = all_;
+  births_.clear();
   std::ranges::fill(may_be_unset_, uint8_t{0});
   std::ranges::fill(shared_, 0u);
   std::ranges::fill(shared_unset_, uint8_t{1});
-  shared_accesses_.restart(shared_.size());
+  if (dispatch_.work.findings) shared_accesses_.restart(shared_.size() * 4, 4);
   for (const auto& [at, words] : dispatch_.program.privates) forget(at, words, all_);
   for (const BuiltIn& each : dispatch_.program.built_ins) set_built_in(each, id);
   for (const Operation& each : dispatch_.program.prelude) each.execute(*this, each);
@@ -161,7 +199,7 @@ void Group::run(const std::array<uint32_t, 3>& id) {
   run_function(dispatch_.program.functions[dispatch_.program.entry], all_);
 }
 
-void Group::check_effort(size_t operations) {
+void Group::check_effort(uint64_t operations) {
   const uint64_t before = dispatch_.operations;
   dispatch_.operations += operations;
   if (dispatch_.work.watch && before / watched_operations != dispatch_.operations / watched_operations)
@@ -175,57 +213,63 @@ void Group::run_function(const Function& function, std::vector<uint32_t> lanes) 
   waiting[0] = std::move(lanes);
   const auto send = [&](const Way& way, std::vector<uint32_t>& some) {
     if (some.empty()) return;
-    go(way, some);
+    if (!way.moves.empty()) go(way, some);
     std::vector<uint32_t>& there = waiting[way.block];
-    there.insert(there.end(), some.begin(), some.end());
+    if (there.empty())
+      there.swap(some);
+    else
+      there.insert(there.end(), some.begin(), some.end());
   };
+  std::vector<std::vector<uint32_t>> ways;
   for (uint32_t at = 0; at < waiting.size();) {
     if (waiting[at].empty()) {
       ++at;
       continue;
     }
-    active_ = std::move(waiting[at]);
+    active_.swap(waiting[at]);
     waiting[at].clear();
-    std::ranges::sort(active_);
+    if (!std::ranges::is_sorted(active_)) std::ranges::sort(active_);
     const Block& block = function.blocks[at];
     run_block(block);
-    std::vector<uint32_t> here = active_;
-    if (block.end == spv::OpReturnValue)
-      for (uint32_t word = 0; word < block.condition.words; ++word)
-        for (const uint32_t lane : here) {
-          row(function.result + word)[lane] = read(block.condition, word)[lane];
-          set_unset(function.result + word, lane, unset(block.condition, word, lane));
-        }
-    if (block.end == spv::OpUnreachable)
-      for (const uint32_t lane : here)
-        report(block.location, lane, Fault::unreachable, "an invocation comes here");
-    if (block.ways.empty()) continue;
-
-    std::vector<std::vector<uint32_t>> ways(block.ways.size());
-    const bool decides = block.end != spv::OpBranch;
-    for (const uint32_t lane : here) {
-      size_t way = 0;
-      if (decides) {
-        if (unset(block.condition, 0, lane))
-          report(block.location, lane, Fault::uninitialised,
-                 "a branch depends on a value that was never set");
-        const uint32_t value = read(block.condition, 0)[lane];
-        if (block.end == spv::OpBranchConditional) {
-          way = value ? 0 : 1;
-        } else {
-          const auto found = std::ranges::find(block.cases, value);
-          way = found == block.cases.end() ? 0 : size_t(found - block.cases.begin()) + 1;
-        }
-      }
-      ways[way].push_back(lane);
+    if (block.ways.empty()) {
+      leave(function, block);
+      continue;
     }
     uint32_t next = at + 1;
-    for (size_t way = 0; way < ways.size(); ++way) {
-      if (ways[way].empty()) continue;
-      send(block.ways[way], ways[way]);
-      next = std::min(next, block.ways[way].block);
+    for (const Way& way : block.ways) next = std::min(next, way.block);
+    if (block.ways.size() == 1) {
+      send(block.ways[0], active_);
+    } else {
+      choose(block, ways);
+      for (size_t way = 0; way < block.ways.size(); ++way) send(block.ways[way], ways[way]);
     }
     at = next;
+  }
+}
+
+// Returns from a function, or comes to code that cannot be reached.
+void Group::leave(const Function& function, const Block& block) {
+  if (block.end == spv::OpReturnValue) copy(*this, function.result, block.condition);
+  if (block.end == spv::OpUnreachable)
+    for (const uint32_t lane : active_)
+      report(block.location, lane, Fault::unreachable, "an invocation comes here");
+}
+
+// The active invocations that take each way.
+void Group::choose(const Block& block, std::vector<std::vector<uint32_t>>& ways) {
+  ways.resize(block.ways.size());
+  for (std::vector<uint32_t>& each : ways) each.clear();
+  const Row condition = read(block.condition, 0);
+  const bool marked = any_unset(block.condition);
+  for (const uint32_t lane : active_) {
+    if (marked && unset(block.condition, 0, lane))
+      report(block.location, lane, Fault::uninitialised, "a branch depends on a value that was never set");
+    size_t way = condition[lane] ? 0 : 1;
+    if (block.end == spv::OpSwitch) {
+      const auto found = std::ranges::find(block.cases, condition[lane]);
+      way = found == block.cases.end() ? 0 : size_t(found - block.cases.begin()) + 1;
+    }
+    ways[way].push_back(lane);
   }
 }
 
@@ -248,7 +292,7 @@ void Group::go(const Way& way, std::span<const uint32_t> lanes) {
 }
 
 void Group::run_block(const Block& block) {
-  check_effort((block.operations.size() + 1) * active_.size());
+  check_effort(block.effort * active_.size());
   for (const Operation& each : block.operations) {
     if (each.execute)
       each.execute(*this, each);
@@ -260,29 +304,17 @@ void Group::run_block(const Block& block) {
 void Group::call(const Operation& operation) {
   const Function& function = dispatch_.program.functions[operation.literals[0]];
   for (size_t n = 0; n < function.parameters.size(); ++n) {
-    const Source& argument = operation.from[n];
     if (function.roots[n] != no_root) roots_[function.roots[n]] = roots_[operation.literals[n + 1]];
-    for (uint32_t word = 0; word < argument.words; ++word) {
-      const Row from = read(argument, word);
-      uint32_t* to = row(function.parameters[n] + word);
-      each([&](uint32_t lane) {
-        to[lane] = from[lane];
-        set_unset(function.parameters[n] + word, lane, unset(argument, word, lane));
-      });
-    }
+    copy(*this, function.parameters[n], operation.from[n]);
   }
+  if (++depth_ > most_calls)
+    throw Error(ExitCode::bad_input, "kernel '{}' calls functions that call others, more than {} deep",
+                dispatch_.name, most_calls);
   const std::vector<uint32_t> caller = active_;
   run_function(function, caller);
+  --depth_;
   active_ = caller;
-  for (uint32_t word = 0; word < operation.words; ++word) {
-    const uint32_t* from = row(function.result + word);
-    uint32_t* to = row(operation.to + word);
-    each([&](uint32_t lane) {
-      to[lane] = from[lane];
-      set_unset(operation.to + word, lane,
-                unset({.at = function.result, .words = operation.words}, word, lane));
-    });
-  }
+  copy(*this, operation.to, {.at = function.result, .words = operation.words});
 }
 
 Kernel::Kernel(std::span<const uint32_t> spirv, std::string name)
@@ -294,15 +326,27 @@ void Kernel::run(const Work& work, const std::array<uint32_t, 3>& groups) const 
   Findings findings;
   Work watched = work;
   if (work.findings) watched.findings = &findings;
-  Dispatch dispatch{.program = *program_, .work = watched, .groups = groups, .accesses = {}};
-  for (const uint32_t binding : program_->written)
-    if (const auto buffer = work.buffers.find(binding); buffer != work.buffers.end())
-      dispatch.accesses[binding].restart(buffer->second.size() / 4);
+  Dispatch dispatch{.name = name_, .program = *program_, .work = watched, .groups = groups, .accesses = {}};
+  for (const auto& [binding, image] : work.images)
+    if (image.bytes.size() / image.format.bytes() / std::max(1u, image.extent[0]) /
+            std::max(1u, image.extent[1]) <
+        image.extent[2])
+      throw Error(ExitCode::bad_input, "the image at binding {} has too few bytes for its texels", binding);
+  for (const auto& [binding, use] : program_->uses) {
+    if (!use.writes || !work.findings) continue;
+    if (const auto image = work.images.find(binding); image != work.images.end())
+      dispatch.accesses[binding].restart(image->second.bytes.size(), image->second.format.bytes());
+    else if (const auto buffer = work.buffers.find(binding); buffer != work.buffers.end())
+      dispatch.accesses[binding].restart(buffer->second.size(), use.unit);
+  }
   if (uint64_t{groups[0]} * groups[1] * groups[2] > 0) {
     Group group(dispatch);
+    const auto at = [&](uint32_t n, size_t axis) {
+      return work.order == Order::ascending ? n : groups[axis] - 1 - n;
+    };
     for (uint32_t z = 0; z < groups[2]; ++z)
       for (uint32_t y = 0; y < groups[1]; ++y)
-        for (uint32_t x = 0; x < groups[0]; ++x) group.run({x, y, z});
+        for (uint32_t x = 0; x < groups[0]; ++x) group.run({at(x, 0), at(y, 1), at(z, 2)});
   }
   for (Finding each : findings.all()) {
     each.kernel = name_;

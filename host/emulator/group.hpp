@@ -21,10 +21,11 @@ struct Row {
 
 // The state of one dispatch that its work groups share.
 struct Dispatch {
+  const std::string& name;
   const Program& program;
   const Work& work;
   std::array<uint32_t, 3> groups;
-  std::map<uint32_t, Accesses> accesses;  // by binding, of buffers that the kernel writes
+  std::map<uint32_t, Accesses> accesses;  // by binding, of memory that the kernel writes
   uint32_t barriers = 0;                  // work groups' and subgroups', so far
   uint64_t operations = 0;                // operations of single invocations
 };
@@ -40,6 +41,12 @@ class Group {
     if (source.constant) return {&dispatch_.program.constants[source.at + word], 0};
     return {&registers_[size_t{source.at + word} * lanes_], UINT32_MAX};
   }
+  // A whole number of `signed_bits` bits, or an unsigned one if that is 0.
+  int64_t whole_number(const Source& source, uint32_t signed_bits, uint32_t lane) const {
+    const uint32_t low = read(source, 0)[lane];
+    if (source.words == 2) return int64_t(uint64_t{read(source, 1)[lane]} << 32 | low);
+    return signed_bits ? int32_t(low << (32 - signed_bits)) >> (32 - signed_bits) : int64_t{low};
+  }
   uint32_t* row(uint32_t at) { return &registers_[size_t{at} * lanes_]; }
   std::span<const uint32_t> active() const { return active_; }
   uint32_t lanes() const { return lanes_; }
@@ -54,6 +61,13 @@ class Group {
       for (const uint32_t lane : active_) f(lane);
   }
 
+  // The same in the order of Work, where the order may matter.
+  template <typename F>
+  void each_in_order(const F& f) const {
+    if (dispatch_.work.order == Order::ascending) return each(f);
+    for (size_t n = active_.size(); n-- > 0;) f(active_[n]);
+  }
+
   // Returns false if all invocations have set all words of an operand; looks no closer.
   bool any_unset(const Source& source) const;
   bool unset(const Source& source, uint32_t word, uint32_t lane) const {
@@ -66,21 +80,31 @@ class Group {
     may_be_unset_[at] = 1;
     unset_[size_t{at} * lanes_ + lane] = unset;
   }
-  // The result is unset where any operand is.
-  void spread_unset(const Operation& operation);
+  // The result is unset where an operand is: a component where the same component is, if the operand has as
+  // many; else where any part of the operand is.
+  void spread_unset(const Operation& operation, uint32_t components);
   // Reports an operand that decides something, where it is unset.
   void needs_set(const Operation& operation, const Source& source, const char* as);
 
   const Root& root(const Operation& operation) const { return roots_[operation.root]; }
   std::vector<uint32_t>& shared() { return shared_; }
   std::vector<uint8_t>& shared_unset() { return shared_unset_; }
-  Accesses& shared_accesses() { return shared_accesses_; }
-  Accesses* accesses(uint32_t binding);  // null for a buffer that the kernel only reads
+  Accesses* accesses(const Root& root);  // null for memory that the kernel only reads
   std::span<std::byte> buffer(uint32_t binding) const;
+  Image image(uint32_t binding) const;
+  // The bytes of a buffer or an image.
+  std::span<std::byte> memory(const Root& root) const {
+    return root.space == Space::image ? image(root.at).bytes : buffer(root.at);
+  }
   std::span<const std::byte> pushed() const { return dispatch_.work.push_constants; }
   Moment moment(uint32_t lane) const;
   void pass_barrier(bool of_group);
   bool whole() const { return active_.size() == lanes_; }
+
+  // Notes that an operation made a NaN of these operands, none of which is one. Returns its number, from 1.
+  uint32_t birth(const Operation& operation, std::vector<double> operands);
+  // Reports the birth of a NaN that this operation writes to its root.
+  void report_birth(const Operation& operation, uint32_t lane, uint32_t birth);
 
   void report(const Operation& operation, uint32_t lane, Fault fault, std::string detail) {
     report(operation.location, lane, fault, std::move(detail));
@@ -93,9 +117,11 @@ class Group {
   void run_function(const Function& function, std::vector<uint32_t> lanes);
   void run_block(const Block& block);
   void call(const Operation& operation);
+  void leave(const Function& function, const Block& block);
+  void choose(const Block& block, std::vector<std::vector<uint32_t>>& ways);
   void go(const Way& way, std::span<const uint32_t> lanes);
   void forget(uint32_t at, uint32_t words, std::span<const uint32_t> lanes);
-  void check_effort(size_t operations);
+  void check_effort(uint64_t operations);
   std::array<uint32_t, 3> local_id(uint32_t lane) const;
 
   Dispatch& dispatch_;
@@ -110,6 +136,12 @@ class Group {
   std::vector<Root> roots_;  // the program's, with those of parameters as they are called
   std::vector<uint32_t> active_, all_;
   std::vector<uint32_t> moved_;  // scratch of go()
+  struct Birth {
+    const Operation* operation;
+    std::vector<double> operands;
+  };
+  std::vector<Birth> births_;  // in the present work group
+  uint32_t depth_ = 0;         // the number of calls within each other
   uint32_t after_group_ = 0;
   std::vector<uint32_t> after_subgroup_;
 };

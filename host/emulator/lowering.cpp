@@ -6,16 +6,27 @@
 
 #include "host/core/error.hpp"
 #include "host/emulator/block_order.hpp"
+#include "host/emulator/emulator.hpp"
 #include "host/emulator/executes.hpp"
 #include "host/spirv/words.hpp"
 
 namespace eyeray::engine::emulator {
 namespace {
 
-// Words of registers of one invocation at most.
-constexpr uint64_t most_registers = 1 << 24;
+// The limits of a kernel.
+constexpr uint64_t most_registers = 1 << 24;    // words of one invocation
+constexpr uint64_t most_group_words = 1 << 26;  // words of registers of a work group
+constexpr uint64_t most_shared = 1 << 20;       // words of memory of a work group
+constexpr uint64_t most_constants = 1 << 24;    // words
+constexpr uint64_t most_invocations = 4096;     // in a work group
 
 }  // namespace
+
+void check_limit(uint64_t count, uint64_t most, const char* of) {
+  if (count > most)
+    throw Error(ExitCode::bad_input, "the emulator has at most {} {}, and the kernel needs {}", most, of,
+                count);
+}
 
 Program lower(std::span<const uint32_t> spirv) {
   return Lowering(spirv).run();
@@ -47,6 +58,7 @@ Source Lowering::part(const Source& source, uint32_t first, uint32_t words) cons
 
 Source Lowering::constant(std::span<const uint32_t> words) {
   const auto at = uint32_t(program_.constants.size());
+  check_limit(at + words.size(), most_constants, "words of constants");
   program_.constants.insert(program_.constants.end(), words.begin(), words.end());
   return {.at = at, .words = uint32_t(words.size()), .constant = true};
 }
@@ -57,10 +69,7 @@ Source Lowering::pointer_to(uint32_t offset) {
 
 uint32_t Lowering::registers(uint64_t words) {
   const uint32_t at = program_.registers;
-  if (at + words > most_registers)
-    throw Error(ExitCode::bad_input,
-                "the emulator has room for {} numbers of one invocation, and the kernel needs more",
-                most_registers);
+  check_limit(at + words, most_registers, "words of values and variables of an invocation");
   program_.registers += uint32_t(words);
   return at;
 }
@@ -126,8 +135,7 @@ void Lowering::add_constant(const spirv::Instruction& i) {
   switch (spirv::opcode_of(i)) {
     case spv::OpConstant:
     case spv::OpSpecConstant:
-      made.source = constant(std::span(i).subspan(3));
-      whole_constants_[i[2]] = i[3];
+      add_number(i, made);
       break;
     case spv::OpConstantTrue:
     case spv::OpSpecConstantTrue:
@@ -155,6 +163,16 @@ void Lowering::add_constant(const spirv::Instruction& i) {
   values_[i[2]] = made;
 }
 
+void Lowering::add_number(const spirv::Instruction& i, Value& made) {
+  const Type& type = types_.at(i[1]);
+  uint64_t number = i[3] | (i.size() > 4 ? uint64_t{i[4]} << 32 : 0);
+  const std::vector<uint32_t> words{
+      uint32_t(number) & uint32_t((uint64_t{1} << std::min(type.bits, 32u)) - 1), uint32_t(number >> 32)};
+  made.source = constant(std::span(words).first(type.words));
+  if (type.is_signed && type.bits < 64) number = uint64_t(int64_t{int32_t(i[3])});
+  whole_constants_[i[2]] = number;
+}
+
 void Lowering::add_global(const spirv::Instruction& i) {
   const Type& pointer = types_.at(i[1]);
   const Type& target = types_.at(pointer.element);
@@ -177,16 +195,18 @@ void Lowering::add_global(const spirv::Instruction& i) {
     case spv::StorageClassWorkgroup:
       root.space = Space::shared;
       root.at = program_.shared;
+      check_limit(uint64_t{program_.shared} + target.words, most_shared, "words of memory of a work group");
       program_.shared += target.words;
       break;
     case spv::StorageClassStorageBuffer:
     case spv::StorageClassUniform:
     case spv::StorageClassUniformConstant: {
       const auto binding = decorations.find(spv::DecorationBinding);
-      const bool one = target.op == spv::OpTypeStruct || target.op == spv::OpTypeImage;
-      if (binding == decorations.end() || !one) refuse(i);
-      root.space = Space::buffer;
+      const bool is_buffer = target.op == spv::OpTypeStruct;
+      if (binding == decorations.end() || !(is_buffer || is_image(target))) refuse(i);
+      root.space = is_buffer ? Space::buffer : Space::image;
       root.at = binding->second;
+      if (!is_buffer) program_.uses[root.at].unit = Format().bytes();
       break;
     }
     case spv::StorageClassPushConstant:
@@ -197,7 +217,8 @@ void Lowering::add_global(const spirv::Instruction& i) {
   }
   values_[i[2]] = {.type = i[1], .source = pointer_to(0), .root = uint32_t(program_.roots.size())};
   program_.roots.push_back(root);
-  if (i.size() > 4 && root.space == Space::own)
+  if (i.size() > 4 && root.space != Space::own) refuse(i);
+  if (i.size() > 4)
     program_.prelude.push_back({.execute = concatenate,
                                 .to = root.at,
                                 .words = root.size,
@@ -213,12 +234,19 @@ Program Lowering::run() {
     if (kind == decorations.end() || kind->second != spv::BuiltInWorkgroupSize) continue;
     for (uint32_t axis = 0; axis < 3; ++axis) program_.group[axis] = program_.constants[source(id).at + axis];
   }
+  uint64_t invocations = 1;
+  for (const uint32_t along : program_.group) {
+    invocations *= along;
+    check_limit(invocations, most_invocations, "invocations of a work group");
+  }
   for (const spirv::Function& function : module_.functions) {
     function_index_[function.head[0][2]] = uint32_t(function_index_.size());
     allot(function);
   }
   for (const spirv::Function& function : module_.functions)
     program_.functions.push_back(lower_function(function));
+  check_limit(program_.registers * invocations, most_group_words,
+              "words of values and variables of a work group");
   program_.entry = function_index_.at(entry_);
   return std::move(program_);
 }
@@ -233,7 +261,7 @@ void Lowering::allot(const spirv::Function& function) {
     Value made{.type = i[1]};
     if (type.op == spv::OpTypePointer) {
       made.source = {.at = registers(pointer_words), .words = pointer_words};
-    } else if (type.op != spv::OpTypeImage) {
+    } else if (!is_image(type)) {
       made.source = {.at = registers(type.words), .words = type.words};
     }
     if (spirv::opcode_of(i) == spv::OpVariable) {
@@ -267,14 +295,27 @@ Function Lowering::lower_function(const spirv::Function& from) {
 
   std::map<uint32_t, const spirv::Block*> blocks;
   for (const spirv::Block& block : from.blocks) blocks[block.label] = &block;
+  for (const spirv::Block& block : from.blocks)
+    if (const spirv::Instruction& end = block.body.back();
+        spirv::opcode_of(end) == spv::OpSwitch && type_of(end[1]).bits == 64)
+      refuse(end);
   const std::vector<uint32_t> order = structured_order(from);
   std::map<uint32_t, uint32_t> index_of;
   for (const uint32_t label : order) index_of[label] = uint32_t(index_of.size());
   for (const uint32_t label : order) {
     Block& block = function.blocks.emplace_back();
     for (const spirv::Instruction& i : blocks.at(label)->body) lower_instruction(function, block, i);
+    block.effort = 1;
+    for (const Operation& each : block.operations) {
+      uint64_t moved = each.words;
+      for (const Source& operand : each.from) moved += operand.words;
+      block.effort += 1 + moved;
+    }
     end_block(from, index_of, block, *blocks.at(label));
   }
+  uint64_t& start = function.blocks[0].effort;
+  start += function.blocks.size();
+  for (const auto& [at, count] : function.variables) start += count;
   return function;
 }
 
@@ -297,7 +338,8 @@ void Lowering::end_block(const spirv::Function& function, const std::map<uint32_
       refuse(end);
   }
   if (block.end == spv::OpSwitch)
-    for (size_t n = 3; n < end.size(); n += 2) block.cases.push_back(end[n]);
+    for (size_t n = 3; n < end.size(); n += 2)
+      block.cases.push_back(end[n] & uint32_t((uint64_t{1} << type_of(end[1]).bits) - 1));
   for (const uint32_t label : successors(end)) {
     Way& way = block.ways.emplace_back();
     way.block = index_of.at(label);

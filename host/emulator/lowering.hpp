@@ -10,6 +10,9 @@
 
 namespace eyeray::engine::emulator {
 
+// Error (bad_input) for a kernel that needs more of something than the emulator has.
+void check_limit(uint64_t count, uint64_t most, const char* of);
+
 class Lowering {
  public:
   explicit Lowering(std::span<const uint32_t> spirv) : module_(spirv::read(spirv)) {}
@@ -27,6 +30,7 @@ class Lowering {
   void declare(const spirv::Instruction& instruction);
   void decorate(const spirv::Instruction& instruction);
   void add_constant(const spirv::Instruction& instruction);
+  void add_number(const spirv::Instruction& instruction, Value& made);
   void add_global(const spirv::Instruction& instruction);
   void read_group_size();
 
@@ -39,8 +43,11 @@ class Lowering {
   void lower_chain(Block& block, const spirv::Instruction& instruction);
   void lower_composite(Block& block, const spirv::Instruction& instruction);
   bool lower_memory(Block& block, const spirv::Instruction& instruction);
+  bool lower_atomic(Block& block, const spirv::Instruction& instruction);
+  bool lower_image(Block& block, const spirv::Instruction& instruction);
   void lower_call(Block& block, const spirv::Instruction& instruction);
   void lower_arithmetic(Block& block, const spirv::Instruction& instruction);
+  Execute execute_of(const spirv::Instruction& instruction) const;  // null if the emulator has none
 
   Operation operation(
       const spirv::Instruction& instruction) const;  // with result and location, without operands
@@ -56,18 +63,20 @@ class Lowering {
   Source constant(std::span<const uint32_t> words);
   Source pointer_to(uint32_t offset);  // a constant pointer
   uint32_t registers(uint64_t words);
-  void access(Operation& operation, uint32_t pointer);  // takes the pointer's root, offset and layout
+  // Takes the pointer's root, offset and layout, and notes the use of a buffer.
+  void access(Operation& operation, uint32_t pointer, bool writes);
 
   spirv::Module module_;
   Types types_;
   Program program_;
   std::unordered_map<uint32_t, Value> values_;
-  std::map<uint32_t, uint32_t> whole_constants_;                  // by id
+  std::map<uint32_t, uint64_t> whole_constants_;                  // by id
   std::map<uint32_t, std::map<uint32_t, uint32_t>> decorations_;  // by id and decoration
   std::map<uint32_t, std::string> names_;                         // by id
   std::map<uint32_t, uint32_t> files_;                            // index by the string's id
   std::map<uint32_t, uint32_t> function_index_;                   // by id
   std::map<uint32_t, std::vector<uint32_t>> parameter_roots_;     // by the function's id
+  uint64_t cells_ = 0;                                            // the cells of all operations
   uint32_t glsl_ = 0;                                             // id of GLSL.std.450
   uint32_t entry_ = 0;                                            // id
   uint32_t file_ = 0, line_ = 0, column_ = 0;                     // the line of the next instructions

@@ -5,6 +5,11 @@
 #include "host/emulator/lowering.hpp"
 
 namespace eyeray::engine::emulator {
+namespace {
+
+constexpr uint64_t most_cells = 1 << 22;
+
+}  // namespace
 
 Operation Lowering::operation(const spirv::Instruction& i) const {
   Operation made{.location = location(i)};
@@ -69,7 +74,8 @@ void Lowering::lower_instruction(Function& function, Block& block, const spirv::
     case spv::OpFunctionCall:
       return lower_call(block, i);
     default:
-      if (!lower_memory(block, i)) lower_arithmetic(block, i);
+      if (!lower_memory(block, i) && !lower_atomic(block, i) && !lower_image(block, i))
+        lower_arithmetic(block, i);
   }
 }
 
@@ -99,7 +105,7 @@ void Lowering::lower_chain(Block& block, const spirv::Instruction& i) {
     const Type& type = types_.at(id);
     const auto known = whole_constants_.find(index);
     if (type.op == spv::OpTypeStruct) {
-      const uint32_t member = known->second;
+      const auto member = uint32_t(known->second);
       offset += bytes ? type.placements.at(member).offset : types_.words_before(type, member);
       made.placement = type.placements.at(member);
       id = type.members.at(member);
@@ -108,16 +114,17 @@ void Lowering::lower_chain(Block& block, const spirv::Instruction& i) {
     uint32_t stride = types_.at(type.element).words;
     const Placement& in = made.placement;
     if (bytes && type.op == spv::OpTypeMatrix) {
-      stride = in.row_major ? 4 : in.matrix_stride;
+      stride = in.row_major ? type.bits / 8 : in.matrix_stride;
     } else if (bytes && type.op == spv::OpTypeVector) {
-      stride = in.row_major && in.matrix_stride ? in.matrix_stride : 4;
+      stride = in.row_major && in.matrix_stride ? in.matrix_stride : type.bits / 8;
     } else if (bytes) {
       stride = type.stride;
     }
     if (known != whole_constants_.end() && known->second < type.count) {
-      offset += uint64_t{known->second} * stride;
+      offset += known->second * stride;
     } else {
-      chain.steps.push_back({source(index), stride, type.count, uint32_t(offset)});
+      chain.steps.push_back(
+          {source(index), type_of(index).signed_bits(), stride, type.count, uint32_t(offset)});
     }
     id = type.element;
   }
@@ -167,18 +174,17 @@ void Lowering::lower_composite(Block& block, const spirv::Instruction& i) {
     }
     default: {  // OpVectorShuffle
       const Source a = source(i[3]), b = source(i[4]);
+      const uint32_t words = type_of(i[3]).number_words();
       for (const uint32_t n : std::span(i).subspan(5)) {
-        if (n == UINT32_MAX)
-          whole.from.push_back(part(a, 0, 1));  // any value will do
-        else
-          whole.from.push_back(n < a.words ? part(a, n, 1) : part(b, n - a.words, 1));
+        const uint32_t first = n == UINT32_MAX ? 0 : n * words;  // any value will do
+        whole.from.push_back(first < a.words ? part(a, first, words) : part(b, first - a.words, words));
       }
     }
   }
   block.operations.push_back(std::move(whole));
 }
 
-void Lowering::access(Operation& made, uint32_t pointer) {
+void Lowering::access(Operation& made, uint32_t pointer, bool writes) {
   const Value& to = value(pointer);
   if (to.root == no_root)
     throw Error(ExitCode::bad_input,
@@ -186,9 +192,14 @@ void Lowering::access(Operation& made, uint32_t pointer) {
                 describe(made.location, program_.files));
   made.root = to.root;
   made.from.insert(made.from.begin(), to.source);
-  const Space space = program_.roots[to.root].space;
-  if (space == Space::buffer || space == Space::pushed)
-    made.bytes = types_.bytes(types_.at(to.type).element, to.placement);
+  const Root& root = program_.roots[to.root];
+  if (root.space == Space::buffer || root.space == Space::pushed)
+    made.cells = types_.cells(types_.at(to.type).element, to.placement);
+  check_limit(cells_ += made.cells.size(), most_cells, "words of all accesses to buffers");
+  if (root.space != Space::buffer && root.space != Space::image) return;
+  Use& use = program_.uses[root.at];
+  use.writes = use.writes || writes;
+  for (const Cell& cell : made.cells) use.unit = std::min(use.unit, cell.size);
 }
 
 bool Lowering::lower_memory(Block& block, const spirv::Instruction& i) {
@@ -196,22 +207,17 @@ bool Lowering::lower_memory(Block& block, const spirv::Instruction& i) {
   Operation made = operation(i);
   made.execute = memory_operation(op);
   if (!made.execute) return false;
-  const auto writes = [&] {
-    if (program_.roots[made.root].space == Space::buffer)
-      program_.written.insert(program_.roots[made.root].at);
-  };
   switch (op) {
     case spv::OpLoad:
-      if (types_.at(i[1]).op == spv::OpTypeImage) {
+      if (is_image(types_.at(i[1]))) {
         values_.at(i[2]).root = value(i[3]).root;
         return true;
       }
-      access(made, i[3]);
+      access(made, i[3], false);
       break;
     case spv::OpStore:
       made.from = {source(i[2])};
-      access(made, i[1]);
-      writes();
+      access(made, i[1], true);
       break;
     case spv::OpCopyMemory: {
       // A load and a store.
@@ -220,11 +226,10 @@ bool Lowering::lower_memory(Block& block, const spirv::Instruction& i) {
                      .to = registers(words),
                      .words = words,
                      .location = made.location};
-      access(load, i[2]);
+      access(load, i[2], false);
       made.execute = memory_operation(spv::OpStore);
       made.from = {Source{.at = load.to, .words = words}};
-      access(made, i[1]);
-      writes();
+      access(made, i[1], true);
       block.operations.push_back(std::move(load));
       break;
     }
@@ -234,32 +239,73 @@ bool Lowering::lower_memory(Block& block, const spirv::Instruction& i) {
       made.literals = {type.placements.at(i[4]).offset, types_.at(type.members.at(i[4])).stride};
       break;
     }
-    case spv::OpImageRead:
-    case spv::OpImageFetch:
-    case spv::OpImageQuerySize:
-      made.root = value(i[3]).root;
-      if (i.size() > 4) made.from = {source(i[4])};
-      break;
-    case spv::OpImageWrite:
-      made.root = value(i[1]).root;
-      made.from = {source(i[2]), source(i[3])};
-      writes();
-      break;
     case spv::OpControlBarrier:
       made.literals = {source(i[1]).at, source(i[2]).at, source(i[3]).at};
       for (uint32_t& each : made.literals) each = program_.constants.at(each);
       break;
-    case spv::OpMemoryBarrier:
+    default:  // OpMemoryBarrier
       made.literals = {program_.constants.at(source(i[1]).at), program_.constants.at(source(i[2]).at)};
-      break;
-    default: {  // atomics: pointer, scope, semantics, [unequal semantics,] values
-      const bool stores = op == spv::OpAtomicStore;
-      const size_t pointer = stores ? 1 : 3, first = pointer + (op == spv::OpAtomicCompareExchange ? 4 : 3);
-      for (size_t n = first; n < i.size(); ++n) made.from.push_back(source(i[n]));
-      access(made, i[pointer]);
-      writes();
-    }
   }
+  block.operations.push_back(std::move(made));
+  return true;
+}
+
+// Operands: pointer, scope, semantics, [unequal semantics,] values.
+bool Lowering::lower_atomic(Block& block, const spirv::Instruction& i) {
+  const spv::Op op = spirv::opcode_of(i);
+  const bool stores = op == spv::OpAtomicStore;
+  const size_t pointer = stores ? 1 : 3, first = pointer + (op == spv::OpAtomicCompareExchange ? 4 : 3);
+  const auto to = pointer < i.size() ? values_.find(i[pointer]) : values_.end();
+  if (to == values_.end() || types_.at(to->second.type).op != spv::OpTypePointer) return false;
+  const Type& number = types_.at(types_.at(to->second.type).element);
+  Operation made = operation(i);
+  made.execute = atomic_operation(op, number.bits, number.real);
+  if (!made.execute) return false;
+  for (size_t n = first; n < i.size(); ++n) made.from.push_back(source(i[n]));
+  access(made, i[pointer], op != spv::OpAtomicLoad);
+  block.operations.push_back(std::move(made));
+  return true;
+}
+
+bool Lowering::lower_image(Block& block, const spirv::Instruction& i) {
+  const spv::Op op = spirv::opcode_of(i);
+  if (op == spv::OpImage || op == spv::OpSampledImage) {
+    values_.at(i[2]).root = value(i[3]).root;
+    return true;
+  }
+  Operation made = operation(i);
+  made.execute = image_operation(op);
+  if (!made.execute) return false;
+  const bool writes = op == spv::OpImageWrite, points = op == spv::OpImageTexelPointer;
+  made.root = value(i[writes ? 1 : 3]).root;
+  if (made.root == no_root) refuse(i);
+  Use& use = program_.uses[program_.roots[made.root].at];
+  use.writes = use.writes || writes;
+  if (op == spv::OpImageRead || op == spv::OpImageFetch || writes || points) {
+    made.from = {source(i[writes ? 2 : 4])};
+    made.literals = {0, 0};
+    const size_t mask = points ? i.size() : writes ? 4 : 5;
+    if (mask < i.size()) {
+      size_t next = mask + 1;
+      const auto take = [&](uint32_t bit) {
+        if (!(i[mask] & bit)) return 0u;
+        made.from.push_back(source(i[next++]));
+        return uint32_t(made.from.size() - 1);
+      };
+      const uint32_t others = spv::ImageOperandsBiasMask | spv::ImageOperandsGradMask |
+                              spv::ImageOperandsConstOffsetsMask | spv::ImageOperandsSampleMask |
+                              spv::ImageOperandsMinLodMask;
+      if (i[mask] & others) refuse(i);
+      made.literals[0] = take(spv::ImageOperandsLodMask);
+      made.literals[1] = take(spv::ImageOperandsConstOffsetMask | spv::ImageOperandsOffsetMask);
+    }
+    if (writes) made.from.push_back(source(i[3]));
+  }
+  if (points) values_.at(i[2]).root = made.root;
+  const Type* image = &type_of(i[writes ? 1 : 3]);
+  while (image->op == spv::OpTypePointer || image->op == spv::OpTypeSampledImage)
+    image = &types_.at(image->element);
+  if (types_.at(image->element).bits != 32) refuse(i);
   block.operations.push_back(std::move(made));
   return true;
 }
@@ -275,9 +321,30 @@ void Lowering::lower_call(Block& block, const spirv::Instruction& i) {
     call.literals.push_back(value(id).root);
     const uint32_t root = value(id).root;
     // A function may write through its parameter.
-    if (root != no_root && program_.roots[root].space == Space::buffer) refuse(i);
+    if (root != no_root &&
+        (program_.roots[root].space == Space::buffer || program_.roots[root].space == Space::image))
+      refuse(i);
   }
   block.operations.push_back(std::move(call));
+}
+
+Execute Lowering::execute_of(const spirv::Instruction& i) const {
+  const spv::Op op = spirv::opcode_of(i);
+  const bool is_group = op >= spv::OpGroupNonUniformElect && op <= spv::OpGroupNonUniformQuadSwap;
+  const size_t scope = is_group ? 1 : 0;
+  const bool has_operation = op >= spv::OpGroupNonUniformIAdd && op <= spv::OpGroupNonUniformLogicalXor;
+  const size_t first = 3 + scope + (has_operation || op == spv::OpGroupNonUniformBallotBitCount ? 1 : 0);
+  const auto bits_of = [&](uint32_t id) { return values_.contains(id) ? type_of(id).bits : 32; };
+  const uint32_t bits = first < i.size() ? bits_of(i[first]) : 32, to = types_.at(i[1]).bits;
+  if (is_group) return subgroup_operation(op, bits);
+  if (op == spv::OpBitcast) {
+    const Type &from_type = type_of(i[3]), &to_type = types_.at(i[1]);
+    return bit_cast(bits, to, from_type.real && !(to_type.real && bits == to));
+  }
+  if (const Execute found = arithmetic(op, bits)) return found;
+  if (const Execute found = comparison(op, bits)) return found;
+  if (const Execute found = conversion(op, bits, to)) return found;
+  return vector_operation(op, bits);
 }
 
 void Lowering::lower_arithmetic(Block& block, const spirv::Instruction& i) {
@@ -286,27 +353,45 @@ void Lowering::lower_arithmetic(Block& block, const spirv::Instruction& i) {
   size_t first = 3;  // the first operand that is an id
   if (op == spv::OpExtInst) {
     if (i[3] != glsl_) return;  // debug information
-    made.execute = glsl_function(i[4]);
     first = 5;
-  } else if ((made.execute = subgroup_operation(op))) {
-    first = 4;  // the scope comes first
-    if (op >= spv::OpGroupNonUniformIAdd && op <= spv::OpGroupNonUniformLogicalXor) {
-      made.literals = {i[4], i.size() > 6 ? program_.constants.at(source(i[6]).at) : 0, uint32_t(op)};
-      made.from = {source(i[5])};
-      first = i.size();
-    } else if (op == spv::OpGroupNonUniformBallotBitCount) {
-      made.literals = {i[4]};
-      first = 5;
-    }
+    made.execute = glsl_function(i[4], first < i.size() ? type_of(i[first]).bits : 32);
+  } else if (i.size() < 3 || !values_.contains(i[2])) {
+    refuse(i);
   } else {
-    made.execute = arithmetic(op);
-    if (!made.execute) made.execute = vector_operation(op);
-    if (op == spv::OpMatrixTimesMatrix || op == spv::OpTranspose) {
-      const Type& matrix = type_of(i[3]);
-      made.literals = {types_.at(matrix.element).count, matrix.count};
-    }
+    made.execute = execute_of(i);
   }
   if (!made.execute) refuse(i);
+  switch (op) {
+    case spv::OpBitcast: {
+      const Type &from = type_of(i[3]), &to = types_.at(i[1]);
+      made.literals = {from.bits, to.bits, from.real && !(to.real && from.bits == to.bits)};
+      break;
+    }
+    case spv::OpMatrixTimesMatrix:
+    case spv::OpTranspose: {
+      const Type& matrix = type_of(i[3]);
+      made.literals = {types_.at(matrix.element).count, matrix.count};
+      break;
+    }
+    case spv::OpVectorExtractDynamic:
+    case spv::OpVectorInsertDynamic: {
+      const uint32_t index = i[op == spv::OpVectorExtractDynamic ? 4 : 5];
+      made.literals = {type_of(i[3]).number_words(), type_of(index).signed_bits()};
+      break;
+    }
+    case spv::OpGroupNonUniformBallotBitCount:
+      made.literals = {i[4]};
+      first = 5;
+      break;
+    default:
+      if (op >= spv::OpGroupNonUniformIAdd && op <= spv::OpGroupNonUniformLogicalXor) {
+        made.literals = {i[4], i.size() > 6 ? program_.constants.at(source(i[6]).at) : 0, uint32_t(op)};
+        made.from = {source(i[5])};
+        first = i.size();
+      } else if (op >= spv::OpGroupNonUniformElect && op <= spv::OpGroupNonUniformQuadSwap) {
+        first = 4;  // the scope comes first
+      }
+  }
   for (size_t n = first; n < i.size(); ++n) made.from.push_back(source(i[n]));
   block.operations.push_back(std::move(made));
 }

@@ -1,37 +1,32 @@
 #include "host/emulator/memory.hpp"
 
 namespace eyeray::engine::emulator {
-namespace {
 
-enum : uint8_t { none, plain, by_atomic };
-
-}  // namespace
-
-void Accesses::restart(size_t words) {
-  words_.assign(words, {});
+void Accesses::restart(size_t bytes, uint32_t unit) {
+  unit_ = unit;
+  units_.assign(bytes / unit, {});
 }
 
-bool Accesses::read(size_t at, const Moment& now, bool atomic) {
-  Word& word = words_[at];
-  const bool free = word.writer.kind == none || (atomic && word.writer.kind == by_atomic) ||
-                    word.writer.moment.ordered_with(now);
-  const Access access{now, uint8_t(atomic ? by_atomic : plain)};
-  // Keeps two of many readers, so that a later writer finds another one than itself.
-  const bool same = word.reader.kind != none && word.reader.moment.group == now.group &&
-                    word.reader.moment.invocation == now.invocation;
-  if (word.reader.kind != none && !same) word.other_reader = word.reader;
-  word.reader = access;
-  return free;
+bool Accesses::conflicts(const Access& access, const Moment& now, bool atomic) {
+  return access.kind != none && !(atomic && access.kind == by_atomic) && !access.moment.ordered_with(now);
 }
 
-bool Accesses::write(size_t at, const Moment& now, bool atomic) {
-  Word& word = words_[at];
-  const auto conflicts = [&](const Access& access) {
-    return access.kind != none && !(atomic && access.kind == by_atomic) && !access.moment.ordered_with(now);
-  };
-  const bool free = !conflicts(word.writer) && !conflicts(word.reader) && !conflicts(word.other_reader);
-  word.writer = {now, uint8_t(atomic ? by_atomic : plain)};
-  return free;
+std::optional<Moment> Accesses::note(size_t at, const Moment& now, bool writes, bool atomic) {
+  Unit& unit = units_[at];
+  const Access access{now, atomic ? by_atomic : plain};
+  std::optional<Moment> other;
+  if (conflicts(unit.writer, now, atomic)) other = unit.writer.moment;
+  if (writes) {
+    for (const Access& reader : {unit.reader, unit.other_reader})
+      if (!other && conflicts(reader, now, atomic)) other = reader.moment;
+    unit.writer = access;
+    return other;
+  }
+  const bool same = unit.reader.kind != none && unit.reader.moment.group == now.group &&
+                    unit.reader.moment.invocation == now.invocation;
+  if (unit.reader.kind != none && !same) unit.other_reader = unit.reader;
+  unit.reader = access;
+  return other;
 }
 
 }  // namespace eyeray::engine::emulator

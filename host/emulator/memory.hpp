@@ -1,8 +1,9 @@
-// Memory that invocations share, and who touched its words last. Private to this layer.
+// Memory that invocations share, and who touched it last. Private to this layer.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace eyeray::engine::emulator {
@@ -21,26 +22,31 @@ struct Moment {
   }
 };
 
-// The last accesses of each word in the present dispatch.
+// The last accesses of each unit of memory in the present dispatch.
 class Accesses {
  public:
-  // Forgets all, for `words` words.
-  void restart(size_t words);
+  // Forgets all, for memory of so many bytes, and units of `unit` bytes.
+  void restart(size_t bytes, uint32_t unit);
+  uint32_t unit() const { return unit_; }
 
-  // Notes an access. False for a race with an earlier one: unordered, one of the two writes, and one of them
-  // is not atomic.
-  bool read(size_t word, const Moment& now, bool atomic);
-  bool write(size_t word, const Moment& now, bool atomic);
+  // Notes an access of a unit. Returns the earlier one with which it is a race, if any: unordered, one of the
+  // two writes, and one of them is not atomic.
+  std::optional<Moment> note(size_t unit, const Moment& now, bool writes, bool atomic);
 
  private:
+  enum Kind : uint32_t { none, plain, by_atomic };
   struct Access {
     Moment moment;
-    uint8_t kind = 0;  // none, plain, atomic
+    Kind kind = none;
   };
-  struct Word {
+  // Two of many readers suffice: a later writer then finds another one than itself.
+  struct Unit {
     Access writer, reader, other_reader;
   };
-  std::vector<Word> words_;
+  static bool conflicts(const Access& access, const Moment& now, bool atomic);
+
+  uint32_t unit_ = 4;
+  std::vector<Unit> units_;
 };
 
 }  // namespace eyeray::engine::emulator

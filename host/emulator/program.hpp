@@ -6,8 +6,8 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
-#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,7 +28,8 @@ struct Source {
 enum class Space : uint8_t {
   own,     // registers
   shared,  // memory of the work group
-  buffer,  // storage, uniform and texel buffers
+  buffer,  // storage and uniform buffers
+  image,   // images and texel buffers
   pushed,  // push constants
 };
 
@@ -46,9 +47,17 @@ struct Root {
   std::string name{};  // for findings
 };
 
+// A word of a value in memory that has a layout.
+struct Cell {
+  uint32_t byte = 0;
+  uint32_t size = 4;       // bytes: 1, 2 or 4
+  uint32_t real_bits = 0;  // the bits of the float that this word is, or is the high word of; else 0
+};
+
 // An index of an access chain.
 struct Step {
   Source index;
+  uint32_t signed_bits = 0;
   uint32_t stride = 0;
   uint32_t count = 0;   // elements; 0 for a run-time array, which ends with its buffer
   uint32_t before = 0;  // the run-time array's start in the buffer, if no other index is in front of it
@@ -66,7 +75,7 @@ struct Operation {
   std::vector<Source> from{};
   std::vector<uint32_t> literals{};  // the instruction's operands that are no ids
   uint32_t root = 0;                 // the pointer that is read, written or made
-  std::vector<uint32_t> bytes{};     // the bytes of a buffer's value, word by word
+  std::vector<Cell> cells{};         // those of a buffer's value, word by word
   std::vector<Step> steps{};         // the steps of an access chain
   Location location{};
 };
@@ -87,6 +96,7 @@ struct Block {
   spv::Op end = spv::OpReturn;
   Source condition{};             // the condition of a branch, or the returned value
   std::vector<uint32_t> cases{};  // the values of a switch for its ways after the first, the default
+  uint64_t effort = 0;            // words that its operations write or move, of an invocation
   std::vector<Way> ways{};
   Location location{};
 };
@@ -108,6 +118,12 @@ struct BuiltIn {
   uint32_t at = 0;  // register
 };
 
+// A kernel's use of a buffer or an image.
+struct Use {
+  bool writes = false;
+  uint32_t unit = 4;  // bytes of the smallest access to a buffer
+};
+
 struct Program {
   std::array<uint32_t, 3> group{1, 1, 1};  // invocations of a work group, along each axis
   uint32_t registers = 0;                  // words
@@ -115,7 +131,7 @@ struct Program {
   uint32_t shared = 0;                     // words
   std::vector<uint32_t> constants{};
   std::vector<Root> roots{};
-  std::set<uint32_t> written{};  // bindings that the kernel may write
+  std::map<uint32_t, Use> uses{};  // by binding
   std::vector<BuiltIn> built_ins{};
   std::vector<std::pair<uint32_t, uint32_t>> privates{};  // registers and words of private variables
   std::vector<Operation> prelude{};                       // the initial values of global variables

@@ -1,7 +1,7 @@
 #include <limits>
 
+#include "host/emulator/columns.hpp"
 #include "host/emulator/executes.hpp"
-#include "host/emulator/group.hpp"
 
 namespace eyeray::engine::emulator {
 namespace {
@@ -83,13 +83,13 @@ bool bit(const Group& group, const Source& ballot, uint32_t lane, uint32_t at) {
 void inverse_ballot(Group& group, const Operation& o) {
   group.each(
       [&](uint32_t lane) { group.row(o.to)[lane] = bit(group, o.from[0], lane, in_subgroup(group, lane)); });
-  group.spread_unset(o);
+  group.spread_unset(o, 1);
 }
 
 void ballot_bit(Group& group, const Operation& o) {
   const Row at = group.read(o.from[1], 0);
   group.each([&](uint32_t lane) { group.row(o.to)[lane] = bit(group, o.from[0], lane, at[lane]); });
-  group.spread_unset(o);
+  group.spread_unset(o, 1);
 }
 
 void ballot_count(Group& group, const Operation& o) {
@@ -102,7 +102,7 @@ void ballot_count(Group& group, const Operation& o) {
     for (uint32_t at = 0; at < end; ++at) count += bit(group, o.from[0], lane, at);
     group.row(o.to)[lane] = count;
   });
-  group.spread_unset(o);
+  group.spread_unset(o, 1);
 }
 
 template <bool Lowest>
@@ -113,7 +113,7 @@ void ballot_find(Group& group, const Operation& o) {
       if (bit(group, o.from[0], lane, at) && (!Lowest || found == UINT32_MAX)) found = at;
     group.row(o.to)[lane] = found;
   });
-  group.spread_unset(o);
+  group.spread_unset(o, 1);
 }
 
 // The value of another invocation of the subgroup, whose number `from` gives. It is unset if that one is not
@@ -158,93 +158,80 @@ void shuffle(Group& group, const Operation& o) {
 }
 
 template <typename T>
-T combined(spv::Op op, T x, T y) {
+Computed<T> combined(spv::Op op, Computed<T> x, Computed<T> y) {
   switch (op) {
     case spv::OpGroupNonUniformIAdd:
     case spv::OpGroupNonUniformFAdd:
-      return T(x + y);
+      return x + y;
     case spv::OpGroupNonUniformIMul:
     case spv::OpGroupNonUniformFMul:
-      return T(x * y);
+      return x * y;
     case spv::OpGroupNonUniformSMin:
     case spv::OpGroupNonUniformUMin:
     case spv::OpGroupNonUniformFMin:
       return y < x ? y : x;
-    default:  // …Max
-      return x < y ? y : x;
-  }
-}
-
-uint32_t combined_bits(spv::Op op, uint32_t x, uint32_t y) {
-  switch (op) {
-    case spv::OpGroupNonUniformBitwiseAnd:
-    case spv::OpGroupNonUniformLogicalAnd:
-      return x & y;
-    case spv::OpGroupNonUniformBitwiseOr:
-    case spv::OpGroupNonUniformLogicalOr:
-      return x | y;
-    case spv::OpGroupNonUniformBitwiseXor:
-    case spv::OpGroupNonUniformLogicalXor:
-      return x ^ y;
-    case spv::OpGroupNonUniformFAdd:
-    case spv::OpGroupNonUniformFMul:
-    case spv::OpGroupNonUniformFMin:
-    case spv::OpGroupNonUniformFMax:
-      return std::bit_cast<uint32_t>(combined(op, std::bit_cast<float>(x), std::bit_cast<float>(y)));
-    case spv::OpGroupNonUniformSMin:
     case spv::OpGroupNonUniformSMax:
-      return uint32_t(combined(op, int32_t(x), int32_t(y)));
+    case spv::OpGroupNonUniformUMax:
+    case spv::OpGroupNonUniformFMax:
+      return x < y ? y : x;
     default:
-      return combined(op, x, y);
+      break;
   }
+  if constexpr (!is_real<T>) {
+    if (op == spv::OpGroupNonUniformBitwiseAnd || op == spv::OpGroupNonUniformLogicalAnd) return x & y;
+    if (op == spv::OpGroupNonUniformBitwiseOr || op == spv::OpGroupNonUniformLogicalOr) return x | y;
+    return x ^ y;
+  }
+  return x;
 }
 
 // The value that changes nothing.
-uint32_t neutral(spv::Op op) {
-  constexpr float infinity = std::numeric_limits<float>::infinity();
+template <typename T>
+Computed<T> neutral(spv::Op op) {
+  using Limits = std::numeric_limits<std::conditional_t<std::is_same_v<T, Half>, float, T>>;
   switch (op) {
     case spv::OpGroupNonUniformIMul:
+    case spv::OpGroupNonUniformFMul:
     case spv::OpGroupNonUniformLogicalAnd:
       return 1;
-    case spv::OpGroupNonUniformFMul:
-      return std::bit_cast<uint32_t>(1.0f);
     case spv::OpGroupNonUniformSMin:
-      return uint32_t(std::numeric_limits<int32_t>::max());
     case spv::OpGroupNonUniformUMin:
     case spv::OpGroupNonUniformBitwiseAnd:
-      return UINT32_MAX;
-    case spv::OpGroupNonUniformFMin:
-      return std::bit_cast<uint32_t>(infinity);
+      return Limits::max();
     case spv::OpGroupNonUniformSMax:
-      return uint32_t(std::numeric_limits<int32_t>::min());
+    case spv::OpGroupNonUniformUMax:
+      return Limits::lowest();
+    case spv::OpGroupNonUniformFMin:
+      return Computed<T>(Limits::infinity());
     case spv::OpGroupNonUniformFMax:
-      return std::bit_cast<uint32_t>(-infinity);
+      return Computed<T>(-Limits::infinity());
     default:
       return 0;
   }
 }
 
 // o.literals: the group operation, the cluster's size if it is clustered, the opcode.
+template <typename T>
 void combine(Group& group, const Operation& o) {
   const auto op = spv::Op(o.literals[2]);
   const bool clustered = o.literals[0] == spv::GroupOperationClusteredReduce;
   const bool reduces = clustered || o.literals[0] == spv::GroupOperationReduce;
   const bool inclusive = o.literals[0] == spv::GroupOperationInclusiveScan;
+  const uint32_t size = clustered ? std::min(o.literals[1], group.subgroup_size()) : group.subgroup_size();
   group.needs_set(o, o.from[0], "a value was never set, which the subgroup combines");
-  for (uint32_t word = 0; word < o.words; ++word) {
-    const Row value = group.read(o.from[0], word);
-    each_cluster(group, clustered ? o.literals[1] : group.subgroup_size(),
-                 [&](std::span<const uint32_t> lanes) {
-                   uint32_t sum = neutral(op);
-                   std::vector<uint32_t> results;
-                   for (const uint32_t lane : lanes) {
-                     if (!inclusive) results.push_back(sum);
-                     sum = combined_bits(op, sum, value[lane]);
-                     if (inclusive) results.push_back(sum);
-                   }
-                   for (size_t n = 0; n < lanes.size(); ++n)
-                     group.row(o.to + word)[lanes[n]] = reduces ? sum : results[n];
-                 });
+  for (uint32_t component = 0; component < o.words / words_of<T>; ++component) {
+    const Column<T> value = column<T>(group, o.from[0], component);
+    const Target<T> to = target<T>(group, o, component);
+    each_cluster(group, size, [&](std::span<const uint32_t> lanes) {
+      Computed<T> sum = neutral<T>(op);
+      for (const uint32_t lane : lanes) {
+        const Computed<T> before = sum;
+        sum = rounded<T>(combined<T>(op, sum, value[lane]));
+        if (!reduces) to.set(lane, inclusive ? sum : before);
+      }
+      if (reduces)
+        for (const uint32_t lane : lanes) to.set(lane, sum);
+    });
   }
 }
 
@@ -255,8 +242,27 @@ void quad_swap(Group& group, const Operation& o) {
 
 }  // namespace
 
-Execute subgroup_operation(spv::Op op) {
-  if (op >= spv::OpGroupNonUniformIAdd && op <= spv::OpGroupNonUniformLogicalXor) return combine;
+Execute subgroup_operation(spv::Op op, uint32_t bits) {
+  if (op >= spv::OpGroupNonUniformIAdd && op <= spv::OpGroupNonUniformLogicalXor) {
+    switch (op) {
+      case spv::OpGroupNonUniformFAdd:
+      case spv::OpGroupNonUniformFMul:
+      case spv::OpGroupNonUniformFMin:
+      case spv::OpGroupNonUniformFMax:
+        return bits == 16 ? combine<Half> : bits == 64 ? combine<double> : combine<float>;
+      case spv::OpGroupNonUniformSMin:
+      case spv::OpGroupNonUniformSMax:
+        return bits == 8    ? combine<int8_t>
+               : bits == 16 ? combine<int16_t>
+               : bits == 64 ? combine<int64_t>
+                            : combine<int32_t>;
+      default:
+        return bits == 8    ? combine<uint8_t>
+               : bits == 16 ? combine<uint16_t>
+               : bits == 64 ? combine<uint64_t>
+                            : combine<uint32_t>;
+    }
+  }
   using U = uint32_t;
   switch (op) {
     case spv::OpGroupNonUniformElect:

@@ -1,5 +1,7 @@
 #include "host/emulator/types.hpp"
 
+#include <algorithm>
+
 #include "host/core/error.hpp"
 
 namespace eyeray::engine::emulator {
@@ -8,9 +10,11 @@ namespace {
 // Words of one type at most. Sums and products of sizes then fit 32 bits.
 constexpr uint64_t most_words = 1 << 20;
 
-constexpr uint64_t bytes_a_word = 4;
-
 }  // namespace
+
+bool is_image(const Type& type) {
+  return type.op == spv::OpTypeImage || type.op == spv::OpTypeSampledImage || type.op == spv::OpTypeSampler;
+}
 
 void Types::decorate(const spirv::Instruction& i) {
   if (spirv::opcode_of(i) == spv::OpDecorate && i[2] == spv::DecorationArrayStride) strides_[i[1]] = i[3];
@@ -21,22 +25,23 @@ void Types::decorate(const spirv::Instruction& i) {
   if (i[3] == spv::DecorationRowMajor) member.row_major = true;
 }
 
-void Types::add(const spirv::Instruction& i, const std::map<uint32_t, uint32_t>& constants) {
+void Types::add(const spirv::Instruction& i, const std::map<uint32_t, uint64_t>& constants) {
   Type type{.op = spirv::opcode_of(i)};
   uint64_t words = 0;
-  const auto repeat = [&](uint32_t element, uint32_t count) {
+  const auto repeat = [&](uint32_t element, uint64_t count) {
     type.element = element;
-    type.count = count;
-    words = uint64_t{at(element).words} * count;
+    type.count = uint32_t(std::min<uint64_t>(count, UINT32_MAX));
+    type.bits = at(element).bits;
+    type.real = at(element).real;
+    words = at(element).words * count;
   };
   switch (type.op) {
     case spv::OpTypeInt:
     case spv::OpTypeFloat:
-      if (i[2] != 32)
-        throw Error(ExitCode::bad_input, "the emulator has no numbers of {} bits: use numbers of 32 bits",
-                    i[2]);
+      type.bits = i[2];
+      type.real = type.op == spv::OpTypeFloat;
       type.is_signed = type.op == spv::OpTypeInt && i[3] != 0;
-      words = 1;
+      words = type.number_words();
       break;
     case spv::OpTypeBool:
       words = 1;
@@ -50,6 +55,9 @@ void Types::add(const spirv::Instruction& i, const std::map<uint32_t, uint32_t>&
       if (length == constants.end())
         throw Error(ExitCode::bad_input, "the emulator needs a constant as the length of array type %{}",
                     i[1]);
+      if (length->second > most_words)
+        throw Error(ExitCode::bad_input, "the emulator has arrays of at most {} elements, not {}", most_words,
+                    length->second);
       repeat(i[2], length->second);
       break;
     }
@@ -68,12 +76,20 @@ void Types::add(const spirv::Instruction& i, const std::map<uint32_t, uint32_t>&
       type.element = i[3];
       break;
     case spv::OpTypeImage:
-      if (i[3] != spv::DimBuffer)
-        throw Error(ExitCode::bad_input, "the emulator has no images: use storage buffers or texel buffers");
+      type.dim = spv::Dim(i[3]);
+      type.arrayed = i[5] != 0;
+      type.element = i[2];
+      if (i[6] != 0 || (type.dim > spv::Dim3D && type.dim != spv::DimBuffer))
+        throw Error(ExitCode::bad_input,
+                    "the emulator has images of one, two and three dimensions, arrays of them and texel "
+                    "buffers: no cubes, and no images of several samples");
+      break;
+    case spv::OpTypeSampledImage:
       type.element = i[2];
       break;
     case spv::OpTypeVoid:
     case spv::OpTypeFunction:
+    case spv::OpTypeSampler:
       break;
     default:
       throw Error(ExitCode::bad_input, "the emulator has no type of opcode {}", uint32_t(type.op));
@@ -98,37 +114,45 @@ uint32_t Types::words_before(const Type& type, uint32_t member) const {
   return words;
 }
 
-std::vector<uint32_t> Types::bytes(uint32_t id, const Placement& placement) const {
+std::vector<Cell> Types::cells(uint32_t id, const Placement& placement) const {
   const Type& type = at(id);
-  std::vector<uint32_t> bytes;
-  const auto add = [&](const std::vector<uint32_t>& part, uint64_t start) {
-    for (const uint32_t each : part) bytes.push_back(uint32_t(start + each));
+  std::vector<Cell> cells;
+  const auto add = [&](const std::vector<Cell>& part, uint64_t start) {
+    for (Cell each : part) {
+      each.byte += uint32_t(start);
+      cells.push_back(each);
+    }
   };
+  const uint32_t size = type.bits / 8;
   switch (type.op) {
     case spv::OpTypeVector: {
       // A row-major matrix has its column's numbers a stride apart.
-      const uint64_t step =
-          placement.row_major && placement.matrix_stride ? placement.matrix_stride : bytes_a_word;
-      for (uint32_t n = 0; n < type.count; ++n) add({0}, n * step);
+      const uint64_t step = placement.row_major && placement.matrix_stride ? placement.matrix_stride : size;
+      for (uint32_t n = 0; n < type.count; ++n) add(this->cells(type.element), n * step);
       break;
     }
     case spv::OpTypeMatrix:
       for (uint32_t column = 0; column < type.count; ++column)
-        add(this->bytes(type.element, placement),
-            column * (placement.row_major ? bytes_a_word : placement.matrix_stride));
+        add(this->cells(type.element, placement),
+            uint64_t{column} * (placement.row_major ? size : placement.matrix_stride));
       break;
     case spv::OpTypeArray:
       for (uint32_t n = 0; n < type.count; ++n)
-        add(this->bytes(type.element, placement), uint64_t{n} * type.stride);
+        add(this->cells(type.element, placement), uint64_t{n} * type.stride);
       break;
     case spv::OpTypeStruct:
       for (size_t n = 0; n < type.members.size(); ++n)
-        add(this->bytes(type.members[n], type.placements[n]), type.placements[n].offset);
+        add(this->cells(type.members[n], type.placements[n]), type.placements[n].offset);
       break;
-    default:
-      bytes.push_back(0);
+    default: {
+      const uint32_t real_bits = type.real ? type.bits : 0;
+      if (size == 8)
+        cells = {{.byte = 0, .size = 4}, {.byte = 4, .size = 4, .real_bits = real_bits}};
+      else
+        cells = {{.byte = 0, .size = size, .real_bits = real_bits}};
+    }
   }
-  return bytes;
+  return cells;
 }
 
 }  // namespace eyeray::engine::emulator

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "host/emulator/program.hpp"
 #include "host/spirv/module.hpp"
 
 namespace eyeray::engine::emulator {
@@ -17,34 +18,45 @@ struct Placement {
   bool row_major = false;
 };
 
-// Numbers are words of 32 bits; a bool is one, too. A value, and a variable without a layout, is the words of
-// its parts, one after the other.
+// A number is a word, or two if it has 64 bits; a bool is a word, too. A value, and a variable without a
+// layout, is the words of its parts, one after the other.
 struct Type {
   spv::Op op = spv::OpTypeVoid;
   uint32_t words = 0;    // 0 for a pointer, an image, and a type with a run-time array
-  uint32_t element = 0;  // id; of a vector, matrix, array or pointer
+  uint32_t bits = 32;    // a number's, and those of a vector's or matrix's numbers
+  bool real = false;     // whether these are floats
+  uint32_t element = 0;  // id; of a vector, matrix, array or pointer; the numbers of an image
   uint32_t count = 0;    // elements; 0: a run-time array
   uint32_t stride = 0;   // bytes between the elements of an array with a layout
   bool is_signed = false;
   spv::StorageClass storage = spv::StorageClassFunction;  // the storage class of a pointer
   std::vector<uint32_t> members{};                        // ids
   std::vector<Placement> placements{};                    // the placements of members with a layout
+  bool arrayed = false;                                   // an image's
+  spv::Dim dim = spv::DimMax;                             // an image's
+
+  uint32_t number_words() const { return bits == 64 ? 2 : 1; }
+  // The bits of a signed whole number, else 0.
+  uint32_t signed_bits() const { return is_signed ? bits : 0; }
 };
+
+// An image, texel buffer or sampler: a value without words.
+bool is_image(const Type& type);
 
 class Types {
  public:
   // Error (bad_input) for types that the emulator does not have. `constant`: the value of a whole-number
   // constant.
-  void add(const spirv::Instruction& instruction, const std::map<uint32_t, uint32_t>& constants);
+  void add(const spirv::Instruction& instruction, const std::map<uint32_t, uint64_t>& constants);
   // Notes a decoration, which precedes the type.
   void decorate(const spirv::Instruction& instruction);
 
   const Type& at(uint32_t id) const;
   bool is_type(uint32_t id) const { return types_.contains(id); }
 
-  // The byte of each word of a value in memory with a layout. `placement`: that of the struct's member whose
+  // The cell of each word of a value in memory with a layout. `placement`: that of the struct's member whose
   // type this is.
-  std::vector<uint32_t> bytes(uint32_t type, const Placement& placement = {}) const;
+  std::vector<Cell> cells(uint32_t type, const Placement& placement = {}) const;
   // Words before a struct's member.
   uint32_t words_before(const Type& type, uint32_t member) const;
 

@@ -28,8 +28,9 @@ TEST_CASE("an access out of bounds is found, reads 0 and writes nothing") {
   CHECK(written.findings[0].detail == "index 64 of 64 in 'Data'");
   check_found("out of bounds: index 4 of 4 in 'list', in invocation 4, 0, 0",
               run("uint list[4] = uint[4](1u, 2u, 3u, 4u); data[i] = list[i];", zeros));
-  check_found("index -1 of 4 in 'list', in invocation 0, 0, 0",
-              run("uint list[4] = uint[4](1u, 2u, 3u, 4u); data[i] = i > 4u ? 0u : list[int(i) - 1];", zeros));
+  check_found(
+      "index -1 of 4 in 'list', in invocation 0, 0, 0",
+      run("uint list[4] = uint[4](1u, 2u, 3u, 4u); data[i] = i > 4u ? 0u : list[int(i) - 1];", zeros));
   check_found("index 64 of 64 in 'list', in invocation 63, 0, 0",
               run("list[i + 1u] = i; barrier(); data[i] = list[63u - i];", zeros, with_memory));
   CHECK(run("data[i] = data.length();", zeros).data[0] == 64);
@@ -66,6 +67,64 @@ TEST_CASE("a race is found, in shared memory and in buffers") {
       "list[i] = i; subgroupMemoryBarrierShared(); subgroupBarrier(); data[i] = list[i ^ ";
   CHECK(run(exchange + "1u];", zeros, with_memory).found() == "");
   check_found("race", run(exchange + "8u];", zeros, with_memory));
+}
+
+TEST_CASE("a NaN is found where it was born, if it reaches a buffer") {
+  const std::string infinity = "float inf = uintBitsToFloat(0x7f800000u); ";
+  const auto nan = [&](const std::string& body) {
+    return run(infinity + "float x = float(i); " + body, zeros);
+  };
+  const Ran born = nan("x = (x - x) / x; x = x * 2.0 + 1.0; data[i] = floatBitsToUint(x);");
+  CHECK(born.found() == "");  // bits are no number
+  const How reals{
+      .declarations = "layout(binding = 1) buffer Reals { float reals[]; }; shared float list[64];",
+      .more = {{1, zeros}}};
+  const auto stored = [&](const std::string& body) {
+    return run(infinity + "float x = float(i); " + body + "\nreals[i] = x;", zeros, reals);
+  };
+  const Ran zero = stored("x = (x - x) / x; list[i] = abs(x * 2.0 + 1.0); x = list[i];");
+  check_found("(OpFDiv", zero);
+  check_found(
+      "not a number: 0 and 0 give NaN, which reaches 'Reals' at kernel.comp.glsl:6 (OpStore), in invocation "
+      "0",
+      zero);
+  CHECK(zero.findings.size() == 1);
+  check_found("inf and inf give NaN", stored("x = inf - inf; x = -x;"));
+  check_found("-3 give NaN", stored("x = sqrt(x - 3.0);"));
+  check_found("NaN, which reaches", stored("x = normalize(vec3(0) * x).x;"));
+  check_found("NaN, which reaches", stored("x = dot(vec2(x, inf), vec2(1, 0));"));
+  // One that is not chosen does no harm, and one that the host gave is not the kernel's. Infinities are
+  // numbers.
+  CHECK(stored("x = max(0.0 / x, 1.0);").found() == "");
+  CHECK(stored("x = i == 0u ? 1.0 : 1.0 / x * 0.0;").found() == "");
+  CHECK(stored("x = uintBitsToFloat(0x7fc12345u) + x;").found() == "");
+  CHECK(stored("x = 1.0 / x;").found() == "");
+}
+
+TEST_CASE("a NaN has the bits of the processor, whether it is watched or not") {
+  const std::string body =
+      "float x = float(i); x = (x - x) / x; reals[i] = i > 0u ? 1.0 : x; data[i] = floatBitsToUint(x);";
+  std::vector<uint32_t> bits(64);
+  const Ran ran =
+      run(body + " list[0] = reals[0]; data[1] = floatBitsToUint(list[0]);", zeros,
+          {.declarations = "layout(binding = 1) buffer Reals { float reals[]; }; shared float list[64];",
+           .more = {{1, zeros}}});
+  CHECK(ran.data[0] == 0xffc00000u);
+  CHECK(ran.data[1] == 0xffc00000u);
+}
+
+TEST_CASE("two orders of work groups and invocations show results that depend on the order") {
+  const auto differ = [](const std::string& body) {
+    How how{.local_size = 4, .groups = 2, .declarations = "shared uint list[4];"};
+    const Ran first = run(body, std::vector<uint32_t>(16), how);
+    how.order = emulator::Order::descending;
+    return first.data != run(body, std::vector<uint32_t>(16), how).data;
+  };
+  CHECK(differ("data[1u + atomicAdd(data[0], 1u)] = i;"));
+  CHECK(differ("data[0] = i;"));
+  CHECK(differ("list[0] = i; barrier(); data[i] = list[0];"));
+  CHECK_FALSE(differ("data[i] = i * 3u;"));
+  CHECK_FALSE(differ("atomicAdd(data[0], i);"));
 }
 
 TEST_CASE("a barrier that not all invocations come to is found") {

@@ -39,6 +39,8 @@ struct How {
   uint32_t subgroup_size = 8;
   std::string declarations{};
   std::map<uint32_t, std::vector<uint32_t>> more{};  // further buffers, by binding
+  std::map<uint32_t, emulator::Image> images{};
+  emulator::Order order = emulator::Order::ascending;
 };
 
 inline Ran run(const std::string& body, std::vector<uint32_t> data, const How& how = {}) {
@@ -53,7 +55,9 @@ inline Ran run(const std::string& body, std::vector<uint32_t> data, const How& h
   emulator::Findings findings;
   std::map<uint32_t, std::vector<uint32_t>> more = how.more;
   emulator::Work work{.buffers = {{0, std::as_writable_bytes(std::span(data))}},
+                      .images = how.images,
                       .subgroup_size = how.subgroup_size,
+                      .order = how.order,
                       .findings = &findings};
   for (auto& [binding, words] : more) work.buffers[binding] = std::as_writable_bytes(std::span(words));
   kernel.run(work, {how.groups, 1, 1});
