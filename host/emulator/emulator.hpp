@@ -49,7 +49,8 @@ struct Work {
   std::span<const std::byte> push_constants{};
   uint32_t subgroup_size = 8;  // a power of two, at most 64
   Order order = Order::ascending;
-  // Called now and then with the number of operations so far, of all invocations together. It may throw.
+  // Called now and then with the number of operations so far, of all invocations together. It may throw. The
+  // message of an Error (timed_out) then gets the line that the kernel was at.
   std::function<void(uint64_t operations)> watch{};
   Findings* findings = nullptr;
 };

@@ -64,6 +64,68 @@ T determinant(const T* m, uint32_t size) {
   return sum;
 }
 
+// The adjugate divided by the determinant, of matrices in columns.
+template <typename T>
+void invert(const T* m, uint32_t size, T* to) {
+  const T whole = determinant(m, size);
+  for (uint32_t column = 0; column < size; ++column)
+    for (uint32_t row = 0; row < size; ++row) {
+      T minor[9] = {};
+      uint32_t at = 0;
+      for (uint32_t c = 0; c < size; ++c)
+        for (uint32_t r = 0; r < size; ++r)
+          if (c != row && r != column) minor[at++] = m[c * size + r];
+      to[column * size + row] = T((column + row) % 2 ? -1 : 1) * determinant(minor, size - 1) / whole;
+    }
+}
+
+// The fractional part, then the whole part, of each component.
+template <typename T>
+void split_whole(Group& group, const Operation& o) {
+  const uint32_t components = o.from[0].words / words_of<T>;
+  for (uint32_t component = 0; component < components; ++component) {
+    const Column<T> from = column<T>(group, o.from[0], component);
+    const Target<T> part = target<T>(group, o, component),
+                    whole = target<T>(group, o, components + component);
+    group.each([&](uint32_t lane) {
+      const Computed<T> x = from[lane];
+      whole.set(lane, std::trunc(x));
+      part.set(lane, std::isinf(x) ? std::copysign(Computed<T>(0), x) : std::copysign(x - std::trunc(x), x));
+    });
+  }
+  group.spread_unset(o, 1);
+}
+
+// The mantissa of each component, from ½ to 1, then the exponents, whole numbers of 32 bits.
+template <typename T>
+void split_exponent(Group& group, const Operation& o) {
+  const uint32_t components = o.from[0].words / words_of<T>;
+  for (uint32_t component = 0; component < components; ++component) {
+    const Column<T> from = column<T>(group, o.from[0], component);
+    const Target<T> mantissa = target<T>(group, o, component);
+    uint32_t* const exponents = group.row(o.to + o.from[0].words + component);
+    group.each([&](uint32_t lane) {
+      int exponent = 0;
+      mantissa.set(lane, std::frexp(from[lane], &exponent));
+      exponents[lane] = uint32_t(std::isfinite(from[lane]) ? exponent : 0);
+    });
+  }
+  group.spread_unset(o, 1);
+}
+
+// Floats times powers of two, whose exponents have 32 bits.
+template <typename T>
+void join_exponent(Group& group, const Operation& o) {
+  const uint32_t components = o.words / words_of<T>;
+  for (uint32_t component = 0; component < components; ++component) {
+    const Column<T> from = column<T>(group, o.from[0], component);
+    const Row exponents = group.read(o.from[1], component);
+    const Target<T> to = target<T>(group, o, component);
+    group.each([&](uint32_t lane) { to.set(lane, std::ldexp(from[lane], int32_t(exponents[lane]))); });
+  }
+  group.spread_unset(o, components);
+}
+
 }  // namespace
 
 Execute geometric_function(uint32_t function, uint32_t bits) {
@@ -107,6 +169,19 @@ Execute geometric_function(uint32_t function, uint32_t bits) {
       return vectors<([](auto& v, auto* to) {
         to[0] = determinant(v.of[0], v.size == 4 ? 2 : v.size == 9 ? 3 : 4);
       })>(bits);
+    case GLSLstd450MatrixInverse:
+      return vectors<([](auto& v, auto* to) { invert(v.of[0],
+                                                     v.size == 4   ? 2
+                                                     : v.size == 9 ? 3
+                                                                   : 4,
+                                                     to); })>(
+          bits);
+    case GLSLstd450ModfStruct:
+      return bits == 16 ? split_whole<Half> : bits == 64 ? split_whole<double> : split_whole<float>;
+    case GLSLstd450FrexpStruct:
+      return bits == 16 ? split_exponent<Half> : bits == 64 ? split_exponent<double> : split_exponent<float>;
+    case GLSLstd450Ldexp:
+      return bits == 16 ? join_exponent<Half> : bits == 64 ? join_exponent<double> : join_exponent<float>;
     default:
       return nullptr;
   }

@@ -178,7 +178,8 @@ void Group::set_built_in(const BuiltIn& built_in, const std::array<uint32_t, 3>&
 }
 
 void Group::start(const std::array<uint32_t, 3>& id) {
-  check_effort(may_be_unset_.size() + shared_.size());
+  check_effort(may_be_unset_.size() + shared_.size(),
+               dispatch_.program.functions[dispatch_.program.entry].blocks[0].location);
   id_ = id;
   number_ = (id[2] * dispatch_.groups[1] + id[1]) * dispatch_.groups[0] + id[0];
   after_group_ = ++dispatch_.barriers;
@@ -199,11 +200,18 @@ void Group::run(const std::array<uint32_t, 3>& id) {
   run_function(dispatch_.program.functions[dispatch_.program.entry], all_);
 }
 
-void Group::check_effort(uint64_t operations) {
+void Group::check_effort(uint64_t operations, const Location& location) {
   const uint64_t before = dispatch_.operations;
   dispatch_.operations += operations;
-  if (dispatch_.work.watch && before / watched_operations != dispatch_.operations / watched_operations)
+  if (!dispatch_.work.watch || before / watched_operations == dispatch_.operations / watched_operations)
+    return;
+  try {
     dispatch_.work.watch(dispatch_.operations);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::timed_out) throw;
+    throw Error(ExitCode::timed_out, "{}; kernel '{}' was at {}", error.what(), dispatch_.name,
+                describe(location, dispatch_.program.files));
+  }
 }
 
 void Group::run_function(const Function& function, std::vector<uint32_t> lanes) {
@@ -292,7 +300,7 @@ void Group::go(const Way& way, std::span<const uint32_t> lanes) {
 }
 
 void Group::run_block(const Block& block) {
-  check_effort(block.effort * active_.size());
+  check_effort(block.effort * active_.size(), block.location);
   for (const Operation& each : block.operations) {
     if (each.execute)
       each.execute(*this, each);

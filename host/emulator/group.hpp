@@ -121,7 +121,7 @@ class Group {
   void choose(const Block& block, std::vector<std::vector<uint32_t>>& ways);
   void go(const Way& way, std::span<const uint32_t> lanes);
   void forget(uint32_t at, uint32_t words, std::span<const uint32_t> lanes);
-  void check_effort(uint64_t operations);
+  void check_effort(uint64_t operations, const Location& location);
   std::array<uint32_t, 3> local_id(uint32_t lane) const;
 
   Dispatch& dispatch_;

@@ -46,6 +46,7 @@ class Lowering {
   bool lower_atomic(Block& block, const spirv::Instruction& instruction);
   bool lower_image(Block& block, const spirv::Instruction& instruction);
   void lower_call(Block& block, const spirv::Instruction& instruction);
+  void lower_split(Block& block, const spirv::Instruction& instruction);
   void lower_arithmetic(Block& block, const spirv::Instruction& instruction);
   Execute execute_of(const spirv::Instruction& instruction) const;  // null if the emulator has none
 

@@ -1,15 +1,13 @@
 #include <algorithm>
+#include <bit>
+
+#include <spirv/unified1/GLSL.std.450.h>
 
 #include "host/core/error.hpp"
 #include "host/emulator/executes.hpp"
 #include "host/emulator/lowering.hpp"
 
 namespace eyeray::engine::emulator {
-namespace {
-
-constexpr uint64_t most_cells = 1 << 22;
-
-}  // namespace
 
 Operation Lowering::operation(const spirv::Instruction& i) const {
   Operation made{.location = location(i)};
@@ -184,132 +182,6 @@ void Lowering::lower_composite(Block& block, const spirv::Instruction& i) {
   block.operations.push_back(std::move(whole));
 }
 
-void Lowering::access(Operation& made, uint32_t pointer, bool writes) {
-  const Value& to = value(pointer);
-  if (to.root == no_root)
-    throw Error(ExitCode::bad_input,
-                "the emulator needs to know the variable of a pointer, and {} has a pointer that was chosen",
-                describe(made.location, program_.files));
-  made.root = to.root;
-  made.from.insert(made.from.begin(), to.source);
-  const Root& root = program_.roots[to.root];
-  if (root.space == Space::buffer || root.space == Space::pushed)
-    made.cells = types_.cells(types_.at(to.type).element, to.placement);
-  check_limit(cells_ += made.cells.size(), most_cells, "words of all accesses to buffers");
-  if (root.space != Space::buffer && root.space != Space::image) return;
-  Use& use = program_.uses[root.at];
-  use.writes = use.writes || writes;
-  for (const Cell& cell : made.cells) use.unit = std::min(use.unit, cell.size);
-}
-
-bool Lowering::lower_memory(Block& block, const spirv::Instruction& i) {
-  const spv::Op op = spirv::opcode_of(i);
-  Operation made = operation(i);
-  made.execute = memory_operation(op);
-  if (!made.execute) return false;
-  switch (op) {
-    case spv::OpLoad:
-      if (is_image(types_.at(i[1]))) {
-        values_.at(i[2]).root = value(i[3]).root;
-        return true;
-      }
-      access(made, i[3], false);
-      break;
-    case spv::OpStore:
-      made.from = {source(i[2])};
-      access(made, i[1], true);
-      break;
-    case spv::OpCopyMemory: {
-      // A load and a store.
-      const uint32_t words = types_.at(types_.at(value(i[1]).type).element).words;
-      Operation load{.execute = memory_operation(spv::OpLoad),
-                     .to = registers(words),
-                     .words = words,
-                     .location = made.location};
-      access(load, i[2], false);
-      made.execute = memory_operation(spv::OpStore);
-      made.from = {Source{.at = load.to, .words = words}};
-      access(made, i[1], true);
-      block.operations.push_back(std::move(load));
-      break;
-    }
-    case spv::OpArrayLength: {
-      const Type& type = types_.at(types_.at(value(i[3]).type).element);
-      made.root = value(i[3]).root;
-      made.literals = {type.placements.at(i[4]).offset, types_.at(type.members.at(i[4])).stride};
-      break;
-    }
-    case spv::OpControlBarrier:
-      made.literals = {source(i[1]).at, source(i[2]).at, source(i[3]).at};
-      for (uint32_t& each : made.literals) each = program_.constants.at(each);
-      break;
-    default:  // OpMemoryBarrier
-      made.literals = {program_.constants.at(source(i[1]).at), program_.constants.at(source(i[2]).at)};
-  }
-  block.operations.push_back(std::move(made));
-  return true;
-}
-
-// Operands: pointer, scope, semantics, [unequal semantics,] values.
-bool Lowering::lower_atomic(Block& block, const spirv::Instruction& i) {
-  const spv::Op op = spirv::opcode_of(i);
-  const bool stores = op == spv::OpAtomicStore;
-  const size_t pointer = stores ? 1 : 3, first = pointer + (op == spv::OpAtomicCompareExchange ? 4 : 3);
-  const auto to = pointer < i.size() ? values_.find(i[pointer]) : values_.end();
-  if (to == values_.end() || types_.at(to->second.type).op != spv::OpTypePointer) return false;
-  const Type& number = types_.at(types_.at(to->second.type).element);
-  Operation made = operation(i);
-  made.execute = atomic_operation(op, number.bits, number.real);
-  if (!made.execute) return false;
-  for (size_t n = first; n < i.size(); ++n) made.from.push_back(source(i[n]));
-  access(made, i[pointer], op != spv::OpAtomicLoad);
-  block.operations.push_back(std::move(made));
-  return true;
-}
-
-bool Lowering::lower_image(Block& block, const spirv::Instruction& i) {
-  const spv::Op op = spirv::opcode_of(i);
-  if (op == spv::OpImage || op == spv::OpSampledImage) {
-    values_.at(i[2]).root = value(i[3]).root;
-    return true;
-  }
-  Operation made = operation(i);
-  made.execute = image_operation(op);
-  if (!made.execute) return false;
-  const bool writes = op == spv::OpImageWrite, points = op == spv::OpImageTexelPointer;
-  made.root = value(i[writes ? 1 : 3]).root;
-  if (made.root == no_root) refuse(i);
-  Use& use = program_.uses[program_.roots[made.root].at];
-  use.writes = use.writes || writes;
-  if (op == spv::OpImageRead || op == spv::OpImageFetch || writes || points) {
-    made.from = {source(i[writes ? 2 : 4])};
-    made.literals = {0, 0};
-    const size_t mask = points ? i.size() : writes ? 4 : 5;
-    if (mask < i.size()) {
-      size_t next = mask + 1;
-      const auto take = [&](uint32_t bit) {
-        if (!(i[mask] & bit)) return 0u;
-        made.from.push_back(source(i[next++]));
-        return uint32_t(made.from.size() - 1);
-      };
-      const uint32_t others = spv::ImageOperandsBiasMask | spv::ImageOperandsGradMask |
-                              spv::ImageOperandsConstOffsetsMask | spv::ImageOperandsSampleMask |
-                              spv::ImageOperandsMinLodMask;
-      if (i[mask] & others) refuse(i);
-      made.literals[0] = take(spv::ImageOperandsLodMask);
-      made.literals[1] = take(spv::ImageOperandsConstOffsetMask | spv::ImageOperandsOffsetMask);
-    }
-    if (writes) made.from.push_back(source(i[3]));
-  }
-  if (points) values_.at(i[2]).root = made.root;
-  const Type* image = &type_of(i[writes ? 1 : 3]);
-  while (image->op == spv::OpTypePointer || image->op == spv::OpTypeSampledImage)
-    image = &types_.at(image->element);
-  if (types_.at(image->element).bits != 32) refuse(i);
-  block.operations.push_back(std::move(made));
-  return true;
-}
-
 void Lowering::lower_call(Block& block, const spirv::Instruction& i) {
   Operation call = operation(i);
   const auto index = function_index_.find(i[3]);
@@ -347,12 +219,30 @@ Execute Lowering::execute_of(const spirv::Instruction& i) const {
   return vector_operation(op, bits);
 }
 
+// A function that returns one result, and stores another through a pointer.
+void Lowering::lower_split(Block& block, const spirv::Instruction& i) {
+  const Type& stored = types_.at(type_of(i[6]).element);
+  const uint32_t words = types_.at(i[1]).words + stored.words;
+  Operation split{.to = registers(words), .words = words, .from = {source(i[5])}, .location = location(i)};
+  split.execute = glsl_function(i[4] == GLSLstd450Modf ? GLSLstd450ModfStruct : GLSLstd450FrexpStruct,
+                                type_of(i[5]).bits);
+  const Source both{.at = split.to, .words = words};
+  values_.at(i[2]).source = part(both, 0, words - stored.words);
+  Operation store{.execute = memory_operation(spv::OpStore),
+                  .from = {part(both, words - stored.words, stored.words)},
+                  .location = split.location};
+  access(store, i[6], true);
+  block.operations.push_back(std::move(split));
+  block.operations.push_back(std::move(store));
+}
+
 void Lowering::lower_arithmetic(Block& block, const spirv::Instruction& i) {
   const spv::Op op = spirv::opcode_of(i);
   Operation made = operation(i);
   size_t first = 3;  // the first operand that is an id
   if (op == spv::OpExtInst) {
     if (i[3] != glsl_) return;  // debug information
+    if (i[4] == GLSLstd450Modf || i[4] == GLSLstd450Frexp) return lower_split(block, i);
     first = 5;
     made.execute = glsl_function(i[4], first < i.size() ? type_of(i[first]).bits : 32);
   } else if (i.size() < 3 || !values_.contains(i[2])) {
@@ -385,7 +275,10 @@ void Lowering::lower_arithmetic(Block& block, const spirv::Instruction& i) {
       break;
     default:
       if (op >= spv::OpGroupNonUniformIAdd && op <= spv::OpGroupNonUniformLogicalXor) {
-        made.literals = {i[4], i.size() > 6 ? program_.constants.at(source(i[6]).at) : 0, uint32_t(op)};
+        const uint32_t size =
+            i.size() > 6 ? program_.constants.at(source(i[6]).at) : 1;  // invocations in a cluster
+        if (!std::has_single_bit(size)) refuse(i);
+        made.literals = {i[4], size, uint32_t(op)};
         made.from = {source(i[5])};
         first = i.size();
       } else if (op >= spv::OpGroupNonUniformElect && op <= spv::OpGroupNonUniformQuadSwap) {

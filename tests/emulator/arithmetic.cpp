@@ -69,6 +69,26 @@ TEST_CASE("the emulator computes what C++ computes") {
   }
 }
 
+TEST_CASE("functions with two results, and inverse matrices") {
+  const Ran ran =
+      run("float x = (float(i) - 9.3) * 7.1, whole; int e; float part = modf(x, whole), m = frexp(x, e); "
+          "data[i] = floatBitsToUint(part * 1000.0 + whole + m); data[64u + i] = floatBitsToUint(ldexp(m, e "
+          "+ 3)); "
+          "mat3 a = mat3(2, 1, 0, float(i) + 20.0, 3, 1, 5, 0, 1); mat3 b = inverse(a) * a - mat3(1); "
+          "data[128u + i] = floatBitsToUint(max(max(abs(b[0][0]), abs(b[1][0])), max(abs(b[2][1]), "
+          "abs(b[0][2]))));",
+          std::vector<uint32_t>(192));
+  CHECK(ran.found() == "");
+  for (size_t i = 0; i < 64; ++i) {
+    const float x = (float(i) - 9.3f) * 7.1f;
+    int exponent = 0;
+    const float mantissa = std::frexp(x, &exponent);
+    CHECK(ran.real(i) == (x - std::trunc(x)) * 1000.0f + std::trunc(x) + mantissa);
+    CHECK(ran.real(64 + i) == x * 8);
+    CHECK(ran.real(128 + i) < 1e-3f);
+  }
+}
+
 TEST_CASE("subgroups combine and exchange the values of their active invocations") {
   for (const uint32_t size : {1u, 4u, 8u, 32u, 64u}) {
     CAPTURE(size);
