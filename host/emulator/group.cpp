@@ -170,6 +170,22 @@ void Group::set_built_in(const BuiltIn& built_in, const std::array<uint32_t, 3>&
       case spv::BuiltInSubgroupLocalInvocationId:
         set(0, lane, lane % size);
         break;
+      case spv::BuiltInSubgroupEqMask:
+      case spv::BuiltInSubgroupGeMask:
+      case spv::BuiltInSubgroupGtMask:
+      case spv::BuiltInSubgroupLeMask:
+      case spv::BuiltInSubgroupLtMask: {
+        const uint64_t all = size == 64 ? UINT64_MAX : (uint64_t{1} << size) - 1;
+        const uint64_t self = uint64_t{1} << lane % size, below = self - 1;
+        const uint64_t mask = built_in.kind == spv::BuiltInSubgroupEqMask   ? self
+                              : built_in.kind == spv::BuiltInSubgroupGeMask ? all & ~below
+                              : built_in.kind == spv::BuiltInSubgroupGtMask ? all & ~below & ~self
+                              : built_in.kind == spv::BuiltInSubgroupLeMask ? below | self
+                                                                            : below;
+        for (uint32_t word = 0; word < 4; ++word)
+          set(word, lane, word < 2 ? uint32_t(mask >> (32 * word)) : 0);
+        break;
+      }
       default:
         throw Error(ExitCode::bad_input, "the emulator does not have the built-in variable {}",
                     int(built_in.kind));

@@ -98,6 +98,10 @@ void Lowering::declare(const spirv::Instruction& i) {
       return;
     case spv::OpExecutionMode:
       if (i[2] == spv::ExecutionModeLocalSize) program_.group = {i[3], i[4], i[5]};
+      if (i[2] == spv::ExecutionModeDenormFlushToZero || i[2] == spv::ExecutionModeRoundingModeRTZ)
+        throw Error(
+            ExitCode::bad_input,
+            "the emulator rounds to nearest and keeps denormals, and the kernel asks for another way");
       return;
     case spv::OpDecorate:
     case spv::OpMemberDecorate:
@@ -144,12 +148,20 @@ void Lowering::add_constant(const spirv::Instruction& i) {
     case spv::OpConstantComposite:
     case spv::OpSpecConstantComposite: {
       std::vector<uint32_t> all;
+      std::vector<Source> parts;
       for (const uint32_t id : std::span(i).subspan(3)) {
-        const Source from = source(id);
-        all.insert(all.end(), program_.constants.begin() + from.at,
-                   program_.constants.begin() + from.at + from.words);
+        const Source from = parts.emplace_back(source(id));
+        for (uint32_t word = from.at; from.constant && word < from.at + from.words; ++word)
+          all.push_back(program_.constants[word]);
       }
-      made.source = constant(all);
+      if (all.size() == words) {
+        made.source = constant(all);
+        break;
+      }
+      // Some parts are undefined.
+      made.source = {.at = registers(words), .words = words};
+      program_.prelude.push_back(
+          {.execute = concatenate, .to = made.source.at, .words = words, .from = parts});
       break;
     }
     case spv::OpUndef:
@@ -206,7 +218,6 @@ void Lowering::add_global(const spirv::Instruction& i) {
       if (binding == decorations.end() || !(is_buffer || is_image(target))) refuse(i);
       root.space = is_buffer ? Space::buffer : Space::image;
       root.at = binding->second;
-      if (!is_buffer) program_.uses[root.at].unit = Format().bytes();
       break;
     }
     case spv::StorageClassPushConstant:
@@ -245,10 +256,48 @@ Program Lowering::run() {
   }
   for (const spirv::Function& function : module_.functions)
     program_.functions.push_back(lower_function(function));
+  add_uses();
   check_limit(program_.registers * invocations, most_group_words,
               "words of values and variables of a work group");
   program_.entry = function_index_.at(entry_);
   return std::move(program_);
+}
+
+// The space of a parameter, which is a pointer or an image.
+Space Lowering::space_of(const Type& type) const {
+  if (is_image(type) || is_image(types_.at(type.element)) || type.storage == spv::StorageClassImage)
+    return Space::image;
+  switch (type.storage) {
+    case spv::StorageClassStorageBuffer:
+    case spv::StorageClassUniform:
+      return Space::buffer;
+    case spv::StorageClassPushConstant:
+      return Space::pushed;
+    case spv::StorageClassWorkgroup:
+      return Space::shared;
+    default:
+      return Space::own;
+  }
+}
+
+// A use of a parameter is one of every argument.
+void Lowering::add_uses() {
+  for (bool changes = true; changes;) {
+    changes = false;
+    for (const auto& [parameter, argument] : arguments_) {
+      const Use from = uses_[parameter];
+      Use& to = uses_[argument];
+      const Use both{to.writes || from.writes, std::min(to.unit, from.unit)};
+      changes = changes || both.writes != to.writes || both.unit != to.unit;
+      to = both;
+    }
+  }
+  for (const auto& [root, use] : uses_) {
+    const Root& of = program_.roots[root];
+    if (of.at == no_root || (of.space != Space::buffer && of.space != Space::image)) continue;
+    Use& to = program_.uses[of.at];
+    to = {to.writes || use.writes, of.space == Space::image ? Format().bytes() : std::min(to.unit, use.unit)};
+  }
 }
 
 // Gives every value of the function its register, since a phi may name values of later blocks.
@@ -277,9 +326,10 @@ void Lowering::allot(const spirv::Function& function) {
     give(i);
     std::vector<uint32_t>& roots = parameter_roots_[function.head[0][2]];
     roots.push_back(no_root);
-    if (types_.at(i[1]).op != spv::OpTypePointer) continue;
+    const Type& type = types_.at(i[1]);
+    if (type.op != spv::OpTypePointer && !is_image(type)) continue;
     values_[i[2]].root = roots.back() = uint32_t(program_.roots.size());
-    program_.roots.push_back({});
+    program_.roots.push_back({.space = space_of(type), .at = no_root});
   }
   for (const spirv::Block& block : function.blocks)
     for (const spirv::Instruction& i : block.body) give(i);

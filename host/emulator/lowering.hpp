@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <unordered_map>
 
@@ -35,6 +36,8 @@ class Lowering {
   void read_group_size();
 
   void allot(const spirv::Function& function);
+  Space space_of(const Type& type) const;
+  void add_uses();
   Function lower_function(const spirv::Function& function);
   void lower_instruction(Function& function, Block& block, const spirv::Instruction& instruction);
   void end_block(const spirv::Function& function, const std::map<uint32_t, uint32_t>& index_of, Block& block,
@@ -77,10 +80,12 @@ class Lowering {
   std::map<uint32_t, uint32_t> files_;                            // index by the string's id
   std::map<uint32_t, uint32_t> function_index_;                   // by id
   std::map<uint32_t, std::vector<uint32_t>> parameter_roots_;     // by the function's id
-  uint64_t cells_ = 0;                                            // the cells of all operations
-  uint32_t glsl_ = 0;                                             // id of GLSL.std.450
-  uint32_t entry_ = 0;                                            // id
-  uint32_t file_ = 0, line_ = 0, column_ = 0;                     // the line of the next instructions
+  std::map<uint32_t, Use> uses_;                                  // by root
+  std::set<std::pair<uint32_t, uint32_t>> arguments_;  // roots of parameters and of their arguments
+  uint64_t cells_ = 0;                                 // the cells of all operations
+  uint32_t glsl_ = 0;                                  // id of GLSL.std.450
+  uint32_t entry_ = 0;                                 // id
+  uint32_t file_ = 0, line_ = 0, column_ = 0;          // the line of the next instructions
 };
 
 }  // namespace eyeray::engine::emulator

@@ -188,14 +188,15 @@ void Lowering::lower_call(Block& block, const spirv::Instruction& i) {
   if (index == function_index_.end()) refuse(i);
   call.execute = nullptr;  // the machine's own
   call.literals = {index->second};
+  const std::vector<uint32_t>& parameters = parameter_roots_[i[3]];
   for (const uint32_t id : std::span(i).subspan(4)) {
-    call.from.push_back(source(id));
-    call.literals.push_back(value(id).root);
     const uint32_t root = value(id).root;
-    // A function may write through its parameter.
-    if (root != no_root &&
-        (program_.roots[root].space == Space::buffer || program_.roots[root].space == Space::image))
-      refuse(i);
+    if (const uint32_t parameter = parameters.at(call.from.size()); parameter != no_root) {
+      if (root == no_root) refuse(i);
+      arguments_.emplace(parameter, root);
+    }
+    call.from.push_back(source(id));
+    call.literals.push_back(root);
   }
   block.operations.push_back(std::move(call));
 }

@@ -23,8 +23,7 @@ void Lowering::access(Operation& made, uint32_t pointer, bool writes) {
   if (root.space == Space::buffer || root.space == Space::pushed)
     made.cells = types_.cells(types_.at(to.type).element, to.placement);
   check_limit(cells_ += made.cells.size(), most_cells, "words of all accesses to buffers");
-  if (root.space != Space::buffer && root.space != Space::image) return;
-  Use& use = program_.uses[root.at];
+  Use& use = uses_[to.root];
   use.writes = use.writes || writes;
   for (const Cell& cell : made.cells) use.unit = std::min(use.unit, cell.size);
 }
@@ -106,7 +105,7 @@ bool Lowering::lower_image(Block& block, const spirv::Instruction& i) {
   const bool writes = op == spv::OpImageWrite, points = op == spv::OpImageTexelPointer;
   made.root = value(i[writes ? 1 : 3]).root;
   if (made.root == no_root) refuse(i);
-  Use& use = program_.uses[program_.roots[made.root].at];
+  Use& use = uses_[made.root];
   use.writes = use.writes || writes;
   if (op == spv::OpImageRead || op == spv::OpImageFetch || writes || points) {
     made.from = {source(i[writes ? 2 : 4])};

@@ -117,6 +117,37 @@ TEST_CASE("subgroups combine and exchange the values of their active invocations
   }
 }
 
+TEST_CASE("subgroups have masks of their invocations") {
+  const Ran ran = run(
+      "data[i] = (gl_SubgroupLtMask.x ^ gl_SubgroupGtMask.x ^ gl_SubgroupEqMask.x) + "
+      "(gl_SubgroupGeMask.x & gl_SubgroupLeMask.x) * 1000u;",
+      std::vector<uint32_t>(64), {.declarations = "\n#extension GL_KHR_shader_subgroup_ballot : require\n"});
+  for (uint32_t i = 0; i < 64; ++i) CHECK(ran.data[i] == 255 + (1000u << i % 8));
+}
+
+TEST_CASE("functions may have images as parameters") {
+  std::vector<uint32_t> texels(16, 3), others(16, 5), written(16);
+  const auto image = [](std::vector<uint32_t>& of) {
+    return emulator::Image{
+        {16, 1, 1}, {emulator::Format::Kind::natural, 1, 32}, std::as_writable_bytes(std::span(of))};
+  };
+  const How how{
+      .local_size = 16,
+      .declarations =
+          "layout(binding = 1) uniform usampler1D a; layout(binding = 2) uniform usampler1D b; "
+          "layout(binding = 3) writeonly uniform uimage1D c; "
+          "uint texel(usampler1D from, int at) { if (at > 7) return 1u; return texelFetch(from, at, 0).x; } "
+          "uint twice(usampler1D from, int at) { return texel(from, at) * 2u; } "
+          "void put(writeonly uimage1D to, int at) { imageStore(to, at, uvec4(7)); }",
+      .images = {{1, image(texels)}, {2, image(others)}, {3, image(written)}}};
+  const Ran ran =
+      run("data[i] = texel(a, int(i)) + twice(b, int(i)); put(c, int(i));", std::vector<uint32_t>(16), how);
+  CHECK(ran.found() == "");
+  for (uint32_t i = 0; i < 16; ++i) CHECK(ran.data[i] == (i > 7 ? 3 : 13));
+  CHECK(written == std::vector<uint32_t>(16, 7));
+  CHECK(run("put(c, int(i) / 2);", std::vector<uint32_t>(16), how).found().find("race") != std::string::npos);
+}
+
 TEST_CASE("work groups share memory, and wait for each other at barriers") {
   const Ran ran =
       run("const uint l = gl_LocalInvocationIndex; list[l] = data[i]; barrier(); "
