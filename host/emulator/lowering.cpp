@@ -90,6 +90,10 @@ void Lowering::declare(const spirv::Instruction& i) {
       return;
     case spv::OpExtInstImport:
       if (spirv::string_at(i, 2) == "GLSL.std.450") glsl_ = i[1];
+      if (spirv::string_at(i, 2) == "NonSemantic.Shader.DebugInfo.100") debug_ = i[1];
+      return;
+    case spv::OpExtInst:
+      if (i[3] == debug_ && i[4] == debug_source) files_[i[2]] = files_.at(i[5]);
       return;
     case spv::OpEntryPoint:
       if (i[1] != spv::ExecutionModelGLCompute)

@@ -14,6 +14,9 @@ namespace eyeray::engine::emulator {
 // Error (bad_input) for a kernel that needs more of something than the emulator has.
 void check_limit(uint64_t count, uint64_t most, const char* of);
 
+// Instructions of NonSemantic.Shader.DebugInfo.100.
+constexpr uint32_t debug_source = 35, debug_line = 103, debug_no_line = 104;
+
 class Lowering {
  public:
   explicit Lowering(std::span<const uint32_t> spirv) : module_(spirv::read(spirv)) {}
@@ -77,15 +80,15 @@ class Lowering {
   std::map<uint32_t, uint64_t> whole_constants_;                  // by id
   std::map<uint32_t, std::map<uint32_t, uint32_t>> decorations_;  // by id and decoration
   std::map<uint32_t, std::string> names_;                         // by id
-  std::map<uint32_t, uint32_t> files_;                            // index by the string's id
-  std::map<uint32_t, uint32_t> function_index_;                   // by id
-  std::map<uint32_t, std::vector<uint32_t>> parameter_roots_;     // by the function's id
-  std::map<uint32_t, Use> uses_;                                  // by root
-  std::set<std::pair<uint32_t, uint32_t>> arguments_;  // roots of parameters and of their arguments
-  uint64_t cells_ = 0;                                 // the cells of all operations
-  uint32_t glsl_ = 0;                                  // id of GLSL.std.450
-  uint32_t entry_ = 0;                                 // id
-  uint32_t file_ = 0, line_ = 0, column_ = 0;          // the line of the next instructions
+  std::map<uint32_t, uint32_t> files_;           // index by the id of the string or of the DebugSource
+  std::map<uint32_t, uint32_t> function_index_;  // by id
+  std::map<uint32_t, std::vector<uint32_t>> parameter_roots_;  // by the function's id
+  std::map<uint32_t, Use> uses_;                               // by root
+  std::set<std::pair<uint32_t, uint32_t>> arguments_;          // roots of parameters and of their arguments
+  uint64_t cells_ = 0;                                         // the cells of all operations
+  uint32_t glsl_ = 0, debug_ = 0;              // ids of GLSL.std.450 and of NonSemantic.Shader.DebugInfo.100
+  uint32_t entry_ = 0;                         // id
+  uint32_t file_ = 0, line_ = 0, column_ = 0;  // the line of the next instructions
 };
 
 }  // namespace eyeray::engine::emulator

@@ -242,7 +242,13 @@ void Lowering::lower_arithmetic(Block& block, const spirv::Instruction& i) {
   Operation made = operation(i);
   size_t first = 3;  // the first operand that is an id
   if (op == spv::OpExtInst) {
-    if (i[3] != glsl_) return;  // debug information
+    if (i[3] == debug_ && i[4] == debug_line) {
+      file_ = files_.at(i[5]);
+      line_ = uint32_t(whole_constants_.at(i[6]));
+      column_ = uint32_t(whole_constants_.at(i[8]));
+    }
+    if (i[3] == debug_ && i[4] == debug_no_line) line_ = column_ = 0;
+    if (i[3] != glsl_) return;
     if (i[4] == GLSLstd450Modf || i[4] == GLSLstd450Frexp) return lower_split(block, i);
     first = 5;
     made.execute = glsl_function(i[4], first < i.size() ? type_of(i[first]).bits : 32);

@@ -42,7 +42,8 @@ constexpr uint32_t nowhere = UINT32_MAX;
 // The variable that a pointer points into.
 struct Root {
   Space space = Space::own;
-  uint32_t at = 0;     // first register or shared word; of a buffer its binding; of a parameter no_root, until its call
+  uint32_t at =
+      0;  // first register or shared word; of a buffer its binding; of a parameter no_root, until its call
   uint32_t size = 0;   // words, of variables
   std::string name{};  // for findings
 };

@@ -1,3 +1,5 @@
+#include <spirv-tools/libspirv.hpp>
+
 #include "support.hpp"
 
 using namespace eyeray::engine;
@@ -34,6 +36,53 @@ TEST_CASE("an access out of bounds is found, reads 0 and writes nothing") {
   check_found("index 64 of 64 in 'list', in invocation 63, 0, 0",
               run("list[i + 1u] = i; barrier(); data[i] = list[63u - i];", zeros, with_memory));
   CHECK(run("data[i] = data.length();", zeros).data[0] == 64);
+}
+
+TEST_CASE("a finding has the line of either kind of debug information") {
+  std::vector<uint32_t> spirv;
+  CHECK(spvtools::SpirvTools(SPV_ENV_VULKAN_1_1)
+            .Assemble(R"(
+               OpCapability Shader
+               OpExtension "SPV_KHR_non_semantic_info"
+       %info = OpExtInstImport "NonSemantic.Shader.DebugInfo.100"
+               OpMemoryModel Logical GLSL450
+               OpEntryPoint GLCompute %main "main"
+               OpExecutionMode %main LocalSize 1 1 1
+       %file = OpString "blur.slang"
+               OpName %data "data"
+               OpDecorate %list ArrayStride 4
+               OpDecorate %Data Block
+               OpMemberDecorate %Data 0 Offset 0
+               OpDecorate %data DescriptorSet 0
+               OpDecorate %data Binding 0
+       %void = OpTypeVoid
+     %action = OpTypeFunction %void
+       %uint = OpTypeInt 32 0
+       %zero = OpConstant %uint 0
+       %four = OpConstant %uint 4
+       %five = OpConstant %uint 5
+       %list = OpTypeRuntimeArray %uint
+       %Data = OpTypeStruct %list
+    %pointer = OpTypePointer StorageBuffer %Data
+     %number = OpTypePointer StorageBuffer %uint
+       %data = OpVariable %pointer StorageBuffer
+     %source = OpExtInst %void %info DebugSource %file
+       %main = OpFunction %void None %action
+      %start = OpLabel
+       %line = OpExtInst %void %info DebugLine %source %four %four %five %five
+         %to = OpAccessChain %number %data %zero %five
+               OpStore %to %zero
+               OpReturn
+               OpFunctionEnd)",
+                      &spirv));
+  std::vector<uint32_t> data(2);
+  emulator::Findings findings;
+  emulator::Kernel(spirv, "blur")
+      .run({.buffers = {{0, std::as_writable_bytes(std::span(data))}}, .findings = &findings}, {1, 1, 1});
+  REQUIRE(findings.all().size() == 1);
+  CHECK(describe(findings.all()[0]) ==
+        "blur.slang:4:5 (OpStore): out of bounds: index 5 of 2 in 'data', in invocation 0, 0, 0 of kernel "
+        "'blur'");
 }
 
 TEST_CASE("a value that was never set is found where it decides something or is stored") {
@@ -110,6 +159,7 @@ TEST_CASE("a NaN has the bits of the processor, whether it is watched or not") {
           {.declarations = "layout(binding = 1) buffer Reals { float reals[]; }; shared float list[64];",
            .more = {{1, zeros}}});
   CHECK(ran.data[0] == 0xffc00000u);
+  CHECK(ran.more.at(1)[0] == 0xffc00000u);
   CHECK(ran.data[1] == 0xffc00000u);
 }
 

@@ -23,6 +23,7 @@ inline std::vector<uint32_t> compile(const std::string& text) {
 struct Ran {
   std::vector<uint32_t> data;
   std::vector<emulator::Finding> findings;
+  std::map<uint32_t, std::vector<uint32_t>> more{};  // the further buffers, afterwards
 
   float real(size_t i) const { return std::bit_cast<float>(data[i]); }
   // The findings, a line each.
@@ -61,7 +62,7 @@ inline Ran run(const std::string& body, std::vector<uint32_t> data, const How& h
                       .findings = &findings};
   for (auto& [binding, words] : more) work.buffers[binding] = std::as_writable_bytes(std::span(words));
   kernel.run(work, {how.groups, 1, 1});
-  return {std::move(data), findings.all()};
+  return {std::move(data), findings.all(), std::move(more)};
 }
 
 }  // namespace eyeray::engine::test

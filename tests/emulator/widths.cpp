@@ -68,7 +68,8 @@ TEST_CASE("a float of 16 bits is rounded to the nearest, once") {
         .data[0];
   };
   CHECK(half("one / float16_t(3)") == 0x3555);
-  CHECK(half("one * float16_t(2048) + one") == 0x6800);  // a tie, to the even one
+  CHECK(half("one * float16_t(2048) + one") == 0x6800);  // ties, to the even one
+  CHECK(half("one * float16_t(2048) + one * float16_t(3)") == 0x6802);
   CHECK(half("one * float16_t(65504) + one * float16_t(16)") == 0x7c00);
   CHECK(half("-one * float16_t(65504) - one") == 0xfbff);
   CHECK(half("float16_t(6.0e-8LF * double(one))") == 0x0001);
