@@ -34,7 +34,7 @@ void note(Group& group, const Operation& o, uint32_t lane, size_t byte, uint32_t
     if (!other) continue;
     group.report(o, lane, Fault::race,
                  fmt::format("two invocations access {} {} of '{}', one of them writes, and no barrier is in "
-                             "between; the other is number {} of work group {}",
+                             "between; the other is invocation {} of work group {}",
                              root.space == Space::image ? "texel" : "number",
                              at - (root.space == Space::shared ? root.at : 0), root.name, other->invocation,
                              other->group));

@@ -55,7 +55,8 @@ void note_birth(Group& group, const Operation& o, uint32_t lane, const Target<T>
   }
   uint32_t* const word = words_of<T> == 2 ? to.high : to.low;
   constexpr uint32_t width = std::is_same_v<T, Half> ? 16 : sizeof(T) * 8;
-  word[lane] = with_birth(word[lane], width, group.birth(o, std::move(values)));
+  if (const uint32_t birth = group.birth(o, std::move(values)))
+    word[lane] = with_birth(word[lane], width, birth);
 }
 
 // Sets the components of the result to F of the operands' components. An operand of one component stands for

@@ -11,7 +11,8 @@
 namespace eyeray::engine::emulator {
 namespace {
 
-constexpr uint32_t most_calls = 200;  // within each other
+constexpr uint32_t most_calls = 200;        // within each other
+constexpr uint32_t most_births_each = 256;  // births of an operation with numbers of their own
 
 constexpr uint64_t watched_operations =
     1 << 22;  // operations of single invocations between two calls of Work::watch
@@ -110,13 +111,13 @@ void Group::needs_set(const Operation& operation, const Source& source, const ch
 }
 
 uint32_t Group::birth(const Operation& operation, std::vector<double> operands) {
-  if (births_.size() < most_births) {
-    births_.push_back({&operation, std::move(operands)});
-    return uint32_t(births_.size());
-  }
-  // So many have no numbers of their own: take an earlier one of this operation, if there is one.
-  const auto found = std::ranges::find(births_, &operation, &Birth::operation);
-  return found == births_.end() ? 0 : uint32_t(found - births_.begin()) + 1;
+  auto& [count, last] = births_of_[&operation];
+  if (count > most_births_each) return last;
+  if (births_.size() == most_births) return 0;
+  // Births that share a number have no operands.
+  if (count++ == most_births_each) operands.clear();
+  births_.push_back({&operation, std::move(operands)});
+  return last = uint32_t(births_.size());
 }
 
 void Group::report_birth(const Operation& operation, uint32_t lane, uint32_t number) {
@@ -202,6 +203,7 @@ void Group::start(const std::array<uint32_t, 3>& id) {
   after_subgroup_.assign((lanes_ + subgroup_size() - 1) / subgroup_size(), after_group_);
   active_ = all_;
   births_.clear();
+  births_of_.clear();
   std::ranges::fill(may_be_unset_, uint8_t{0});
   std::ranges::fill(shared_, 0u);
   std::ranges::fill(shared_unset_, uint8_t{1});
@@ -363,7 +365,7 @@ void Kernel::run(const Work& work, const std::array<uint32_t, 3>& groups) const 
     else if (const auto buffer = work.buffers.find(binding); buffer != work.buffers.end())
       dispatch.accesses[binding].restart(buffer->second.size(), use.unit);
   }
-  if (uint64_t{groups[0]} * groups[1] * groups[2] > 0) {
+  if (groups[0] > 0 && groups[1] > 0 && groups[2] > 0) {
     Group group(dispatch);
     const auto at = [&](uint32_t n, size_t axis) {
       return work.order == Order::ascending ? n : groups[axis] - 1 - n;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <bit>
 #include <span>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "host/emulator/emulator.hpp"
@@ -101,7 +103,8 @@ class Group {
   void pass_barrier(bool of_group);
   bool whole() const { return active_.size() == lanes_; }
 
-  // Notes that an operation made a NaN of these operands, none of which is one. Returns its number, from 1.
+  // Notes that an operation made a NaN of these operands, none of which is one. Returns its number, from 1; 0
+  // if there are no more numbers.
   uint32_t birth(const Operation& operation, std::vector<double> operands);
   // Reports the birth of a NaN that this operation writes to its root.
   void report_birth(const Operation& operation, uint32_t lane, uint32_t birth);
@@ -141,7 +144,9 @@ class Group {
     std::vector<double> operands;
   };
   std::vector<Birth> births_;  // in the present work group
-  uint32_t depth_ = 0;         // the number of calls within each other
+  std::unordered_map<const Operation*, std::pair<uint32_t, uint32_t>>
+      births_of_;       // their count, the last number
+  uint32_t depth_ = 0;  // the number of calls within each other
   uint32_t after_group_ = 0;
   std::vector<uint32_t> after_subgroup_;
 };

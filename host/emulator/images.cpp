@@ -54,10 +54,11 @@ struct Texel {
 };
 
 // The coordinates are o.from[0]. o.literals: the numbers of the operands that are the level and an offset, or
-// 0.
+// 0. An offset has no layer.
 int64_t coordinate(const Group& group, const Operation& o, uint32_t lane, uint32_t axis) {
   const int64_t x = int32_t(group.read(o.from[0], axis)[lane]);
-  return o.literals[1] ? x + int32_t(group.read(o.from[o.literals[1]], axis)[lane]) : x;
+  const uint32_t offset = o.literals[1];
+  return offset && axis < o.from[offset].words ? x + int32_t(group.read(o.from[offset], axis)[lane]) : x;
 }
 
 Texel find_texel(const Group& group, const Operation& o, const Image& image, uint32_t lane) {

@@ -162,8 +162,8 @@ void store(Group& group, const Operation& o) {
 void array_length(Group& group, const Operation& o) {
   const uint64_t size = group.buffer(group.root(o).at).size();
   const uint32_t before = o.literals[0], stride = o.literals[1];
-  group.each(
-      [&](uint32_t lane) { group.row(o.to)[lane] = size > before ? uint32_t((size - before) / stride) : 0; });
+  const auto count = uint32_t(size > before && stride > 0 ? (size - before) / stride : 0);
+  group.each([&](uint32_t lane) { group.row(o.to)[lane] = count; });
 }
 
 // o.literals: the scope of execution, that of memory, its semantics.

@@ -150,6 +150,16 @@ TEST_CASE("a NaN is found where it was born, if it reaches a buffer") {
   CHECK(stored("x = 1.0 / x;").found() == "");
 }
 
+TEST_CASE("many NaNs that are dropped do not hide one that is stored") {
+  const Ran ran = run(
+      "float x = 1.0; for (uint k = 0u; k < 9000u; ++k) x = max(0.0 / (x - x), x);\n"
+      "reals[i] = sqrt(x - 2.0);",
+      zeros, {.declarations = "layout(binding = 1) buffer Reals { float reals[]; };", .more = {{1, zeros}}});
+  CHECK(ran.found().find("kernel.comp.glsl:6 (OpExtInst") != std::string::npos);
+  CHECK(ran.findings.size() == 1);
+  CHECK(ran.more.at(1)[5] == 0xffc00000u);
+}
+
 TEST_CASE("a NaN has the bits of the processor, whether it is watched or not") {
   const std::string body =
       "float x = float(i); x = (x - x) / x; reals[i] = i > 0u ? 1.0 : x; data[i] = floatBitsToUint(x);";

@@ -83,6 +83,9 @@ TEST_CASE("images of three dimensions, arrays, texel buffers and sampled images 
   CHECK(ran.found() == "");
   CHECK(ran.data[17] == 417);
   CHECK(ran.data[40] == 23);
+  CHECK(run_on(picture, "usampler2DArray",
+               "data[i] = texelFetchOffset(picture, ivec3(0, 1, 2), 0, ivec2(1, 1)).x;", 1)
+            .data[0] == 17);
   Picture line({8, 1, 1}, {Kind::unorm, 4, 8});
   line.words[3] = 0xff;
   CHECK(run_on(line, "samplerBuffer", "data[i] = uint(texelFetch(picture, int(i)).x * 9.0);").data[3] == 9);
