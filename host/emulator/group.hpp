@@ -52,7 +52,6 @@ class Group {
   uint32_t* row(uint32_t at) { return &registers_[size_t{at} * lanes_]; }
   std::span<const uint32_t> active() const { return active_; }
   uint32_t lanes() const { return lanes_; }
-  uint32_t scratch() const { return dispatch_.program.scratch; }
   uint32_t subgroup_size() const { return dispatch_.work.subgroup_size; }
   // Calls f for every active invocation.
   template <typename F>
@@ -143,9 +142,11 @@ class Group {
     const Operation* operation;
     std::vector<double> operands;
   };
+  struct Births {
+    uint32_t count = 0, last = 0;  // the number of the last
+  };
   std::vector<Birth> births_;  // in the present work group
-  std::unordered_map<const Operation*, std::pair<uint32_t, uint32_t>>
-      births_of_;       // their count, the last number
+  std::unordered_map<const Operation*, Births> births_of_;
   uint32_t depth_ = 0;  // the number of calls within each other
   uint32_t after_group_ = 0;
   std::vector<uint32_t> after_subgroup_;

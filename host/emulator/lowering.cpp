@@ -242,7 +242,6 @@ void Lowering::add_global(const spirv::Instruction& i) {
 }
 
 Program Lowering::run() {
-  program_.scratch = registers(1);
   for (const spirv::Instruction& i : module_.declarations) declare(i);
   for (const auto& [id, decorations] : decorations_) {
     const auto kind = decorations.find(spv::DecorationBuiltIn);
@@ -254,6 +253,7 @@ Program Lowering::run() {
     invocations *= along;
     check_limit(invocations, most_invocations, "invocations of a work group");
   }
+  if (invocations == 0) throw Error(ExitCode::bad_input, "a kernel's work group has no invocations");
   for (const spirv::Function& function : module_.functions) {
     function_index_[function.head[0][2]] = uint32_t(function_index_.size());
     allot(function);

@@ -128,7 +128,6 @@ struct Use {
 struct Program {
   std::array<uint32_t, 3> group{1, 1, 1};  // invocations of a work group, along each axis
   uint32_t registers = 0;                  // words
-  uint32_t scratch = 0;                    // a register for results that nobody wants
   uint32_t shared = 0;                     // words
   std::vector<uint32_t> constants{};
   std::vector<Root> roots{};
