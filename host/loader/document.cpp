@@ -3,9 +3,10 @@
 #include <algorithm>
 
 #include "host/loader/former_names.hpp"
+#include "host/loader/scene_text.hpp"
 #include "host/loader/sections.hpp"
-#include "host/loader/toml_file.hpp"
 #include "host/reading/source_position.hpp"
+#include "host/reading/toml_text.hpp"
 
 namespace eyeray::engine::loader {
 
@@ -86,7 +87,7 @@ class Includer {
     document_.files.push_back(file);
 
     const std::string name = file.string();
-    toml::table tree = parse_toml(log_.add_source(name, std::move(text)), name, budget_, log_);
+    toml::table tree = reading::parse_toml(log_.add_source(name, std::move(text)), name, budget_, log_);
     rename_former(tree);
     if (const toml::node* include = tree.get(include_key)) include_all(*include, file);
     merge(document_.root, tree, log_);
@@ -131,7 +132,7 @@ class Includer {
   Document& document_;
   const AllowedFolders& folders_;
   DiagnosticLog& log_;
-  TreeBudget budget_;
+  reading::TreeBudget budget_;
   std::vector<fs::path> chain_;  // the files being read, from the scene down
   std::vector<fs::path> done_;
 };
@@ -146,8 +147,8 @@ Document read_document(const fs::path& scene, const AllowedFolders& folders, Dia
 
 Document parse_document(std::string_view text, const std::string& name, DiagnosticLog& log) {
   Document document;
-  TreeBudget budget;
-  toml::table tree = parse_toml(log.add_source(name, std::string(text)), name, budget, log);
+  reading::TreeBudget budget;
+  toml::table tree = reading::parse_toml(log.add_source(name, std::string(text)), name, budget, log);
   rename_former(tree);
   if (const toml::node* include = tree.get(include_key)) {
     log.error(reading::position_of(include->source()), "only a scene in a file can include others");

@@ -6,9 +6,8 @@
 
 #include "host/loader/former_names.hpp"
 #include "host/loader/sections.hpp"
-#include "host/loader/statements.hpp"
-#include "host/loader/toml_file.hpp"
 #include "host/reading/source_position.hpp"
+#include "host/reading/toml_text.hpp"
 
 namespace eyeray::engine::loader {
 
@@ -66,15 +65,15 @@ class Assignment {
   // Reads KEY=VALUE as TOML, after adding quotes to a bare word.
   bool parse() {
     const size_t equals = text_.find('=');
-    TreeBudget budget;
-    const bool one_line = text_.find('\n') == std::string::npos && !find_excess(text_, budget);
+    reading::TreeBudget budget;
+    const bool one_line = text_.find('\n') == std::string::npos && !reading::find_excess(text_, budget);
     if (equals == std::string::npos || !one_line)
       return fail("write KEY=VALUE, such as render.max_depth=3"), false;
     try {
       tree_ = parse_in_place(text_);
     } catch (const toml::parse_error& error) {
       const std::string_view value = std::string_view(text_).substr(equals + 1);
-      const std::string reason = "syntax: " + explain_syntax(error.description());
+      const std::string reason = "syntax: " + reading::explain_syntax(error.description());
       if (!is_word(value)) return fail(reason), false;
       try {
         tree_ = parse_in_place(fmt::format("{}=\"{}\"", text_.substr(0, equals), value));

@@ -4,8 +4,9 @@
 #include <set>
 
 #include "host/core/error.hpp"
+#include "host/loader/scene_text.hpp"
 #include "host/loader/sections.hpp"
-#include "host/loader/toml_file.hpp"
+#include "host/reading/toml_text.hpp"
 
 namespace fs = std::filesystem;
 
@@ -23,8 +24,8 @@ std::vector<fs::path> included_by(const fs::path& scene) {
   toml::table tree;
   try {
     DiagnosticLog log;
-    TreeBudget budget;
-    tree = parse_toml(read_scene_text(scene), scene.string(), budget, log);
+    reading::TreeBudget budget;
+    tree = reading::parse_toml(read_scene_text(scene), scene.string(), budget, log);
   } catch (const Error&) {
   }
   const toml::node* const include = tree.get(include_key);

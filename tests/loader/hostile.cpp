@@ -7,7 +7,7 @@
 
 #include "host/core/input_file.hpp"
 #include "host/loader/scene_file.hpp"
-#include "host/loader/statements.hpp"
+#include "host/reading/statements.hpp"
 #include "tests/support/process.hpp"
 //
 #include "tests/support/doctest.hpp"
@@ -99,11 +99,11 @@ TEST_CASE("keys and values are limited over all files of a scene; the error name
   CHECK(starts(message(repeat("[[a.b]]\n", 2'800'000)), "scene.toml:2796203:4"));
 
   // Text in strings and comments does not count, and floats in rows of a list do not count as keys.
-  TreeBudget budget;
-  CHECK_FALSE(find_excess(
+  reading::TreeBudget budget;
+  CHECK_FALSE(reading::find_excess(
       "x = \"" + std::string(100, '{') + "\" # [[[[\ny = '''" + std::string(100, '[') + "\n'''", budget));
   CHECK(budget.left == (size_t{1} << 25) - 16);
-  CHECK_FALSE(find_excess("x = [\n[0.5, 1.5],\n[0.5, 1.5]\n]", budget));
+  CHECK_FALSE(reading::find_excess("x = [\n[0.5, 1.5],\n[0.5, 1.5]\n]", budget));
   CHECK(budget.left == (size_t{1} << 25) - 16 - 8 - 3 * 2 - 3);
 
   const test::TemporaryFolder folder;

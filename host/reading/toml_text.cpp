@@ -1,4 +1,4 @@
-#include "host/loader/toml_file.hpp"
+#include "host/reading/toml_text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,12 +7,10 @@
 #include <optional>
 #include <utility>
 
-#include "host/core/input_file.hpp"
-#include "host/importers/import.hpp"
-#include "host/loader/statements.hpp"
 #include "host/reading/source_position.hpp"
+#include "host/reading/statements.hpp"
 
-namespace eyeray::engine::loader {
+namespace eyeray::engine::reading {
 
 namespace {
 
@@ -20,8 +18,6 @@ namespace {
 // `largest_repaired` bytes is parsed only once.
 constexpr int most_repairs = 50;
 constexpr size_t largest_repaired = size_t{1} << 20;
-
-constexpr size_t most_bytes = size_t{256} << 20;
 
 constexpr std::string_view redefinition = "cannot redefine existing ";
 
@@ -56,7 +52,7 @@ std::optional<SourcePosition> first_definition(const std::string& text, const St
   if (!statement.is_header) path.insert(path.end(), statement.key.begin(), statement.key.end());
   const toml::key* key = find_key(*tree, path);
   if (!key || !key->source().begin) return std::nullopt;
-  return reading::position_of(key->source());
+  return position_of(key->source());
 }
 
 // The name in quotes in the message, or "".
@@ -68,7 +64,7 @@ std::string quoted_name(std::string_view message) {
 
 void report(const toml::parse_error& error, const std::string& text, const Statement& statement,
             const std::string& name, DiagnosticLog& log) {
-  SourcePosition at = reading::position_of(error.source());
+  SourcePosition at = position_of(error.source());
   at.file = name;
   const std::string_view line =
       std::string_view(text).substr(statement.begin, statement.end - statement.begin);
@@ -98,18 +94,6 @@ void report(const toml::parse_error& error, const std::string& text, const State
 }
 
 }  // namespace
-
-std::string read_scene_text(const std::filesystem::path& file) {
-  if (std::error_code error; std::filesystem::is_directory(file, error))
-    throw Error(ExitCode::file_io, "cannot read the scene {}: it is a folder; name a scene or a mesh in it",
-                file.string());
-  std::string text = read_input_file(file, "the scene", most_bytes);
-  if (file.extension() != ".toml" && text.find('\0') != std::string::npos)
-    throw Error(ExitCode::bad_input,
-                "{} is not a scene: it contains bytes that are not text; a scene ends in .toml, a mesh in {}",
-                file.string(), importers::mesh_endings);
-  return text;
-}
 
 std::string explain_syntax(std::string_view description, std::string_view statement) {
   // Swap the parts of "Error while parsing WHERE: REASON".
@@ -172,4 +156,4 @@ toml::table parse_toml(std::string_view original, const std::string& name, TreeB
   }
 }
 
-}  // namespace eyeray::engine::loader
+}  // namespace eyeray::engine::reading

@@ -1,4 +1,4 @@
-#include "host/loader/statements.hpp"
+#include "host/reading/statements.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace eyeray::engine::loader {
+namespace eyeray::engine::reading {
 
 namespace {
 
@@ -220,4 +220,4 @@ std::optional<Excess> find_excess(std::string_view text, TreeBudget& budget) {
   return std::nullopt;
 }
 
-}  // namespace eyeray::engine::loader
+}  // namespace eyeray::engine::reading

@@ -1,5 +1,5 @@
 // Splits TOML text into statements, without parsing them: that suffices to step over a statement that does
-// not parse. Private to the loader.
+// not parse. Private to this layer and to those that read files of TOML.
 #pragma once
 
 #include <optional>
@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace eyeray::engine::loader {
+namespace eyeray::engine::reading {
 
 // The text from a line that starts with `key =` or `[table]` to the next such line. If a statement that
 // starts a table does not parse, it includes the table's other statements.
@@ -48,4 +48,4 @@ struct Excess {
 // budget. The cost of the text is subtracted from the budget.
 std::optional<Excess> find_excess(std::string_view text, TreeBudget& budget);
 
-}  // namespace eyeray::engine::loader
+}  // namespace eyeray::engine::reading
