@@ -53,7 +53,9 @@ Buffer::Buffer(Device& device, size_t bytes, std::string name, BindingKind kind)
       bytes_(rounded_up(bytes, kind == BindingKind::texels ? 16 : 4)),
       guard_(std::max<size_t>(least_guard, context_->info.limits.offset_alignment)) {
   const DeviceLimits& limits = context_->info.limits;
-  const uint64_t range = kind == BindingKind::texels ? limits.texel_range : limits.storage_range;
+  const uint64_t range = kind == BindingKind::texels    ? limits.texel_range
+                         : kind == BindingKind::uniform ? limits.uniform_range
+                                                        : limits.storage_range;
   if (bytes_ > range)
     throw Error(ExitCode::no_device, "buffer '{}' has {} bytes, but {} lets a shader see {} of one buffer",
                 name_, bytes_, context_->info.name, range);

@@ -1,5 +1,5 @@
-// A storage buffer, or a storage texel buffer: bytes that a kernel sees, between two guards that it must not
-// touch.
+// A storage buffer, a uniform buffer or a storage texel buffer: bytes that a kernel sees, between two guards
+// that it must not touch.
 #pragma once
 
 #include <cstddef>

@@ -11,6 +11,7 @@
 #include "host/core/stopwatch.hpp"
 #include "host/core/termination.hpp"
 #include "host/gpu/device_choice.hpp"
+#include "host/gpu/kernel_features.hpp"
 #include "host/gpu/memory.hpp"
 #include "host/gpu/physical_device.hpp"
 
@@ -72,6 +73,8 @@ void Context::create_device() {
     device_info.enabledExtensionCount = 1;
     device_info.ppEnabledExtensionNames = &extension;
   }
+  std::optional<KernelFeatures> features;
+  if (options.all_features) features.emplace(physical).enable(device_info);
   check(vkCreateDevice(physical, &device_info, nullptr, &device), "create a device");
   if (info.compiles_only) return;
   vkGetDeviceQueue(device, family.index, 0, &queue);
@@ -165,14 +168,15 @@ void Context::submit_and_wait(std::string_view what, double timeout_seconds) {
 // Runs the recorded dispatches in order.
 void Context::emulate(std::string_view what, double timeout_seconds) {
   const Stopwatch watch;
-  const emulator::Work work{.subgroup_size = info.limits.subgroup_size,
-                            .watch =
-                                [&](uint64_t) {
-                                  if (watch.seconds() > timeout_seconds)
-                                    throw time_out(what, timeout_seconds);
-                                  if (signalled()) throw Error(ExitCode::interrupted, "interrupted");
-                                },
-                            .findings = &findings};
+  const emulator::Work work{
+      .subgroup_size = info.limits.subgroup_size,
+      .order = options.emulated_descending ? emulator::Order::descending : emulator::Order::ascending,
+      .watch =
+          [&](uint64_t) {
+            if (watch.seconds() > timeout_seconds) throw time_out(what, timeout_seconds);
+            if (signalled()) throw Error(ExitCode::interrupted, "interrupted");
+          },
+      .findings = &findings};
   for (const auto& dispatch : dispatches) dispatch(work);
 }
 

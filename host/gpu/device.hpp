@@ -17,6 +17,7 @@ enum class DeviceType { discrete, integrated, virtual_gpu, cpu, other };
 struct DeviceLimits {
   uint64_t storage_range = 0;            // bytes of one buffer that a shader can see
   uint64_t texel_range = 0;              // bytes of one texel buffer that a shader can see, 16 a texel
+  uint64_t uniform_range = 0;            // bytes of one uniform buffer that a shader can see
   uint64_t heap = 0;                     // bytes of the largest heap that buffers come from
   uint64_t allocation = 0;               // bytes of one allocation
   uint64_t offset_alignment = 0;         // bytes; the alignment of a buffer's start in its memory
@@ -27,6 +28,7 @@ struct DeviceLimits {
   uint32_t push_constants = 0;           // bytes
   uint32_t storage_buffers = 0;          // a kernel may have so many
   uint32_t texel_buffers = 0;            // a kernel may have so many
+  uint32_t uniform_buffers = 0;          // a kernel may have so many
   uint32_t subgroup_size = 0;
   uint32_t drawn_size = 0;     // pixels of the longest side of a picture that the device can draw
   uint32_t subpixel_bits = 0;  // the device rounds the vertices that it draws to 2^−bits of a pixel
@@ -70,9 +72,12 @@ struct DeviceOptions {
   bool force_staging = false;    // tests: copy through staging buffers even where memory is shared
   // Compile each kernel anew, with the driver's statistics if it has any; null hardware suffices.
   bool examines_kernels = false;
+  // Enable all features that a user's kernel may declare and the device has, such as numbers of 64 bits.
+  bool all_features = false;
   // Run kernels by the emulator, as the chosen device would get them.
   bool emulate = false;
-  uint32_t emulated_subgroup = 0;  // invocations of its subgroups; 0: as many as the device's have
+  bool emulated_descending = false;  // run work groups from the last to the first: emulator::Order
+  uint32_t emulated_subgroup = 0;    // invocations of its subgroups; 0: as many as the device's have
 };
 
 struct Context;

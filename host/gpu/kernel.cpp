@@ -14,6 +14,10 @@
 namespace eyeray::engine::gpu {
 namespace {
 
+const char* kind_name(BindingKind kind) {
+  return kind == BindingKind::texels ? "texel" : kind == BindingKind::uniform ? "uniform" : "storage";
+}
+
 void check_limits(const Reflection& reflection, const DeviceInfo& device, const std::string& name) {
   const std::array<uint32_t, 3>& size = reflection.local_size;
   const uint64_t invocations = uint64_t{size[0]} * size[1] * size[2];
@@ -26,21 +30,24 @@ void check_limits(const Reflection& reflection, const DeviceInfo& device, const 
   if (reflection.push_constant_bytes > device.limits.push_constants)
     throw Error(ExitCode::no_device, "kernel '{}' has {} bytes of push constants, but {} takes at most {}",
                 name, reflection.push_constant_bytes, device.name, device.limits.push_constants);
-  const auto texels = std::ranges::count(reflection.bindings, BindingKind::texels,
-                                         &std::pair<const uint32_t, BindingKind>::second);
-  const auto storage = ptrdiff_t(reflection.bindings.size()) - texels;
-  if (storage > device.limits.storage_buffers || texels > device.limits.texel_buffers)
-    throw Error(
-        ExitCode::no_device,
-        "kernel '{}' has {} storage buffers and {} texel buffers, but {} lets a kernel have at most {} "
-        "and {}: choose another device with {}",
-        name, storage, texels, device.name, device.limits.storage_buffers, device.limits.texel_buffers,
-        option_text("device"));
+  const auto check_count = [&](BindingKind kind, ptrdiff_t most) {
+    const auto count =
+        std::ranges::count(reflection.bindings, kind, &std::pair<const uint32_t, BindingKind>::second);
+    if (count > most)
+      throw Error(ExitCode::no_device,
+                  "kernel '{}' has {} {} buffers, but {} lets a kernel have at most {}: choose another "
+                  "device with {}",
+                  name, count, kind_name(kind), device.name, most, option_text("device"));
+  };
+  check_count(BindingKind::storage, device.limits.storage_buffers);
+  check_count(BindingKind::uniform, device.limits.uniform_buffers);
+  check_count(BindingKind::texels, device.limits.texel_buffers);
 }
 
 VkDescriptorType descriptor_type(BindingKind kind) {
-  return kind == BindingKind::texels ? VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER
-                                     : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+  return kind == BindingKind::texels    ? VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER
+         : kind == BindingKind::uniform ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
+                                        : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 }
 
 // A pipeline cache that is loaded from disk, and stored there again if the driver added to it. A failure of
@@ -213,9 +220,9 @@ void Kernel::bind(uint32_t binding, const Buffer& buffer, size_t offset, size_t 
   const BindingKind kind = reflection_.bindings.at(binding);
   if (buffer.kind() != kind)
     throw Error(ExitCode::bad_input,
-                "kernel '{}' declares binding {} as a {} buffer, but eyeray binds the other kind: declare it "
+                "kernel '{}' declares binding {} as a {} buffer, but eyeray binds a {} buffer: declare it "
                 "as eyeray's own kernels/bindings.glsl does",
-                name_, binding, kind == BindingKind::texels ? "texel" : "storage");
+                name_, binding, kind_name(kind), kind_name(buffer.kind()));
   if (context_->info.compiles_only) return;  // buffers have no memory there
   objects_->bound.insert(binding);
   if (context_->emulates) {

@@ -86,8 +86,10 @@ DeviceInfo describe(VkPhysicalDevice device, int index) {
   const VkPhysicalDeviceLimits& limits = properties.limits;
   info.limits.storage_range = limits.maxStorageBufferRange;
   info.limits.texel_range = uint64_t{limits.maxTexelBufferElements} * 16;
+  info.limits.uniform_range = limits.maxUniformBufferRange;
   info.limits.offset_alignment =
-      std::max(limits.minStorageBufferOffsetAlignment, limits.minTexelBufferOffsetAlignment);
+      std::max({limits.minStorageBufferOffsetAlignment, limits.minTexelBufferOffsetAlignment,
+                limits.minUniformBufferOffsetAlignment});
   std::copy_n(limits.maxComputeWorkGroupCount, 3, info.limits.groups.begin());
   std::copy_n(limits.maxComputeWorkGroupSize, 3, info.limits.group_size.begin());
   info.limits.group_invocations = limits.maxComputeWorkGroupInvocations;
@@ -98,6 +100,9 @@ DeviceInfo describe(VkPhysicalDevice device, int index) {
                 limits.maxPerStageResources});
   info.limits.texel_buffers = std::min({limits.maxPerStageDescriptorStorageImages,
                                         limits.maxDescriptorSetStorageImages, limits.maxPerStageResources});
+  info.limits.uniform_buffers =
+      std::min({limits.maxPerStageDescriptorUniformBuffers, limits.maxDescriptorSetUniformBuffers,
+                limits.maxPerStageResources});
   info.limits.drawn_size =
       std::min({limits.maxFramebufferWidth, limits.maxFramebufferHeight, limits.maxImageDimension2D,
                 limits.maxViewportDimensions[0], limits.maxViewportDimensions[1]});

@@ -15,8 +15,8 @@ RawBuffer::RawBuffer(std::shared_ptr<Context> context, size_t bytes, MemoryKind 
   info.size = bytes;
   info.usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
   if (kind != MemoryKind::host)
-    info.usage |= VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT |
-                  VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
+    info.usage |= VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
+                  VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
   check(vkCreateBuffer(context_->device, &info, nullptr, &buffer_), "create a buffer");
   try {
     allocate(kind, bytes, name);

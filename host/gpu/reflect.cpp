@@ -21,6 +21,7 @@ struct Id {
   std::string name;
   std::map<uint32_t, Member> members;
   std::optional<uint32_t> set, binding, array_stride;
+  bool buffer_block = false;
   std::vector<uint32_t> definition;  // the type or constant instruction
 };
 
@@ -56,6 +57,7 @@ struct Module {
         if (i[2] == spv::DecorationDescriptorSet) ids[i[1]].set = i[3];
         if (i[2] == spv::DecorationBinding) ids[i[1]].binding = i[3];
         if (i[2] == spv::DecorationArrayStride) ids[i[1]].array_stride = i[3];
+        if (i[2] == spv::DecorationBufferBlock) ids[i[1]].buffer_block = true;
         break;
       case spv::OpExecutionMode:
         if (i[2] == spv::ExecutionModeLocalSize) local_size = {i[3], i[4], i[5]};
@@ -113,8 +115,11 @@ struct Module {
 // The kind of a variable's binding, if eyeray binds it.
 std::optional<BindingKind> binding_kind(const Module& module, const Variable& variable) {
   if (variable.storage == spv::StorageClassStorageBuffer) return BindingKind::storage;
-  const std::vector<uint32_t>& type =
-      module.ids.at(module.ids.at(variable.pointer).definition.at(3)).definition;
+  const Id& target = module.ids.at(module.ids.at(variable.pointer).definition.at(3));
+  const std::vector<uint32_t>& type = target.definition;
+  const bool block = !type.empty() && (type[0] & 0xffffu) == spv::OpTypeStruct;
+  if (variable.storage == spv::StorageClassUniform && block)
+    return target.buffer_block ? BindingKind::storage : BindingKind::uniform;
   const bool texels = !type.empty() && (type[0] & 0xffffu) == spv::OpTypeImage && type[3] == spv::DimBuffer &&
                       type[7] == 2 && type[8] == spv::ImageFormatRgba32ui;
   if (variable.storage == spv::StorageClassUniformConstant && texels) return BindingKind::texels;
@@ -137,14 +142,17 @@ Reflection reflect(std::span<const uint32_t> spirv) {
     if (found == module.ids.end()) continue;  // neither named nor bound: a local variable
     const Id& id = found->second;
     if (variable.storage == spv::StorageClassPushConstant)
-      reflection.push_constant_bytes = module.size(module.ids.at(variable.pointer).definition.at(3));
+      // Vulkan sets them in words.
+      reflection.push_constant_bytes =
+          (module.size(module.ids.at(variable.pointer).definition.at(3)) + 3) / 4 * 4;
     if (!id.binding) continue;
     const std::optional<BindingKind> kind = binding_kind(module, variable);
     if (!kind || id.set.value_or(0) != 0)
-      throw Error(ExitCode::bad_input,
-                  "the shader binds '{}' at set {}, binding {}: eyeray provides only storage buffers and "
-                  "texel buffers (uimageBuffer, rgba32ui), in set 0",
-                  id.name, id.set.value_or(0), *id.binding);
+      throw Error(
+          ExitCode::bad_input,
+          "the shader binds '{}' at set {}, binding {}: eyeray provides only storage buffers, uniform "
+          "buffers and texel buffers (uimageBuffer, rgba32ui), in set 0",
+          id.name, id.set.value_or(0), *id.binding);
     reflection.bindings.emplace(*id.binding, *kind);
   }
   for (const uint32_t type : module.structs) {

@@ -24,6 +24,7 @@ struct ReflectedStruct {
 
 enum class BindingKind {
   storage,  // a storage buffer
+  uniform,  // a uniform buffer
   texels,   // a storage texel buffer of four 32-bit unsigned integers a texel: uimageBuffer, rgba32ui
 };
 

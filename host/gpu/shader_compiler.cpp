@@ -1,5 +1,6 @@
 #include "host/gpu/shader_compiler.hpp"
 
+#define ENABLE_HLSL  // NOLINT: without it, glslang's header hides functions that its library has
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
 #include <glslang/SPIRV/GlslangToSpv.h>
@@ -75,21 +76,36 @@ EShLanguage stage_of(std::string_view entry) {
 
 }  // namespace
 
-CompiledShader compile_shader(const ShaderSource& source, std::string_view preamble, Lines lines) {
+CompiledShader compile_shader(const ShaderSource& source, std::string_view preamble, Lines lines,
+                              const std::string& entry_point) {
   initialize_glslang();
   const std::string& text = source.files.at(source.entry);
   const char* strings[] = {text.c_str()};
   const int lengths[] = {int(text.size())};
   const char* names[] = {source.entry.c_str()};
-  const std::string before = "#extension GL_GOOGLE_include_directive : require\n" + std::string(preamble);
+  const bool hlsl = source.entry.ends_with(".hlsl");
+  const std::string before =
+      (hlsl ? "" : "#extension GL_GOOGLE_include_directive : require\n") + std::string(preamble);
 
   // Parse. Errors cascade, so that all are seen at once.
-  constexpr auto messages = EShMessages(EShMsgSpvRules | EShMsgVulkanRules | EShMsgCascadingErrors);
+  const auto messages = EShMessages(EShMsgSpvRules | EShMsgVulkanRules | EShMsgCascadingErrors |
+                                    (hlsl ? EShMsgReadHlsl : EShMsgDefault));
   const EShLanguage stage = stage_of(source.entry);
   glslang::TShader shader(stage);
   shader.setStringsWithLengthsAndNames(strings, lengths, names, 1);
   shader.setPreamble(before.c_str());
-  shader.setEnvInput(glslang::EShSourceGlsl, stage, glslang::EShClientVulkan, 100);
+  shader.setEnvInput(hlsl ? glslang::EShSourceHlsl : glslang::EShSourceGlsl, stage, glslang::EShClientVulkan,
+                     100);
+  if (hlsl) {
+    // HLSL numbers each kind of resource from 0.
+    shader.setEntryPoint(entry_point.c_str());
+    shader.setSourceEntryPoint(entry_point.c_str());
+    shader.setAutoMapBindings(true);
+    shader.setHlslIoMapping(true);
+    shader.setShiftBinding(glslang::EResTexture, 100);
+    shader.setShiftBinding(glslang::EResUav, 200);
+    shader.setShiftBinding(glslang::EResSampler, 300);
+  }
   shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_1);
   shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_3);
   Includer includer(source);
@@ -98,7 +114,7 @@ CompiledShader compile_shader(const ShaderSource& source, std::string_view pream
   // Link, and write the words. Optimisation comes later; names stay for reflection.
   glslang::TProgram program;
   program.addShader(&shader);
-  if (!program.link(messages)) fail(program.getInfoLog(), source);
+  if (!program.link(messages) || (hlsl && !program.mapIO())) fail(program.getInfoLog(), source);
   CompiledShader result;
   result.warnings = parse_compiler_messages(shader.getInfoLog(), source);
   glslang::SpvOptions options;

@@ -80,8 +80,8 @@ TEST_CASE("a device that lets a kernel have few storage buffers is refused, with
       run_eyeray(render({"scenes/whitted.toml", "--tune", "constants=off"}, folder), environment);
   CHECK(result.code == 3);
   CAPTURE(result.err);
-  CHECK(result.err.find(" storage buffers and 0 texel buffers, but ") != std::string::npos);
-  CHECK(result.err.find(" lets a kernel have at most 2 and ") != std::string::npos);
+  CHECK(result.err.find(" storage buffers, but ") != std::string::npos);
+  CHECK(result.err.find(" lets a kernel have at most 2: ") != std::string::npos);
 }
 
 TEST_CASE("no draw of --raster takes longer than 100 ms on a watched device") {
