@@ -13,7 +13,7 @@ namespace {
 
 // (k0 x² + k1 x) / (k3 x² + k4 x + k5): Narkowicz's fit of ACES, which takes 0.6 of its input.
 constexpr double k0 = 0.36 * 2.51, k1 = 0.6 * 0.03, k3 = 0.36 * 2.43, k4 = 0.6 * 0.59, k5 = 0.14;
-constexpr double shown = 0.85;  // the paper's t
+constexpr double shown_luminance = 0.85;  // the paper's t
 
 double tone_mapped(double x) {
   // For such bright input, the terms in x² alone decide the quotient.
@@ -21,9 +21,9 @@ double tone_mapped(double x) {
   return std::clamp((k0 * x + k1) * x / ((k3 * x + k4) * x + k5), 0.0, 1.0);
 }
 
-// The luminance that the tone mapper maps to `shown`.
+// The luminance that the tone mapper maps to `shown_luminance`.
 double brightest_shown() {
-  const double a = k0 - shown * k3, b = k1 - shown * k4, c = -shown * k5;
+  const double a = k0 - shown_luminance * k3, b = k1 - shown_luminance * k4, c = -shown_luminance * k5;
   return -b / (2 * a) + std::sqrt(b * b / (4 * a * a) - c / a);
 }
 

@@ -94,7 +94,10 @@ std::vector<std::string> Report::failures() const {
     return may_stay_unverified ? std::vector<std::string>{}
                                : std::vector<std::string>{"not verified: " + not_verified};
   std::vector<std::string> failures;
-  if (participants.size() < 2) failures.push_back("nothing was compared");
+  const bool watched =
+      std::ranges::any_of(participants, [](const Participant& each) { return each.findings.has_value(); });
+  const bool compared = is_kernel() ? watched || !buffers.empty() : participants.size() >= 2;
+  if (!compared) failures.push_back("nothing was compared");
 
   // Faults within one picture come first: they make the comparisons fail too.
   for (const Participant& p : participants) {
@@ -130,6 +133,8 @@ std::vector<std::string> Report::failures() const {
       failures.push_back(
           fmt::format("gate D: {} against the reference: {}", result.value, describe(c.paired_sum)));
   }
+  for (const BufferResult& result : buffers)
+    if (!result.passes()) failures.push_back(failure_of(result));
   for (const DenoisedResult& result : denoised) add_failures(failures, result);
   for (const RasterResult& result : raster)
     if (!result.passes()) failures.push_back(describe(result));

@@ -1,4 +1,4 @@
-// The findings of `eyeray verify` on a scene, for people and for programs.
+// The findings of `eyeray verify` on a scene, or on a kernel that a user brings, for people and for programs.
 #pragma once
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "host/compare/against_reference.hpp"
+#include "host/compare/buffer_result.hpp"
 #include "host/compare/denoised_result.hpp"
 #include "host/compare/exact.hpp"
 #include "host/compare/metrics.hpp"
@@ -103,6 +104,8 @@ struct Report {
   std::vector<RasterResult> raster;      // gate R for every participant; empty if not requested
   std::optional<PhotonTally> photons;    // set if the scene's integrator emits any
   std::optional<GoldenResult> golden;
+  std::string dispatch;  // "blur.comp, 8×8×1 work groups of 8×8×1 invocations"; empty if a scene was verified
+  std::vector<BufferResult> buffers;  // a kernel's buffers
   // The names of the indices in first hits, such as `sphere "left eye", scene.toml:12`, for the indices that
   // a report names.
   std::map<int32_t, std::string> primitives, materials;
@@ -115,6 +118,7 @@ struct Report {
   // that differ from eyeray's own come before all that fails.
   std::vector<std::string> failures() const;
   bool passes() const { return failures().empty(); }
+  bool is_kernel() const { return !dispatch.empty(); }
   // True if all gates pass except gate G, which compares with an earlier picture of the scene.
   bool own_gates_pass() const;
   // "passed", "failed", or "skipped", if it may stay unverified and did.

@@ -157,6 +157,26 @@ Json json(const GoldenResult& result) {
   return object;
 }
 
+Json json(const BufferResult& result) {
+  Json object = {{"gate", std::string(1, result.gate)},
+                 {"value", result.value},
+                 {"other", result.other},
+                 {"buffer", result.buffer},
+                 {"passed", result.passes()}};
+  if (!result.incomparable.empty()) {
+    object["incomparable"] = result.incomparable;
+    return object;
+  }
+  object.update({{"numbers", result.numbers},
+                 {"different", result.different},
+                 {"beyond", result.beyond},
+                 {"max_ulp", result.largest},
+                 {"ulp_allowed", result.ulp},
+                 {"absolute_allowed", result.absolute},
+                 {"first", result.first}});
+  return object;
+}
+
 template <typename Item>
 Json list(const std::vector<Item>& items) {
   Json array = Json::array();
@@ -177,6 +197,16 @@ Json json(const Report& report) {
             {"passed", report.passes()},
             {"failures", report.failures()},
             {"not_verified", report.not_verified}};
+  if (report.is_kernel())
+    return {{"scene", report.scene},
+            {"verdict", report.verdict()},
+            {"seconds", report.seconds},
+            {"passed", report.passes()},
+            {"failures", report.failures()},
+            {"kernel", report.dispatch},
+            {"executors", list(report.participants)},
+            {"buffers", list(report.buffers)},
+            {"kept", report.kept}};
   return {{"scene", report.scene},
           {"verdict", report.verdict()},
           {"seconds", report.seconds},

@@ -22,11 +22,25 @@ int64_t count(std::span<const Report> reports, std::string_view verdict) {
   return std::ranges::count(reports, verdict, &Report::verdict);
 }
 
-int64_t explained(const Tally& tally) {
+int64_t explained_of(const Tally& tally) {
   return tally.explained_pixels();
 }
-int64_t unexplained(const Tally& tally) {
+int64_t unexplained_of(const Tally& tally) {
   return tally.unexplained + tally.unexamined;
+}
+
+// The numbers of a kernel's buffers that were compared, and those that differ too much.
+uint64_t sum(const Report& report, uint64_t BufferResult::* of) {
+  uint64_t all = 0;
+  for (const BufferResult& result : report.buffers) all += result.*of;
+  return all;
+}
+
+// "scene", "kernel" or "scenes and kernels", in the plural unless there is one.
+std::string kind_of(std::span<const Report> reports) {
+  const auto kernels = size_t(std::ranges::count_if(reports, &Report::is_kernel));
+  if (kernels > 0 && kernels < reports.size()) return "scenes and kernels";
+  return fmt::format("{}{}", kernels > 0 ? "kernel" : "scene", reports.size() == 1 ? "" : "s");
 }
 
 // The first failure of a report, for a cell of a table.
@@ -51,6 +65,22 @@ std::string cell(std::string_view text) {
   return escaped;
 }
 
+// An annotation of a kernel's source for a finding such as "blur.comp:12:5 (OpLoad %17): race: …". Empty if
+// the finding names no line.
+std::string annotation_of(const std::string& finding) {
+  std::string file = finding.substr(0, finding.find(" ("));
+  std::vector<std::string> numbers;  // the column, if it is known, and the line
+  for (size_t colon; (colon = file.rfind(':')) != std::string::npos; file.resize(colon)) {
+    const std::string number = file.substr(colon + 1);
+    if (number.empty() || number.find_first_not_of("0123456789") != std::string::npos) break;
+    numbers.push_back(number);
+  }
+  if (numbers.empty()) return "";
+  return fmt::format("::error file={},line={},{}title=eyeray verify::{}\n", github_text(file, true),
+                     numbers.back(), numbers.size() > 1 ? fmt::format("col={},", numbers[0]) : "",
+                     github_text(finding, false));
+}
+
 }  // namespace
 
 std::string to_row(const Report& report, size_t width) {
@@ -59,14 +89,17 @@ std::string to_row(const Report& report, size_t width) {
   const std::string start = fmt::format("{:<7} {}{}", report.verdict(), name,
                                         std::string(width - std::min(width, name.size()), ' '));
   if (!report.not_verified.empty()) return fmt::format("{}  {}\n", start, log_line(first_failure(report)));
+  if (report.is_kernel())
+    return fmt::format("{}  {:>11} numbers {:>17} differ {:>10.2f} s\n", start,
+                       sum(report, &BufferResult::numbers), sum(report, &BufferResult::beyond),
+                       report.seconds);
   return fmt::format("{}  {:>5}×{:<5} {:>7} explained {:>7} unexplained {:>8.2f} s\n", start,
-                     report.area.width, report.area.height, report.count(explained),
-                     report.count(unexplained), report.seconds);
+                     report.area.width, report.area.height, report.count(explained_of),
+                     report.count(unexplained_of), report.seconds);
 }
 
 std::string summary(std::span<const Report> reports) {
-  std::string text = fmt::format("{} scene{} in {:.1f} s: ", reports.size(), reports.size() == 1 ? "" : "s",
-                                 seconds(reports));
+  std::string text = fmt::format("{} {} in {:.1f} s: ", reports.size(), kind_of(reports), seconds(reports));
   const int64_t failed = count(reports, "failed"), skipped = count(reports, "skipped");
   if (failed + skipped == 0) return text + "all passed\n";
   text += fmt::format("{} passed", count(reports, "passed"));
@@ -112,10 +145,14 @@ std::string to_junit(std::span<const Report> reports) {
 
 std::string to_annotations(std::span<const Report> reports) {
   std::string text;
-  for (const Report& report : reports)
+  for (const Report& report : reports) {
+    for (const Participant& each : report.participants)
+      if (report.is_kernel() && each.findings)
+        for (const std::string& finding : *each.findings) text += annotation_of(finding);
     for (const std::string& failure : report.failures())
       text += fmt::format("::error file={},title=eyeray verify::{}\n", github_text(report.scene, true),
                           github_text(failure.substr(0, failure.find('\n')), false));
+  }
   return text;
 }
 
@@ -126,9 +163,12 @@ std::string to_markdown(std::span<const Report> reports) {
   text += "| scene | verdict | pixels | explained | unexplained | seconds | first failure |\n";
   text += "| --- | --- | ---: | ---: | ---: | ---: | --- |\n";
   for (const Report& report : reports) {
-    text += fmt::format("| {} | {} | {} | {} | {} | {:.2f} | {} |\n", cell(report.scene), report.verdict(),
-                        report.area.pixels(), report.count(explained), report.count(unexplained),
-                        report.seconds, cell(first_failure(report)));
+    text += fmt::format(
+        "| {} | {} | {} | {} | {} | {:.2f} | {} |\n", cell(report.scene), report.verdict(),
+        report.is_kernel() ? int64_t(sum(report, &BufferResult::numbers)) : report.area.pixels(),
+        report.count(explained_of),
+        report.is_kernel() ? int64_t(sum(report, &BufferResult::beyond)) : report.count(unexplained_of),
+        report.seconds, cell(first_failure(report)));
   }
   return text;
 }

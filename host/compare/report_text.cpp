@@ -201,9 +201,11 @@ std::string to_text(const Report& report) {
     line(text, "  not verified: {}", report.not_verified);
     return log_lines(text);
   }
-  line(text, "{} {} ({}×{} of {}×{} pixels, {} sample{} a pixel)", failures.empty() ? "PASSED" : "FAILED",
-       log_line(report.scene), report.area.width, report.area.height, report.width, report.height,
-       report.samples, report.samples == 1 ? "" : "s");
+  line(text, "{} {} ({})", failures.empty() ? "PASSED" : "FAILED", log_line(report.scene),
+       report.is_kernel()
+           ? report.dispatch
+           : fmt::format("{}×{} of {}×{} pixels, {} sample{} a pixel", report.area.width, report.area.height,
+                         report.width, report.height, report.samples, report.samples == 1 ? "" : "s"));
   if (failures.empty() && !report.changed_shaders.empty()) line(text, "  {}", report.note_of_shaders());
   for (const std::string& failure : failures) line(text, "  {}", failure);
   if (const std::string diagnosis = report.diagnosis(); !diagnosis.empty())
@@ -211,7 +213,8 @@ std::string to_text(const Report& report) {
 
   // The participants, and every gate in detail.
   for (const Participant& p : report.participants) {
-    line(text, "  {} ({} rays in {:.3g} s)", p.description, p.rays, p.seconds);
+    line(text, "  {} ({}{:.3g} s)", p.description,
+         report.is_kernel() ? "" : fmt::format("{} rays in ", p.rays), p.seconds);
   }
   for (const Participant& p : report.participants) {
     if (!p.findings) continue;
@@ -238,6 +241,10 @@ std::string to_text(const Report& report) {
       add(text, report, result);
     }
   }
+  for (const BufferResult& result : report.buffers) {
+    line(text, "  {}", to_text(result));
+    if (!result.first.empty()) line(text, "    {}", result.first);
+  }
   for (const DenoisedResult& result : report.denoised) add(text, result);
   if (!report.raster.empty()) add_drawing(text, report.raster[0]);
   for (const RasterResult& result : report.raster) add(text, report, result);
@@ -246,7 +253,9 @@ std::string to_text(const Report& report) {
   // The next command to run.
   if (const std::string command = report.command_to_look(); !command.empty())
     line(text, "  look closer: {}\n  its rays: {}", command, report.command_to_probe());
-  if (!report.kept.empty()) line(text, "  pictures and the command line are kept in {}", report.kept);
+  if (!report.kept.empty())
+    line(text, "  {} are kept in {}", report.is_kernel() ? "the buffers" : "pictures and the command line",
+         report.kept);
   return log_lines(text);
 }
 
