@@ -33,6 +33,7 @@ using Run = std::function<ExitCode()>;
 
 void add_render(CLI::App& app, Run& run);
 void add_verify(CLI::App& app, Run& run);
+void add_run(CLI::App& app, Run& run);
 void add_compare(CLI::App& app, Run& run);
 void add_probe(CLI::App& app, Run& run);
 void add_check(CLI::App& app, Run& run);
@@ -61,6 +62,8 @@ class SceneOptions {
   // The options that were given, to be pasted into another command: " -s 96x72 --spp 4".
   std::string as_written() const;
   const std::string& file() const { return file_; }
+  // The values of -D.
+  const std::vector<std::string>& defines() const { return defines_; }
   // These options, with more values that override the scene's.
   SceneOptions with_defines(const std::vector<std::string>& defines) const {
     SceneOptions options = *this;
@@ -98,7 +101,9 @@ std::vector<std::string> value_choices(std::string_view option);
 // Reads "3,4" as {3, 4}; Error (bad_input) for anything else.
 std::pair<int, int> parse_pixel(const std::string& text);
 
-// --device, --shaders, --fast-math, --validate, --timeout, --tune.
+// --device, --timeout, --fast-math, --tune, --validate.
+void add_device_options(CLI::App& command, executors::ExecutorOptions& options);
+// These, --shaders, --compile-twin and --sanitize.
 void add_executor_options(CLI::App& command, executors::ExecutorOptions& options);
 
 // Reads a list such as "gpu,twin", which names no backend twice; Error (bad_input) for anything else.

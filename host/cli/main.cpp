@@ -69,6 +69,7 @@ int run_command_line(int argc, char** argv) {
   add_render(app, run);
   add_merge(app, run);
   add_verify(app, run);
+  add_run(app, run);
   add_compare(app, run);
   add_probe(app, run);
   add_check(app, run);

@@ -229,7 +229,7 @@ Scene SceneOptions::load() const {
   return scene;
 }
 
-void add_executor_options(CLI::App& command, executors::ExecutorOptions& options) {
+void add_device_options(CLI::App& command, executors::ExecutorOptions& options) {
   const std::string group = "Device";
   command
       .add_option("--device", options.gpu.device,
@@ -237,33 +237,10 @@ void add_executor_options(CLI::App& command, executors::ExecutorOptions& options
       ->option_text("WHICH")
       ->group(group);
   command
-      .add_option("--shaders", options.shader_folder,
-                  "A folder whose files replace the embedded shaders of the same names (see eyeray shaders "
-                  "--export).")
-      ->option_text("DIR")
-      ->group(group)
-      ->check([](const std::string& folder) {
-        if (!std::filesystem::is_directory(folder))
-          throw Error(ExitCode::file_io, "--shaders {}: no such folder; eyeray shaders --export {} makes one",
-                      folder, shell_word(folder));
-        warn_of_misplaced_shaders(folder);
-        return std::string();
-      });
-  command
       .add_option("--timeout", options.gpu.timeout_seconds, "The longest wait for the device, in seconds.")
       ->option_text(fmt::format("SECONDS={}", options.gpu.timeout_seconds))
       ->group(group)
       ->check(within(0.001, 1e6));
-  command
-      .add_flag("--compile-twin", options.twin.compile,
-                "Compile the twin from --shaders too, with a C++ compiler ($CXX), for debuggers.")
-      ->group(group);
-  command
-      .add_option_function<std::string>(
-          "--sanitize", [&options](const std::string& list) { sanitize(options, list); },
-          "Compile the twin with sanitizers: address, undefined, or both (address,undefined).")
-      ->option_text("LIST")
-      ->group(group);
   command
       .add_flag("--fast-math", options.gpu.fast_math,
                 "Let the driver contract and re-associate arithmetic. Results are then not bit-exact.")
@@ -290,6 +267,34 @@ void add_executor_options(CLI::App& command, executors::ExecutorOptions& options
       ->option_text("SET")
       ->group(group)
       ->check(one_of({"core", "sync"}));
+}
+
+void add_executor_options(CLI::App& command, executors::ExecutorOptions& options) {
+  add_device_options(command, options);
+  const std::string group = "Device";
+  command
+      .add_option("--shaders", options.shader_folder,
+                  "A folder whose files replace the embedded shaders of the same names (see eyeray shaders "
+                  "--export).")
+      ->option_text("DIR")
+      ->group(group)
+      ->check([](const std::string& folder) {
+        if (!std::filesystem::is_directory(folder))
+          throw Error(ExitCode::file_io, "--shaders {}: no such folder; eyeray shaders --export {} makes one",
+                      folder, shell_word(folder));
+        warn_of_misplaced_shaders(folder);
+        return std::string();
+      });
+  command
+      .add_flag("--compile-twin", options.twin.compile,
+                "Compile the twin from --shaders too, with a C++ compiler ($CXX), for debuggers.")
+      ->group(group);
+  command
+      .add_option_function<std::string>(
+          "--sanitize", [&options](const std::string& list) { sanitize(options, list); },
+          "Compile the twin with sanitizers: address, undefined, or both (address,undefined).")
+      ->option_text("LIST")
+      ->group(group);
 }
 
 void add_backend_option(CLI::App& command, executors::Backend& backend) {

@@ -10,6 +10,8 @@
 #include "host/build/build_facts.hpp"
 #include "host/cli/command.hpp"
 #include "host/cli/merged_report.hpp"
+#include "host/cli/verify_kernel.hpp"
+#include "host/compute/job.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/core/content_hash.hpp"
 #include "host/core/escaped_text.hpp"
@@ -39,6 +41,7 @@ struct VerifyCommand {
   bool json = false;
   bool record = false;
   bool emulate = false;
+  bool backends_given = false;  // by --backends
   bool keep_passed = false;
   std::string junit;
   std::string page_folder;
@@ -62,7 +65,8 @@ struct VerifyCommand {
   void report_the_end(const Error& error, const std::string& file);
   void record_allowance(const compare::Report& report) const;
   void write_reports(std::span<const compare::Report> reports) const;
-  compare::Report report_on(const SceneOptions& scene_file) const;
+  compare::Report report_on(const SceneOptions& scene_file);
+  compare::Report report_on_kernel(const SceneOptions& kernel_file);
   std::string name_in_folder(const std::string& scene) const;
   fs::path folder_for(const std::string& scene) const;
   std::optional<verify::Golden> golden_of(const std::string& scene) const;
@@ -141,7 +145,22 @@ std::string VerifyCommand::report_in_json(std::span<const compare::Report> repor
   return json_text(report) + "\n";
 }
 
-compare::Report VerifyCommand::report_on(const SceneOptions& scene_file) const {
+compare::Report VerifyCommand::report_on_kernel(const SceneOptions& kernel_file) {
+  if (suite_size == 1 && (record || !against.empty() || options.crop.pixels() > 0))
+    throw Error(ExitCode::bad_input, "{} is a kernel; --against, --record and --crop are for scenes",
+                kernel_file.file());
+  const compare::Report report = verify_kernel({.file = kernel_file.file(),
+                                                .defines = kernel_file.defines(),
+                                                .backends_given = backends_given,
+                                                .evidence = folder_for(kernel_file.file()),
+                                                .keep_always = keep_passed},
+                                               options);
+  page.add(report);
+  return report;
+}
+
+compare::Report VerifyCommand::report_on(const SceneOptions& scene_file) {
+  if (compute::is_job(scene_file.file())) return report_on_kernel(scene_file);
   const Scene scene = scene_file.load();
   session::crop_within(options.crop, scene.image);
   const fs::path& folder = options.executor.shader_folder;
@@ -181,7 +200,7 @@ compare::Report VerifyCommand::report_on_one_of_many(const std::string& file) {
 
 void VerifyCommand::record_allowance(const compare::Report& report) const {
   const std::optional<double> allowance = report.healthy_allowance();
-  if (!allowance) return;
+  if (!allowance || report.is_kernel()) return;
   const std::string share = *allowance > 0 ? fmt::format("{:.5f}", *allowance) : "0";
   loader::set_value(report.scene, "verify", "max_explained", share);
   print_lines(stderr, "eyeray: recorded max_explained = {} in {}\n", share, report.scene);
@@ -292,7 +311,8 @@ void add_verify(CLI::App& app, Run& run) {
                       "Further scenes, or folders of them, with the same options.");
   add_crop_option(*command, how.crop);
   add_executor_options(*command, how.executor);
-  const auto parse = [&how](const std::string& list) {
+  const auto parse = [options, &how](const std::string& list) {
+    options->backends_given = true;
     how.backends = parse_backends(list);
     if (std::ranges::find(how.backends, executors::Backend::reference) != how.backends.end())
       throw Error(

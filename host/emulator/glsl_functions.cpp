@@ -80,7 +80,7 @@ Execute common_function(uint32_t function, uint32_t bits) {
       return reals<3, ([](auto low, auto high, auto x) {
                      using T = decltype(x);
                      const T t = least(greatest((x - low) / (high - low), T(0)), T(1));
-                     return t * (t * (3 - 2 * t));
+                     return t * t * (3 - 2 * t);
                    })>(bits);
     case GLSLstd450Fma:
       return reals<3, ([](auto x, auto y, auto z) { return x * y + z; })>(bits);

@@ -49,34 +49,25 @@ T dot_product(const T* a, const T* b, uint32_t size) {
   return sum;
 }
 
-// Matrices are in columns. Vulkan leaves the order of these sums free, too, and it is Mesa's again.
+// The minor without row and column, of a matrix in columns.
 template <typename T>
 T determinant(const T* m, uint32_t size) {
   if (size == 1) return m[0];
-  if (size == 2) return m[0] * m[3] - m[1] * m[2];
-  if (size == 3) {
-    T part[3];
-    for (uint32_t n = 0; n < 3; ++n) {
-      const uint32_t next = (n + 1) % 3, last = (n + 2) % 3;
-      part[n] = m[n] * (m[3 + next] * m[6 + last] - m[3 + last] * m[6 + next]);
-    }
-    return part[0] + part[1] + part[2];
+  T sum = 0;
+  for (uint32_t column = 0; column < size; ++column) {
+    T minor[9] = {};
+    uint32_t at = 0;
+    for (uint32_t c = 0; c < size; ++c)
+      for (uint32_t r = 1; c != column && r < size; ++r) minor[at++] = m[c * size + r];
+    sum += T(column % 2 ? -1 : 1) * m[column * size] * determinant(minor, size - 1);
   }
-  T part[4];
-  for (uint32_t without = 0; without < 4; ++without) {
-    T minor[9];
-    for (uint32_t column = 0; column < 3; ++column)
-      for (uint32_t row = 0; row < 3; ++row)
-        minor[column * 3 + row] = m[(column + 1) * 4 + row + (row >= without)];
-    part[without] = m[without] * determinant(minor, 3);
-  }
-  return (part[0] - part[1]) + (part[2] - part[3]);
+  return sum;
 }
 
-// The adjugate divided by the determinant.
+// The adjugate divided by the determinant, of matrices in columns.
 template <typename T>
 void invert(const T* m, uint32_t size, T* to) {
-  const T scale = 1 / determinant(m, size);
+  const T whole = determinant(m, size);
   for (uint32_t column = 0; column < size; ++column)
     for (uint32_t row = 0; row < size; ++row) {
       T minor[9] = {};
@@ -84,7 +75,7 @@ void invert(const T* m, uint32_t size, T* to) {
       for (uint32_t c = 0; c < size; ++c)
         for (uint32_t r = 0; r < size; ++r)
           if (c != row && r != column) minor[at++] = m[c * size + r];
-      to[column * size + row] = T((column + row) % 2 ? -1 : 1) * determinant(minor, size - 1) * scale;
+      to[column * size + row] = T((column + row) % 2 ? -1 : 1) * determinant(minor, size - 1) / whole;
     }
 }
 
@@ -170,7 +161,7 @@ Execute geometric_function(uint32_t function, uint32_t bits) {
     case GLSLstd450Refract:
       return vectors<([](auto& v, auto* to) {
         const auto eta = v.of[2][0], cosine = dot_product(v.of[1], v.of[0], v.size);
-        const auto k = 1 - eta * (eta * (1 - cosine * cosine));
+        const auto k = 1 - eta * eta * (1 - cosine * cosine);
         for (uint32_t n = 0; n < v.size && k >= 0; ++n)
           to[n] = eta * v.of[0][n] - (eta * cosine + std::sqrt(k)) * v.of[1][n];
       })>(bits);

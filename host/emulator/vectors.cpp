@@ -14,9 +14,8 @@ Computed<T> number_at(Group& group, const Source& source, uint32_t component, ui
   return x;
 }
 
-// The sum of a's numbers from `first`, `step` apart, times b's from `other`, as a component of the result.
-// Vulkan leaves the order of the sum free. It is Mesa's: from the last column of a matrix down, and from the
-// first number of a vector up.
+// The sum of a's numbers from `first`, `step` apart, times b's from `other`, in their order, as a component
+// of the result.
 template <typename T>
 void product(Group& group, const Operation& o, uint32_t component, const Source& a, uint32_t first,
              uint32_t step, const Source& b, uint32_t other, uint32_t count) {
@@ -27,9 +26,8 @@ void product(Group& group, const Operation& o, uint32_t component, const Source&
       return number_at<T>(group, a, first + n * step, lane, any_nan) *
              number_at<T>(group, b, other + n, lane, any_nan);
     };
-    const bool down = step > 1;
-    Computed<T> sum = term(down ? count - 1 : 0);
-    for (uint32_t n = 1; n < count; ++n) sum += term(down ? count - 1 - n : n);
+    Computed<T> sum = term(0);
+    for (uint32_t n = 1; n < count; ++n) sum += term(n);
     to.set(lane, sum);
     if (!any_nan) note_birth<T, T, 0>(group, o, lane, to, {});
   });

@@ -55,7 +55,7 @@ def blocks(text):
 def steps(text):
     """Commands, and between them (file, text, mode) of the files that a reader writes, and the lines of sed."""
     for language, block in blocks(text):
-        named = re.match(r"(?:#|//) ([\w./-]+\.(?:toml|glsl))(, continued)?\n", block)
+        named = re.match(r"(?:#|//) ([\w./-]+\.(?:toml|glsl|comp))(, continued)?\n", block)
         if named and language in ("toml", "glsl"):
             yield named[1], block, "a" if named[2] else "w"
         elif language in ("", "sh"):
@@ -143,7 +143,8 @@ def run_all(document, all_steps, used):
     faults = []
     with tempfile.TemporaryDirectory() as folder:
         here = pathlib.Path(folder)
-        (here / "scenes").symlink_to(ROOT / "scenes")
+        for folder_of_ours in ("scenes", "examples"):
+            (here / folder_of_ours).symlink_to(ROOT / folder_of_ours)
         for name, source in BROUGHT.items():
             shutil.copy(ROOT / source, here / name)
         for name in RENDERED:

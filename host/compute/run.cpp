@@ -1,0 +1,68 @@
+#include "host/compute/run.hpp"
+
+#include "host/compute/data_file.hpp"
+#include "host/compute/module.hpp"
+#include "host/core/error.hpp"
+#include "host/gpu/command_list.hpp"
+#include "host/gpu/float_policy.hpp"
+
+namespace eyeray::engine::compute {
+namespace {
+
+void check_groups(const Job& job, const gpu::DeviceInfo& device) {
+  for (size_t axis = 0; axis < 3; ++axis)
+    if (job.groups[axis] > device.limits.groups[axis])
+      throw Error(ExitCode::no_device, "{} has {} work groups along {}, but {} dispatches at most {}",
+                  job.file, job.groups[axis], "xyz"[axis], device.name, device.limits.groups[axis]);
+}
+
+}  // namespace
+
+Outcome run(const Job& job, const RunOptions& options) {
+  gpu::DeviceOptions device_options = options.device;
+  device_options.all_features = true;
+  gpu::Device device(device_options);
+  const gpu::DeviceInfo& info = device.info();
+  check_groups(job, info);
+  Outcome outcome;
+  outcome.executor = options.device.emulate ? "emulator" : "gpu";
+  outcome.description = options.device.emulate
+                            ? fmt::format("emulator: subgroups of {}, as {} would get the kernel",
+                                          info.limits.subgroup_size, info.name)
+                            : fmt::format("gpu: {}, {}", info.name, info.driver_version);
+
+  std::vector<uint32_t> spirv = job.spirv;
+  if (!options.fast_math) {
+    spirv = gpu::decorate_no_contraction(spirv);
+    if (!has_float_modes(spirv)) spirv = gpu::set_float_modes(spirv, info.float_modes);
+  }
+  gpu::Kernel kernel(device, spirv, job.kernel, DiskCache::of_user());
+  std::vector<gpu::Buffer> buffers;
+  buffers.reserve(job.buffers.size());
+  for (size_t i = 0; i < job.buffers.size(); ++i) {
+    const JobBuffer& each = job.buffers[i];
+    gpu::Buffer& buffer = buffers.emplace_back(device, each.bytes.size(), each.slot.name, each.slot.kind);
+    std::vector<std::byte> words = each.bytes;
+    words.resize((words.size() + 3) / 4 * 4);
+    buffer.upload(words);
+    kernel.set_buffer(uint32_t(i), buffer);
+  }
+  outcome.seconds =
+      gpu::dispatch(device, kernel, job.push, {job.groups[0], job.groups[1], job.groups[2]}).seconds;
+  for (size_t i = 0; i < buffers.size(); ++i) {
+    const auto bytes = buffers[i].read().first(job.buffers[i].bytes.size());
+    outcome.buffers.emplace_back(bytes.begin(), bytes.end());
+  }
+  outcome.findings = device.findings();
+  outcome.validation_messages = device.validation_messages();
+  return outcome;
+}
+
+void write_outputs(const Job& job, const Outcome& outcome) {
+  for (size_t i = 0; i < job.buffers.size(); ++i) {
+    const JobBuffer& buffer = job.buffers[i];
+    if (!buffer.output.empty()) write_block(buffer.output, *buffer.type, outcome.buffers[i], buffer.width);
+  }
+}
+
+}  // namespace eyeray::engine::compute
