@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host/importers/gltf_buffers.hpp"
+#include "host/importers/gltf_uv.hpp"
 #include "host/importers/texture_files.hpp"
 #include "host/materials/make.hpp"
 #include "host/scene/material.hpp"
@@ -24,16 +25,6 @@ class GltfLeftOut {
 
  private:
   std::vector<std::pair<std::string, size_t>> counts_;
-};
-
-// The uv that a texture takes: the number of their set (TEXCOORD_0, …) in the mesh, and their transform. It
-// applies before v is flipped, since glTF's v starts at the top of the picture.
-struct GltfUv {
-  uint64_t set = 0;
-  glm::dmat2 linear{1.0};
-  Vec2 offset{0.0};
-
-  bool operator==(const GltfUv&) const = default;
 };
 
 // The uv of a mesh that a material's pictures use.

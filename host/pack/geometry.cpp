@@ -11,6 +11,7 @@
 #include "host/core/parallel_for.hpp"
 #include "host/pack/blas_records.hpp"
 #include "host/pack/csg_records.hpp"
+#include "host/pack/linear_list.hpp"
 #include "host/pack/node_coding.hpp"
 #include "host/pack/record_boxes.hpp"
 #include "host/scene/integrator.hpp"
@@ -25,10 +26,6 @@ namespace {
 constexpr size_t few_tests = 24;
 constexpr size_t few_tests_of_paths = 40;
 constexpr int64_t least_samples_of_paths = 1 << 22;
-// Nearly every ray that hits the scene hits a box of at least this share of the surface area of the scene's
-// box. While few primitives have such boxes, to test them straight away is cheaper than the steps to them.
-constexpr double most_of_scene = 0.5;
-constexpr size_t most_in_linear_list = 4;
 
 size_t few_tests_of(const Scene& scene) {
   const bool paths =
@@ -56,7 +53,7 @@ class GeometryPacker {
                (options_.acceleration == Acceleration::automatic &&
                 (world_.size() + packed_.shape_iterations > packed_.most_linear ||
                  !scene_.instances.empty() || !packed_.instances.empty()));
-    if (world_.size() > packed_.most_linear && packed_.instances.empty()) unbind_few();
+    if (world_.size() > packed_.most_linear && packed_.instances.empty()) unbind_few(world_);
     packed_.has_bvh = use_bvh_ && has_bounded(2);
     if (packed_.has_bvh) build_bvhs();
     lay_out_world();
@@ -223,35 +220,6 @@ class GeometryPacker {
     packed_.uses.emplace(kind, material);
     translucent_ = translucent_ || optical_depth < OPTICAL_DEPTH_OPAQUE;
     return at_each_crossing && optical_depth < OPTICAL_DEPTH_OPAQUE ? optical_depth / 2 : optical_depth;
-  }
-
-  // Moves primitives to the linear list that are few, and have a large box or another kind than nearly all
-  // others, for example a floor and lights around a mesh. The boxes of the BVH are then coded more finely,
-  // and its leaves may be of one kind: rays side by side would compute the tests of all kinds at every leaf.
-  void unbind_few() {
-    bvh::Box all;
-    std::vector<size_t> of_kind(shader::SHAPE_KINDS);
-    for (uint32_t i = 0; i < world_.boxes.size(); ++i) {
-      if (!world_.boxes[i].is_finite()) continue;
-      all.include(world_.boxes[i]);
-      ++of_kind[world_.kind(i)];
-    }
-    const auto most_common = std::ranges::max_element(of_kind) - of_kind.begin();
-    std::vector<size_t> large, others;
-    for (uint32_t i = 0; i < world_.boxes.size(); ++i) {
-      if (!world_.boxes[i].is_finite()) continue;
-      if (world_.boxes[i].area() >= most_of_scene * all.area())
-        large.push_back(i);
-      else if (world_.kind(i) != most_common)
-        others.push_back(i);
-    }
-    if (large.size() + others.size() <= most_in_linear_list)
-      large.insert(large.end(), others.begin(), others.end());
-    else if (large.size() > most_in_linear_list)
-      return;
-    for (const size_t i : large)
-      world_.boxes[i] = {glm::vec3(-std::numeric_limits<float>::infinity()),
-                         glm::vec3(std::numeric_limits<float>::infinity())};
   }
 
   bool has_bounded(size_t least) const {

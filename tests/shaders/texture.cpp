@@ -177,8 +177,8 @@ TEST_CASE("200 000 points of random images: the shader agrees with the formulas 
     image->srgb = random.below(2) == 0;
     const Vec3 tint{random.uniform(), random.uniform(), random.uniform()};
     const Vec2 size{random.log_uniform(0.1, 10), random.log_uniform(0.1, 10)};
-    const Vec2 corner{random.uniform(-2, 2), random.uniform(-2, 2)};
-    const TexturePtr texture = make_image(image, tint, {.corner = corner, .size = size});
+    const Vec2 lower_left{random.uniform(-2, 2), random.uniform(-2, 2)};
+    const TexturePtr texture = make_image(image, tint, {.corner = lower_left, .size = size});
 
     Packer packer(Vec3(0));
     const uint32_t index = texture->pack(packer);
@@ -189,9 +189,9 @@ TEST_CASE("200 000 points of random images: the shader agrees with the formulas 
       const glm::vec2 uv(random.uniform(-reach, reach), random.uniform(-reach, reach));
       // The largest displacement of the point, in texels, by the roundings of a float32.
       const Vec2 texels_a_unit = Vec2(width, height) / size;
-      const Vec2 position = (Vec2(uv) - corner) * texels_a_unit;
+      const Vec2 position = (Vec2(uv) - lower_left) * texels_a_unit;
       const Vec2 error =
-          ((glm::abs(Vec2(uv)) + glm::abs(corner)) * texels_a_unit * 5.0 + Vec2(width, height) * 3.0) *
+          ((glm::abs(Vec2(uv)) + glm::abs(lower_left)) * texels_a_unit * 5.0 + Vec2(width, height) * 3.0) *
           0x1p-24;
       const Vec2 to_border = glm::abs(position - glm::round(position));
       if (filter == Filter::nearest && (to_border.x <= error.x || to_border.y <= error.y)) continue;
