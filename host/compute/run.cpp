@@ -4,6 +4,7 @@
 #include "host/compute/module.hpp"
 #include "host/core/error.hpp"
 #include "host/gpu/command_list.hpp"
+#include "host/gpu/emulation.hpp"
 #include "host/gpu/float_policy.hpp"
 
 namespace eyeray::engine::compute {
@@ -22,6 +23,7 @@ Outcome run(const Job& job, const RunOptions& options) {
   gpu::DeviceOptions device_options = options.device;
   device_options.all_features = true;
   gpu::Device device(device_options);
+  if (options.trace) gpu::trace(device, *options.trace);
   const gpu::DeviceInfo& info = device.info();
   check_groups(job, info);
   Outcome outcome;

@@ -7,11 +7,16 @@
 #include "host/compute/job.hpp"
 #include "host/gpu/device.hpp"
 
+namespace eyeray::engine::emulator {
+struct Trace;
+}
+
 namespace eyeray::engine::compute {
 
 struct RunOptions {
   gpu::DeviceOptions device;
   bool fast_math = false;  // leave the kernel's arithmetic to the driver; else each operation rounds once
+  emulator::Trace* trace = nullptr;  // traces one invocation; of the emulator alone
 };
 
 struct Outcome {

@@ -39,12 +39,6 @@ compare::BufferResult compare_buffers(const Type& type, std::span<const std::byt
   return result;
 }
 
-// True if a kernel with this fault may crash a device, or never end on it.
-bool is_dangerous(const emulator::Finding& finding) {
-  return finding.fault == emulator::Fault::out_of_bounds ||
-         finding.fault == emulator::Fault::divergent_barrier || finding.fault == emulator::Fault::unreachable;
-}
-
 void add_participant(const Outcome& outcome, compare::Report& report) {
   compare::Participant& participant =
       report.participants.emplace_back(compare::Participant{.name = outcome.executor,
@@ -158,6 +152,11 @@ class Verifier {
 };
 
 }  // namespace
+
+bool is_dangerous(const emulator::Finding& finding) {
+  return finding.fault == emulator::Fault::out_of_bounds ||
+         finding.fault == emulator::Fault::divergent_barrier || finding.fault == emulator::Fault::unreachable;
+}
 
 compare::Report verify_job(const Job& job, const VerifyOptions& options) {
   return Verifier(job, options).verify();

@@ -9,6 +9,9 @@
 
 namespace eyeray::engine::compute {
 
+// True if a kernel with this fault may crash a device, or never end on it.
+bool is_dangerous(const emulator::Finding& finding);
+
 struct VerifyOptions {
   RunOptions run;
   bool on_device = true;             // run it on the device

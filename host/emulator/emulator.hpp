@@ -21,6 +21,7 @@
 namespace eyeray::engine::emulator {
 
 struct Program;
+struct Trace;
 
 // The numbers of an image's texels.
 struct Format {
@@ -53,6 +54,7 @@ struct Work {
   // message of an Error (timed_out) then gets the line that the kernel was at.
   std::function<void(uint64_t operations)> watch{};
   Findings* findings = nullptr;
+  Trace* trace = nullptr;  // one invocation is traced (trace.hpp); it names its writers with findings alone
 };
 
 class Kernel {

@@ -36,6 +36,19 @@ std::array<uint32_t, 3> Group::local_id(uint32_t lane) const {
   return {lane % size[0], lane / size[0] % size[1], lane / size[0] / size[1]};
 }
 
+std::array<uint32_t, 3> Group::global_id(const std::array<uint32_t, 3>& group, uint32_t lane) const {
+  std::array<uint32_t, 3> id = local_id(lane);
+  for (size_t axis = 0; axis < 3; ++axis) id[axis] += group[axis] * dispatch_.program.group[axis];
+  return id;
+}
+
+std::array<uint32_t, 3> Group::global_id(const Moment& moment) const {
+  const std::array<uint32_t, 3>& groups = dispatch_.groups;
+  return global_id(
+      {moment.group % groups[0], moment.group / groups[0] % groups[1], moment.group / groups[0] / groups[1]},
+      moment.invocation);
+}
+
 Accesses* Group::accesses(const Root& root) {
   if (!dispatch_.work.findings) return nullptr;
   if (root.space == Space::shared) return &shared_accesses_;
@@ -69,11 +82,9 @@ void Group::pass_barrier(bool of_group) {
 
 void Group::report(const Location& location, uint32_t lane, Fault fault, std::string detail) {
   if (!dispatch_.work.findings) return;
-  std::array<uint32_t, 3> invocation = local_id(lane);
-  for (size_t axis = 0; axis < 3; ++axis) invocation[axis] += id_[axis] * dispatch_.program.group[axis];
   dispatch_.work.findings->add({.fault = fault,
                                 .location = describe(location, dispatch_.program.files),
-                                .invocation = invocation,
+                                .invocation = global_id(id_, lane),
                                 .detail = std::move(detail)});
 }
 
@@ -153,8 +164,7 @@ void Group::set_built_in(const BuiltIn& built_in, const std::array<uint32_t, 3>&
         for (uint32_t axis = 0; axis < 3; ++axis) set(axis, lane, local[axis]);
         break;
       case spv::BuiltInGlobalInvocationId:
-        for (uint32_t axis = 0; axis < 3; ++axis)
-          set(axis, lane, id[axis] * dispatch_.program.group[axis] + local[axis]);
+        for (uint32_t axis = 0; axis < 3; ++axis) set(axis, lane, global_id(id, lane)[axis]);
         break;
       case spv::BuiltInLocalInvocationIndex:
         set(0, lane, lane);
@@ -215,7 +225,12 @@ void Group::start(const std::array<uint32_t, 3>& id) {
 
 void Group::run(const std::array<uint32_t, 3>& id) {
   start(id);
+  traced_.reset();
+  if (dispatch_.tracer)
+    for (const uint32_t lane : all_)
+      if (global_id(id, lane) == dispatch_.tracer->invocation()) traced_ = lane;
   run_function(dispatch_.program.functions[dispatch_.program.entry], all_);
+  if (traced_) dispatch_.tracer->finish();
 }
 
 void Group::check_effort(uint64_t operations, const Location& location) {
@@ -319,12 +334,8 @@ void Group::go(const Way& way, std::span<const uint32_t> lanes) {
 
 void Group::run_block(const Block& block) {
   check_effort(block.effort * active_.size(), block.location);
-  for (const Operation& each : block.operations) {
-    if (each.execute)
-      each.execute(*this, each);
-    else
-      call(each);
-  }
+  if (traced_ && std::ranges::binary_search(active_, *traced_)) return run_traced(block);
+  for (const Operation& each : block.operations) execute(each);
 }
 
 void Group::call(const Operation& operation) {
@@ -353,6 +364,8 @@ void Kernel::run(const Work& work, const std::array<uint32_t, 3>& groups) const 
   Work watched = work;
   if (work.findings) watched.findings = &findings;
   Dispatch dispatch{.name = name_, .program = *program_, .work = watched, .groups = groups, .accesses = {}};
+  std::optional<Tracer> tracer;
+  if (work.trace) dispatch.tracer = &tracer.emplace(*program_, *work.trace);
   for (const auto& [binding, image] : work.images)
     if (image.bytes.size() / image.format.bytes() / std::max(1u, image.extent[0]) /
             std::max(1u, image.extent[1]) <

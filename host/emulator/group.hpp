@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <optional>
 #include <span>
 #include <unordered_map>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "host/emulator/emulator.hpp"
 #include "host/emulator/memory.hpp"
 #include "host/emulator/program.hpp"
+#include "host/emulator/tracer.hpp"
 
 namespace eyeray::engine::emulator {
 
@@ -30,6 +32,7 @@ struct Dispatch {
   std::map<uint32_t, Accesses> accesses;  // by binding, of memory that the kernel writes
   uint32_t barriers = 0;                  // work groups' and subgroups', so far
   uint64_t operations = 0;                // operations of single invocations
+  Tracer* tracer = nullptr;               // traces one invocation
 };
 
 class Group {
@@ -97,6 +100,9 @@ class Group {
   std::span<std::byte> memory(const Root& root) const {
     return root.space == Space::image ? image(root.at).bytes : buffer(root.at);
   }
+  // gl_GlobalInvocationID of an invocation in this or another work group.
+  std::array<uint32_t, 3> global_id(const std::array<uint32_t, 3>& group, uint32_t lane) const;
+  std::array<uint32_t, 3> global_id(const Moment& moment) const;
   std::span<const std::byte> pushed() const { return dispatch_.work.push_constants; }
   Moment moment(uint32_t lane) const;
   void pass_barrier(bool of_group);
@@ -118,6 +124,13 @@ class Group {
   void set_built_in(const BuiltIn& built_in, const std::array<uint32_t, 3>& id);
   void run_function(const Function& function, std::vector<uint32_t> lanes);
   void run_block(const Block& block);
+  void run_traced(const Block& block);
+  void execute(const Operation& operation) {
+    if (operation.execute)
+      operation.execute(*this, operation);
+    else
+      call(operation);
+  }
   void call(const Operation& operation);
   void leave(const Function& function, const Block& block);
   void choose(const Block& block, std::vector<std::vector<uint32_t>>& ways);
@@ -130,6 +143,7 @@ class Group {
   const uint32_t lanes_;
   std::array<uint32_t, 3> id_{};
   uint32_t number_ = 0;
+  std::optional<uint32_t> traced_{};  // the traced invocation, in its work group
   std::vector<uint32_t> registers_;
   std::vector<uint8_t> unset_, may_be_unset_;
   std::vector<uint32_t> shared_;

@@ -92,6 +92,7 @@ Program Lowering::run() {
   check_limit(program_.registers * invocations, most_group_words,
               "words of values and variables of a work group");
   program_.entry = function_index_.at(entry_);
+  program_.types = std::make_shared<const Types>(std::move(types_));
   return std::move(program_);
 }
 
@@ -149,7 +150,8 @@ void Lowering::allot(const spirv::Function& function) {
       const uint32_t words = types_.at(type.element).words;
       made.source = pointer_to(0);
       made.root = uint32_t(program_.roots.size());
-      program_.roots.push_back({.at = registers(words), .size = words, .name = names_[i[2]]});
+      program_.roots.push_back(
+          {.at = registers(words), .size = words, .name = names_[i[2]], .type = type.element});
     }
     values_[i[2]] = made;
   };
@@ -211,6 +213,7 @@ void Lowering::end_block(const spirv::Function& function, const std::map<uint32_
     case spv::OpBranchConditional:
     case spv::OpSwitch:
       block.condition = source(end[1]);
+      block.type = value(end[1]).type;
       break;
     case spv::OpReturn:
     case spv::OpBranch:

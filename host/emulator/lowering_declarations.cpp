@@ -26,6 +26,9 @@ void Lowering::declare(const spirv::Instruction& i) {
     case spv::OpName:
       names_[i[1]] = spirv::string_at(i, 2);
       return;
+    case spv::OpMemberName:
+      types_.decorate(i);
+      return;
     case spv::OpExtInstImport:
       if (spirv::string_at(i, 2) == "GLSL.std.450") glsl_ = i[1];
       if (spirv::string_at(i, 2) == "NonSemantic.Shader.DebugInfo.100") debug_ = i[1];
@@ -131,9 +134,10 @@ void Lowering::add_global(const spirv::Instruction& i) {
   const Type& pointer = types_.at(i[1]);
   const Type& target = types_.at(pointer.element);
   const std::map<uint32_t, uint32_t>& decorations = decorations_[i[2]];
-  Root root{.size = target.words, .name = names_[i[2]]};
+  Root root{.size = target.words, .name = names_[i[2]], .type = pointer.element};
   // An anonymous block has the name of its type alone.
-  if (root.name.empty()) root.name = names_[pointer.element];
+  root.anonymous = root.name.empty();
+  if (root.anonymous) root.name = names_[pointer.element];
   switch (pointer.storage) {
     case spv::StorageClassInput: {
       const auto kind = decorations.find(spv::DecorationBuiltIn);

@@ -17,6 +17,7 @@ Operation Lowering::operation(const spirv::Instruction& i) const {
   const Source to = source(i[2]);
   made.to = to.at;
   made.words = to.words;
+  made.type = i[1];
   return made;
 }
 
@@ -84,7 +85,9 @@ void Lowering::lower_variable(Function& function, Block& block, const spirv::Ins
   block.operations.push_back({.execute = concatenate,
                               .to = root.at,
                               .words = root.size,
+                              .type = root.type,
                               .from = {source(i[4])},
+                              .root = value(i[2]).root,
                               .location = location(i)});
 }
 

@@ -18,6 +18,7 @@ void Lowering::access(Operation& made, uint32_t pointer, bool writes) {
                 "the emulator needs to know the variable of a pointer, and {} has a pointer that was chosen",
                 describe(made.location, program_.files));
   made.root = to.root;
+  made.type = types_.at(to.type).element;
   made.from.insert(made.from.begin(), to.source);
   const Root& root = program_.roots[to.root];
   if (root.space == Space::buffer || root.space == Space::pushed)
@@ -125,7 +126,10 @@ bool Lowering::lower_image(Block& block, const spirv::Instruction& i) {
       made.literals[0] = take(spv::ImageOperandsLodMask);
       made.literals[1] = take(spv::ImageOperandsConstOffsetMask | spv::ImageOperandsOffsetMask);
     }
-    if (writes) made.from.push_back(source(i[3]));
+    if (writes) {
+      made.from.push_back(source(i[3]));
+      made.type = value(i[3]).type;
+    }
   }
   if (points) values_.at(i[2]).root = made.root;
   const Type* image = &type_of(i[writes ? 1 : 3]);

@@ -29,4 +29,9 @@ std::optional<Moment> Accesses::note(size_t at, const Moment& now, bool writes, 
   return other;
 }
 
+std::optional<Moment> Accesses::writer(size_t at) const {
+  if (at >= units_.size() || units_[at].writer.kind == none) return std::nullopt;
+  return units_[at].writer.moment;
+}
+
 }  // namespace eyeray::engine::emulator

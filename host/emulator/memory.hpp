@@ -32,6 +32,8 @@ class Accesses {
   // Notes an access of a unit. Returns the earlier one with which it is a race, if any: unordered, one of the
   // two writes, and one of them is not atomic.
   std::optional<Moment> note(size_t unit, const Moment& now, bool writes, bool atomic);
+  // The last writer of a unit, if any.
+  std::optional<Moment> writer(size_t unit) const;
 
  private:
   enum Kind : uint32_t { none, plain, by_atomic };

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,6 +18,8 @@
 #include "host/emulator/location.hpp"
 
 namespace eyeray::engine::emulator {
+
+class Types;
 
 // Words of an operand: of a register, or of the constants.
 struct Source {
@@ -44,8 +47,10 @@ struct Root {
   Space space = Space::own;
   uint32_t at =
       0;  // first register or shared word; of a buffer its binding; of a parameter no_root, until its call
-  uint32_t size = 0;   // words, of variables
-  std::string name{};  // for findings
+  uint32_t size = 0;       // words, of variables
+  std::string name{};      // for findings
+  uint32_t type = 0;       // id, of the variable
+  bool anonymous = false;  // a block without a name of its own: its members are named alone
 };
 
 // A word of a value in memory that has a layout.
@@ -73,6 +78,7 @@ struct Operation {
   Execute execute = nullptr;
   uint32_t to = 0;     // the result's register
   uint32_t words = 0;  // size of the result
+  uint32_t type = 0;   // id: of the result, or of the value in memory
   std::vector<Source> from{};
   std::vector<uint32_t> literals{};  // the instruction's operands that are no ids
   uint32_t root = 0;                 // the pointer that is read, written or made
@@ -96,6 +102,7 @@ struct Block {
   std::vector<Operation> operations{};
   spv::Op end = spv::OpReturn;
   Source condition{};             // the condition of a branch, or the returned value
+  uint32_t type = 0;              // its id
   std::vector<uint32_t> cases{};  // the values of a switch for its ways after the first, the default
   uint64_t effort = 0;            // words that its operations write or move, of an invocation
   std::vector<Way> ways{};
@@ -137,6 +144,7 @@ struct Program {
   std::vector<Operation> prelude{};                       // the initial values of global variables
   std::vector<Function> functions{};
   std::vector<std::string> files{};
+  std::shared_ptr<const Types> types{};
   uint32_t entry = 0;  // index
 
   uint32_t invocations() const { return group[0] * group[1] * group[2]; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "host/core/error.hpp"
+#include "host/spirv/words.hpp"
 
 namespace eyeray::engine::emulator {
 namespace {
@@ -18,6 +19,7 @@ bool is_image(const Type& type) {
 
 void Types::decorate(const spirv::Instruction& i) {
   if (spirv::opcode_of(i) == spv::OpDecorate && i[2] == spv::DecorationArrayStride) strides_[i[1]] = i[3];
+  if (spirv::opcode_of(i) == spv::OpMemberName) names_[i[1]][i[2]] = spirv::string_at(i, 3);
   if (spirv::opcode_of(i) != spv::OpMemberDecorate) return;
   Placement& member = placements_[i[1]][i[2]];
   if (i[3] == spv::DecorationOffset) member.offset = i[4];
@@ -69,6 +71,7 @@ void Types::add(const spirv::Instruction& i, const std::map<uint32_t, uint64_t>&
       for (uint32_t n = 0; n < type.members.size(); ++n) {
         words += at(type.members[n]).words;
         type.placements.push_back(placements_[i[1]][n]);
+        type.names.push_back(names_[i[1]][n]);
       }
       break;
     case spv::OpTypePointer:

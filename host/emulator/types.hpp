@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "host/emulator/program.hpp"
@@ -32,6 +33,7 @@ struct Type {
   spv::StorageClass storage = spv::StorageClassFunction;  // the storage class of a pointer
   std::vector<uint32_t> members{};                        // ids
   std::vector<Placement> placements{};                    // the placements of members with a layout
+  std::vector<std::string> names{};                       // the members' names, some may be empty
   bool arrayed = false;                                   // an image's
   spv::Dim dim = spv::DimMax;                             // an image's
 
@@ -48,7 +50,7 @@ class Types {
   // Error (bad_input) for types that the emulator does not have. `constant`: the value of a whole-number
   // constant.
   void add(const spirv::Instruction& instruction, const std::map<uint32_t, uint64_t>& constants);
-  // Notes a decoration, which precedes the type.
+  // Notes an OpMemberName or a decoration, which precede the type.
   void decorate(const spirv::Instruction& instruction);
 
   const Type& at(uint32_t id) const;
@@ -64,6 +66,7 @@ class Types {
   std::map<uint32_t, Type> types_;
   std::map<uint32_t, uint32_t> strides_;                          // by the array's id
   std::map<uint32_t, std::map<uint32_t, Placement>> placements_;  // by the struct's id and the member
+  std::map<uint32_t, std::map<uint32_t, std::string>> names_;     // the members' names, by the struct's id
 };
 
 }  // namespace eyeray::engine::emulator

@@ -176,7 +176,8 @@ void Context::emulate(std::string_view what, double timeout_seconds) {
             if (watch.seconds() > timeout_seconds) throw time_out(what, timeout_seconds);
             if (signalled()) throw Error(ExitCode::interrupted, "interrupted");
           },
-      .findings = &findings};
+      .findings = &findings,
+      .trace = trace};
   for (const auto& dispatch : dispatches) dispatch(work);
 }
 

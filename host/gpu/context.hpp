@@ -38,6 +38,7 @@ struct Context {
   // The emulator has none of the objects below that need a VkDevice: they are null.
   const bool emulates;
   emulator::Findings findings;
+  emulator::Trace* trace = nullptr;
   std::vector<std::function<void(emulator::Work)>> dispatches;  // recorded for the emulator
   std::unique_ptr<Instance> instance;
   VkPhysicalDevice physical = VK_NULL_HANDLE;

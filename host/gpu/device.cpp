@@ -27,6 +27,11 @@ void check_choice(const DeviceOptions& options) {
 
 Device::Device(const DeviceOptions& options) : context_(std::make_shared<Context>(options)) {}
 
+void trace(Device& device, emulator::Trace& invocation) {
+  CHECK(device.context()->emulates);
+  device.context()->trace = &invocation;
+}
+
 std::vector<emulator::Finding> Device::findings() const {
   return context_->findings.all();
 }

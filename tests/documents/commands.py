@@ -133,7 +133,7 @@ def made_small(words):
             words[words.index(option) + 1] = value
         elif words[0] in SIZED and option in {"-s", "--spp"}.difference(*(UNSIZED.get(word, ()) for word in words)):
             words += [option, value]
-    if words[0] == "probe":
+    if words[0] == "probe" and words[2].count(",") == 1:  # the pixel of a scene, and not the invocation of a kernel
         words[2] = "12,9"
     return words
 
