@@ -31,6 +31,7 @@ void CommandList::dispatch(const Kernel& kernel, std::span<const std::byte> push
                                     pushed = std::vector(push_constants.begin(), push_constants.end()),
                                     groups](emulator::Work work) {
       work.buffers = objects.spans;
+      work.images = objects.images;
       work.push_constants = pushed;
       objects.emulated->run(work, {groups.x, groups.y, groups.z});
     });

@@ -8,6 +8,7 @@
 #include "host/core/option_text.hpp"
 #include "host/core/stopwatch.hpp"
 #include "host/core/termination.hpp"
+#include "host/gpu/image_objects.hpp"
 #include "host/gpu/kernel_objects.hpp"
 #include "host/gpu/raw_buffer.hpp"
 
@@ -15,10 +16,39 @@ namespace eyeray::engine::gpu {
 namespace {
 
 const char* kind_name(BindingKind kind) {
-  return kind == BindingKind::texels ? "texel" : kind == BindingKind::uniform ? "uniform" : "storage";
+  switch (kind) {
+    case BindingKind::texels:
+      return "a texel buffer";
+    case BindingKind::uniform:
+      return "a uniform buffer";
+    case BindingKind::image:
+      return "an image";
+    case BindingKind::storage:
+      break;
+  }
+  return "a storage buffer";
 }
 
-void check_limits(const Reflection& reflection, const DeviceInfo& device, const std::string& name) {
+VkDescriptorType descriptor_type(const Reflection& reflection, uint32_t binding) {
+  switch (reflection.bindings.at(binding)) {
+    case BindingKind::texels:
+      return VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
+    case BindingKind::uniform:
+      return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    case BindingKind::image: {
+      const ReflectedImage& image = reflection.images.at(binding);
+      return image.combined  ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
+             : image.sampled ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE
+                             : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+    }
+    case BindingKind::storage:
+      break;
+  }
+  return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+}
+
+void check_limits(const Reflection& reflection, const Context& context, const std::string& name) {
+  const DeviceInfo& device = context.info;
   const std::array<uint32_t, 3>& size = reflection.local_size;
   const uint64_t invocations = uint64_t{size[0]} * size[1] * size[2];
   bool fits = invocations <= device.limits.group_invocations;
@@ -30,24 +60,27 @@ void check_limits(const Reflection& reflection, const DeviceInfo& device, const 
   if (reflection.push_constant_bytes > device.limits.push_constants)
     throw Error(ExitCode::no_device, "kernel '{}' has {} bytes of push constants, but {} takes at most {}",
                 name, reflection.push_constant_bytes, device.name, device.limits.push_constants);
-  const auto check_count = [&](BindingKind kind, ptrdiff_t most) {
-    const auto count =
-        std::ranges::count(reflection.bindings, kind, &std::pair<const uint32_t, BindingKind>::second);
+  std::map<VkDescriptorType, uint32_t> counts;
+  for (const auto& [binding, kind] : reflection.bindings) ++counts[descriptor_type(reflection, binding)];
+  const auto check_count = [&](std::string_view what, uint32_t count, uint32_t most) {
     if (count > most)
-      throw Error(ExitCode::no_device,
-                  "kernel '{}' has {} {} buffers, but {} lets a kernel have at most {}: choose another "
-                  "device with {}",
-                  name, count, kind_name(kind), device.name, most, option_text("device"));
+      throw Error(
+          ExitCode::no_device,
+          "kernel '{}' has {} {}, but {} lets a kernel have at most {}: choose another device with {}", name,
+          count, what, device.name, most, option_text("device"));
   };
-  check_count(BindingKind::storage, device.limits.storage_buffers);
-  check_count(BindingKind::uniform, device.limits.uniform_buffers);
-  check_count(BindingKind::texels, device.limits.texel_buffers);
-}
-
-VkDescriptorType descriptor_type(BindingKind kind) {
-  return kind == BindingKind::texels    ? VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER
-         : kind == BindingKind::uniform ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
-                                        : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+  const DeviceLimits& limits = device.limits;
+  check_count("storage buffers", counts[VK_DESCRIPTOR_TYPE_STORAGE_BUFFER], limits.storage_buffers);
+  check_count("uniform buffers", counts[VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER], limits.uniform_buffers);
+  check_count("texel buffers and storage images",
+              counts[VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER] + counts[VK_DESCRIPTOR_TYPE_STORAGE_IMAGE],
+              limits.texel_buffers);
+  VkPhysicalDeviceProperties properties;
+  vkGetPhysicalDeviceProperties(context.physical, &properties);
+  check_count("sampled images",
+              counts[VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE] + counts[VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER],
+              std::min(properties.limits.maxPerStageDescriptorSampledImages,
+                       properties.limits.maxPerStageDescriptorSamplers));
 }
 
 // A pipeline cache that is loaded from disk, and stored there again if the driver added to it. A failure of
@@ -116,7 +149,7 @@ Kernel::Kernel(Device& device, std::span<const uint32_t> spirv, std::string name
       name_(std::move(name)),
       reflection_(reflect(spirv)),
       objects_(std::make_unique<Objects>(context_)) {
-  check_limits(reflection_, context_->info, name_);
+  check_limits(reflection_, *context_, name_);
   if (context_->emulates) {
     objects_->emulated = std::make_unique<emulator::Kernel>(spirv, name_);
     return;
@@ -128,12 +161,13 @@ Kernel::Kernel(Device& device, std::span<const uint32_t> spirv, std::string name
 Kernel::~Kernel() = default;
 
 void Kernel::create_layout() {
-  // Make one descriptor set with the buffers that the shader declares.
+  // Make one descriptor set with the buffers and images that the shader declares.
   std::vector<VkDescriptorSetLayoutBinding> bindings;
   std::vector<VkDescriptorPoolSize> pool_sizes;
   for (const auto& [binding, kind] : reflection_.bindings) {
-    bindings.push_back({binding, descriptor_type(kind), 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
-    pool_sizes.push_back({descriptor_type(kind), 1});
+    const VkDescriptorType type = descriptor_type(reflection_, binding);
+    bindings.push_back({binding, type, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+    pool_sizes.push_back({type, 1});
   }
   auto set_info = make<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
   set_info.bindingCount = uint32_t(bindings.size());
@@ -198,8 +232,8 @@ void Kernel::check_interface(size_t push_constant_bytes) const {
                 name_, wanted, push_constant_bytes);
   for (const auto& [binding, kind] : reflection_.bindings) {
     if (!objects_->bound.contains(binding))
-      throw Error(ExitCode::bad_input, "kernel '{}' reads binding {}, for which eyeray binds no buffer",
-                  name_, binding);
+      throw Error(ExitCode::bad_input, "kernel '{}' reads binding {}, for which eyeray binds nothing", name_,
+                  binding);
   }
 }
 
@@ -211,6 +245,43 @@ void Kernel::set_buffer(uint32_t binding, const Buffer& buffer) {
   bind(binding, buffer, buffer.payload_offset(), buffer.size());
 }
 
+void Kernel::check_kind(uint32_t binding, BindingKind bound) const {
+  const BindingKind kind = reflection_.bindings.at(binding);
+  if (bound != kind)
+    throw Error(ExitCode::bad_input,
+                "kernel '{}' declares binding {} as {}, but eyeray binds {}: declare it "
+                "as eyeray's own kernels/bindings.glsl does",
+                name_, binding, kind_name(kind), kind_name(bound));
+}
+
+void Kernel::set_image(uint32_t binding, const Image& image) {
+  if (!uses(binding)) return;
+  check_kind(binding, BindingKind::image);
+  const ReflectedImage &declared = reflection_.images.at(binding), &bound = image.shape().declared;
+  if (declared.axes != bound.axes || declared.arrayed != bound.arrayed || declared.sampled != bound.sampled ||
+      (declared.format && declared.format != bound.format))
+    throw Error(ExitCode::bad_input, "kernel '{}' declares another kind of image at binding {}", name_,
+                binding);
+  if (context_->info.compiles_only) return;  // images have no memory there
+  objects_->bound.insert(binding);
+  if (context_->emulates) {
+    objects_->images[binding] = {
+        image.shape().extent, bound.format->numbers, {image.copy_->mapped(), image.size()}};
+    return;
+  }
+  VkDescriptorImageInfo info = {};
+  info.imageView = image.objects_->view;
+  info.imageLayout = VK_IMAGE_LAYOUT_GENERAL;
+  if (declared.combined) info.sampler = objects_->any_sampler();
+  auto write = make<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
+  write.dstSet = objects_->set;
+  write.dstBinding = binding;
+  write.descriptorCount = 1;
+  write.descriptorType = descriptor_type(reflection_, binding);
+  write.pImageInfo = &info;
+  vkUpdateDescriptorSets(context_->device, 1, &write, 0, nullptr);
+}
+
 void Kernel::set_buffer_with_guards(uint32_t binding, const Buffer& buffer) {
   bind(binding, buffer, 0, buffer.size() + 2 * buffer.payload_offset());
 }
@@ -218,11 +289,7 @@ void Kernel::set_buffer_with_guards(uint32_t binding, const Buffer& buffer) {
 void Kernel::bind(uint32_t binding, const Buffer& buffer, size_t offset, size_t bytes) {
   if (!uses(binding)) return;
   const BindingKind kind = reflection_.bindings.at(binding);
-  if (buffer.kind() != kind)
-    throw Error(ExitCode::bad_input,
-                "kernel '{}' declares binding {} as a {} buffer, but eyeray binds a {} buffer: declare it "
-                "as eyeray's own kernels/bindings.glsl does",
-                name_, binding, kind_name(kind), kind_name(buffer.kind()));
+  check_kind(binding, buffer.kind());
   if (context_->info.compiles_only) return;  // buffers have no memory there
   objects_->bound.insert(binding);
   if (context_->emulates) {
@@ -235,7 +302,7 @@ void Kernel::bind(uint32_t binding, const Buffer& buffer, size_t offset, size_t 
   write.dstSet = objects_->set;
   write.dstBinding = binding;
   write.descriptorCount = 1;
-  write.descriptorType = descriptor_type(kind);
+  write.descriptorType = descriptor_type(reflection_, binding);
   write.pBufferInfo = &info;
   if (kind == BindingKind::texels) {
     view = objects_->make_view(binding, buffer.raw().handle(), offset, bytes);

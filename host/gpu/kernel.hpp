@@ -1,4 +1,4 @@
-// A compute pipeline and the buffers it is bound to.
+// A compute pipeline, and the buffers and images that it is bound to.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,7 @@
 #include "host/core/disk_cache.hpp"
 #include "host/gpu/buffer.hpp"
 #include "host/gpu/executable.hpp"
+#include "host/gpu/image.hpp"
 #include "host/gpu/reflect.hpp"
 
 namespace eyeray::engine::gpu {
@@ -38,6 +39,8 @@ class Kernel {
   // Binds `buffer`, which must outlive the kernel's dispatches. A binding that the shader does not have is
   // ignored.
   void set_buffer(uint32_t binding, const Buffer& buffer);
+  // Binds `image`, likewise. Error (bad_input) if the shader declares another kind of image there.
+  void set_image(uint32_t binding, const Image& image);
   // Tests: shows the shader the buffer's guards too, so that it can overwrite them.
   void set_buffer_with_guards(uint32_t binding, const Buffer& buffer);
 
@@ -47,12 +50,14 @@ class Kernel {
   struct Objects;  // Vulkan's objects
 
   // Error (bad_input) if the shader, which may be a user's, declares push constants of another size, or a
-  // buffer that is not bound. A shader may also declare none.
+  // buffer or image that is not bound. A shader may also declare none.
   void check_interface(size_t push_constant_bytes) const;
 
   void create_layout();
   void create_pipeline(std::span<const uint32_t> spirv, const DiskCache& cache);
   void bind(uint32_t binding, const Buffer& buffer, size_t offset, size_t bytes);
+  // Error (bad_input) if the shader declares another kind of binding there.
+  void check_kind(uint32_t binding, BindingKind bound) const;
 
   std::shared_ptr<Context> context_;
   std::string name_;

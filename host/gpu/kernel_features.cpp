@@ -32,12 +32,15 @@ KernelFeatures::KernelFeatures(VkPhysicalDevice device)
   add(VK_KHR_8BIT_STORAGE_EXTENSION_NAME, storage_8_);
   add(VK_KHR_SHADER_FLOAT16_INT8_EXTENSION_NAME, small_numbers_);
   vkGetPhysicalDeviceFeatures2(device, &base_);
-  // Only numbers: other features change how a driver compiles.
+  // Only numbers and formats of images: other features change how a driver compiles.
   const VkPhysicalDeviceFeatures all = base_.features;
   base_.features = {};
   base_.features.shaderInt16 = all.shaderInt16;
   base_.features.shaderInt64 = all.shaderInt64;
   base_.features.shaderFloat64 = all.shaderFloat64;
+  base_.features.shaderStorageImageExtendedFormats = all.shaderStorageImageExtendedFormats;
+  base_.features.shaderStorageImageReadWithoutFormat = all.shaderStorageImageReadWithoutFormat;
+  base_.features.shaderStorageImageWriteWithoutFormat = all.shaderStorageImageWriteWithoutFormat;
 }
 
 void KernelFeatures::enable(VkDeviceCreateInfo& info) {

@@ -15,6 +15,7 @@ struct Kernel::Objects {
   ~Objects() {
     if (context->abandoned || context->emulates) return;
     for (const auto& [binding, view] : views) vkDestroyBufferView(context->device, view, nullptr);
+    vkDestroySampler(context->device, sampler, nullptr);
     vkDestroyPipeline(context->device, pipeline, nullptr);
     vkDestroyPipelineLayout(context->device, layout, nullptr);
     vkDestroyDescriptorPool(context->device, pool, nullptr);
@@ -36,17 +37,27 @@ struct Kernel::Objects {
     return view;
   }
 
+  // The sampler of images that are combined with one. Texels are read by their coordinates, so it decides
+  // nothing.
+  VkSampler any_sampler() {
+    const auto info = gpu::make<VkSamplerCreateInfo>(VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO);
+    if (!sampler) check(vkCreateSampler(context->device, &info, nullptr, &sampler), "create a sampler");
+    return sampler;
+  }
+
   std::shared_ptr<Context> context;
   VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
   VkDescriptorPool pool = VK_NULL_HANDLE;
   VkDescriptorSet set = VK_NULL_HANDLE;  // null when the shader has no buffers
   VkPipelineLayout layout = VK_NULL_HANDLE;
   VkPipeline pipeline = VK_NULL_HANDLE;
+  VkSampler sampler = VK_NULL_HANDLE;
   bool dispatched = false;  // at least once
   std::set<uint32_t> bound;
   std::map<uint32_t, VkBufferView> views;
   std::unique_ptr<const emulator::Kernel> emulated;  // on the emulator, which has none of the above
   std::map<uint32_t, std::span<std::byte>> spans;    // by binding, there
+  std::map<uint32_t, emulator::Image> images;        // likewise
 };
 
 }  // namespace eyeray::engine::gpu

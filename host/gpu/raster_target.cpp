@@ -19,7 +19,7 @@ struct AttachmentType {
   VkImageAspectFlags aspect;
   VkImageLayout layout;
 };
-constexpr AttachmentType types[] = {
+constexpr AttachmentType attachment_types[] = {
     {"the picture's ids", VK_FORMAT_R32_UINT, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT,
      VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, VK_IMAGE_ASPECT_COLOR_BIT,
      VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL},
@@ -95,7 +95,7 @@ void RasterTarget::create() {
   for (size_t i = 0; i < attachments_.size(); ++i) {
     create_attachment(i);
     copies_[i] = std::make_unique<RawBuffer>(context_, size_t{width_} * height_ * pixel_bytes,
-                                             MemoryKind::host, types[i].name);
+                                             MemoryKind::host, attachment_types[i].name);
   }
   create_pass();
   auto info = make<VkFramebufferCreateInfo>(VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO);
@@ -111,7 +111,7 @@ void RasterTarget::create() {
 }
 
 void RasterTarget::create_attachment(size_t index) {
-  const AttachmentType& type = types[index];
+  const AttachmentType& type = attachment_types[index];
   Attachment& attachment = attachments_[index];
   VkFormatProperties format;
   vkGetPhysicalDeviceFormatProperties(context_->physical, type.format, &format);
@@ -150,14 +150,14 @@ void RasterTarget::create_pass() {
   VkAttachmentDescription descriptions[2] = {};
   VkAttachmentReference references[2] = {};
   for (uint32_t i = 0; i < 2; ++i) {
-    descriptions[i].format = types[i].format;
+    descriptions[i].format = attachment_types[i].format;
     descriptions[i].samples = VK_SAMPLE_COUNT_1_BIT;
     descriptions[i].loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
     descriptions[i].storeOp = VK_ATTACHMENT_STORE_OP_STORE;
     descriptions[i].stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
     descriptions[i].stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
-    descriptions[i].initialLayout = descriptions[i].finalLayout = types[i].layout;
-    references[i] = {i, types[i].layout};
+    descriptions[i].initialLayout = descriptions[i].finalLayout = attachment_types[i].layout;
+    references[i] = {i, attachment_types[i].layout};
   }
   VkSubpassDescription subpass = {};
   subpass.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
@@ -186,10 +186,11 @@ void RasterTarget::clear() {
   const VkCommandBuffer commands = context_->commands;
   VkImageMemoryBarrier before[2], after[2];
   for (size_t i = 0; i < 2; ++i) {
-    before[i] = transition(attachments_[i].image, types[i].aspect, VK_IMAGE_LAYOUT_UNDEFINED,
+    before[i] = transition(attachments_[i].image, attachment_types[i].aspect, VK_IMAGE_LAYOUT_UNDEFINED,
                            VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 0, VK_ACCESS_TRANSFER_WRITE_BIT);
-    after[i] = transition(attachments_[i].image, types[i].aspect, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                          types[i].layout, VK_ACCESS_TRANSFER_WRITE_BIT, drawing_accesses);
+    after[i] =
+        transition(attachments_[i].image, attachment_types[i].aspect, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                   attachment_types[i].layout, VK_ACCESS_TRANSFER_WRITE_BIT, drawing_accesses);
   }
   vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0,
                        nullptr, 0, nullptr, 2, before);
@@ -206,7 +207,7 @@ void RasterTarget::clear() {
 
 // Copies an image, and makes it ready for drawing again.
 void RasterTarget::record_copy(size_t index) const {
-  const AttachmentType& type = types[index];
+  const AttachmentType& type = attachment_types[index];
   const VkImage image = attachments_[index].image;
   const auto before = transition(image, type.aspect, type.layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                                  drawing_accesses, VK_ACCESS_TRANSFER_READ_BIT);

@@ -73,6 +73,7 @@ struct Module {
       case spv::OpTypeRuntimeArray:
       case spv::OpTypePointer:
       case spv::OpTypeImage:
+      case spv::OpTypeSampledImage:
         ids[i[1]].definition.assign(i.begin(), i.end());
         break;
       case spv::OpConstant:
@@ -112,8 +113,9 @@ struct Module {
   }
 };
 
-// The kind of a variable's binding, if eyeray binds it.
-std::optional<BindingKind> binding_kind(const Module& module, const Variable& variable) {
+// The kind of a variable's binding, if eyeray binds it; `image` is set for one of BindingKind::image.
+std::optional<BindingKind> binding_kind(const Module& module, const Variable& variable,
+                                        ReflectedImage& image) {
   if (variable.storage == spv::StorageClassStorageBuffer) return BindingKind::storage;
   const Id& target = module.ids.at(module.ids.at(variable.pointer).definition.at(3));
   const std::vector<uint32_t>& type = target.definition;
@@ -122,7 +124,11 @@ std::optional<BindingKind> binding_kind(const Module& module, const Variable& va
     return target.buffer_block ? BindingKind::storage : BindingKind::uniform;
   const bool texels = !type.empty() && (type[0] & 0xffffu) == spv::OpTypeImage && type[3] == spv::DimBuffer &&
                       type[7] == 2 && type[8] == spv::ImageFormatRgba32ui;
-  if (variable.storage == spv::StorageClassUniformConstant && texels) return BindingKind::texels;
+  if (variable.storage != spv::StorageClassUniformConstant || type.empty()) return std::nullopt;
+  if (texels) return BindingKind::texels;
+  image.combined = (type[0] & 0xffffu) == spv::OpTypeSampledImage;
+  if (read_image_type(image.combined ? module.ids.at(type[2]).definition : type, image))
+    return BindingKind::image;
   return std::nullopt;
 }
 
@@ -146,14 +152,16 @@ Reflection reflect(std::span<const uint32_t> spirv) {
       reflection.push_constant_bytes =
           (module.size(module.ids.at(variable.pointer).definition.at(3)) + 3) / 4 * 4;
     if (!id.binding) continue;
-    const std::optional<BindingKind> kind = binding_kind(module, variable);
+    ReflectedImage image;
+    const std::optional<BindingKind> kind = binding_kind(module, variable, image);
     if (!kind || id.set.value_or(0) != 0)
       throw Error(
           ExitCode::bad_input,
           "the shader binds '{}' at set {}, binding {}: eyeray provides only storage buffers, uniform "
-          "buffers and texel buffers (uimageBuffer, rgba32ui), in set 0",
+          "buffers, texel buffers (uimageBuffer, rgba32ui), and images of one to three axes, in set 0",
           id.name, id.set.value_or(0), *id.binding);
     reflection.bindings.emplace(*id.binding, *kind);
+    if (kind == BindingKind::image) reflection.images.emplace(*id.binding, image);
   }
   for (const uint32_t type : module.structs) {
     const Id& id = module.ids.at(type);

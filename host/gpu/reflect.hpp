@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "host/gpu/texel_format.hpp"
+
 namespace eyeray::engine::gpu {
 
 struct ReflectedMember {
@@ -26,16 +28,18 @@ enum class BindingKind {
   storage,  // a storage buffer
   uniform,  // a uniform buffer
   texels,   // a storage texel buffer of four 32-bit unsigned integers a texel: uimageBuffer, rgba32ui
+  image,    // a storage image, or a sampled one
 };
 
 struct Reflection {
-  std::map<uint32_t, BindingKind> bindings;  // bindings of descriptor set 0
+  std::map<uint32_t, BindingKind> bindings;   // bindings of descriptor set 0
+  std::map<uint32_t, ReflectedImage> images;  // those of BindingKind::image
   uint32_t push_constant_bytes = 0;
   std::array<uint32_t, 3> local_size{1, 1, 1};
   std::vector<ReflectedStruct> structs;
 };
 
-// Error (bad_input) when the words are not SPIR-V, or the shader declares anything but buffers of a
+// Error (bad_input) when the words are not SPIR-V, or the shader declares anything but bindings of a
 // BindingKind in set 0.
 Reflection reflect(std::span<const uint32_t> spirv);
 
