@@ -28,6 +28,7 @@ struct RunCommand {
 
   ExitCode run() const;
   std::vector<std::string> overrides() const;
+  void set_outputs(compute::Job& job) const;
 };
 
 // All options that change the kernel file, as values of its keys.
@@ -35,14 +36,16 @@ std::vector<std::string> RunCommand::overrides() const {
   std::vector<std::string> all = defines;
   if (!groups.empty()) all.push_back(fmt::format("groups=[{}]", groups));
   if (!entry.empty()) all.push_back("entry=" + toml_string(entry));
+  return all;
+}
+
+void RunCommand::set_outputs(compute::Job& job) const {
   for (const std::string& output : outputs) {
     const size_t equals = output.find('=');
     if (equals == std::string::npos || equals + 1 == output.size())
-      throw Error(ExitCode::bad_input, "-o must be BUFFER=FILE, such as Target=out.npy, not '{}'", output);
-    all.push_back(fmt::format("buffer.{}.output={}", toml_string(output.substr(0, equals)),
-                              toml_string(output.substr(equals + 1))));
+      throw Error(ExitCode::bad_input, "-o must be NAME=FILE, such as Target=out.npy, not '{}'", output);
+    compute::set_output(job, output.substr(0, equals), output.substr(equals + 1));
   }
-  return all;
 }
 
 Json to_json(const compute::Job& job, const compute::Outcome& outcome) {
@@ -84,7 +87,8 @@ void print_text(const compute::Job& job, const compute::Outcome& outcome) {
 }
 
 ExitCode RunCommand::run() const {
-  const compute::Job job = compute::load_job(file, overrides());
+  compute::Job job = compute::load_job(file, overrides());
+  set_outputs(job);
   for (const Diagnostic& warning : job.warnings) print_lines(stderr, "{}\n", format_diagnostic(warning));
   compute::RunOptions how{executors::device_options(executor.gpu, false), executor.gpu.fast_math};
   how.device.emulate = backend == "emulator";
@@ -122,8 +126,9 @@ void add_run(CLI::App& app, Run& run) {
       "repeated.")
       ->allow_extra_args(false)
       ->take_all();
-  add("-o,--output", options->outputs, "BUFFER=FILE",
-      "Write a buffer after the run: .npy, .bin, .csv, .png, .pfm, .hdr or .exr. May be repeated.")
+  add("-o,--output", options->outputs, "NAME=FILE",
+      "Write a buffer or an image after the run: .npy, .bin, .csv, .png, .pfm, .hdr or .exr. May be "
+      "repeated.")
       ->allow_extra_args(false)
       ->take_all();
   add("--entry", options->entry, "NAME", "The entry point, if the kernel has several.");

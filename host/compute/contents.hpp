@@ -26,10 +26,12 @@ struct Noise {
 // False if a number's kind does not hold the range.
 bool fill_with_noise(const Noise& noise, const Type& type, std::span<std::byte> bytes);
 
-// Reads [buffer.NAME], or makes the default contents of a buffer that is not in the file. `invocations`: of
-// the dispatch, the length of a run-time array that nothing else decides. Errors go to the log.
+// Reads [buffer.NAME] or [image.NAME], or makes the default contents of one that is not in the file.
+// `invocations`: of the dispatch along its axes, which decide the length of a run-time array or the size of
+// an image if nothing else does. Errors go to the log.
 JobBuffer read_buffer(const BufferSlot& slot, uint64_t seed, const toml::table* table,
-                      const Document& document, uint64_t invocations, DiagnosticLog& log);
+                      const Document& document, const std::array<uint64_t, 3>& invocations,
+                      DiagnosticLog& log);
 
 // The sized block of so many bytes at most as a buffer may have. Error (bad_input) if there are more.
 TypePtr sized(const BufferSlot& slot, uint64_t elements);

@@ -1,6 +1,7 @@
 #include "host/compute/data_file.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstring>
@@ -67,6 +68,22 @@ void fit(TypePtr& block, const fs::path& file, uint64_t all, uint64_t fixed, uin
   if (grows) block = with_elements(block, (all - fixed) / each);
 }
 
+// Gives an image the extent of an array, which must be the image's own if it has one.
+void fit_image(TypePtr& image, const fs::path& file, const std::vector<uint64_t>& shape) {
+  const size_t axes = image->extent.size();
+  const uint64_t components = count_numbers(*image->element);
+  if (shape.size() != axes + (components > 1) || (components > 1 && shape.back() != components))
+    throw Error(ExitCode::bad_input, "{} has an array of shape ({}), but the {} image needs {} ax{}s{}",
+                file.string(), fmt::join(shape, ", "), image->name, axes, axes == 1 ? "i" : "e",
+                components > 1 ? fmt::format(", slowest first, and then {} components", components) : "");
+  const std::vector<uint64_t> extent(shape.rend() - ptrdiff_t(axes), shape.rend());
+  if (image->count == 0)
+    image = with_extent(*image, extent);
+  else if (image->extent != extent)
+    throw Error(ExitCode::bad_input, "{} has {} texels, but the image has {}", file.string(),
+                fmt::join(extent, " × "), fmt::join(image->extent, " × "));
+}
+
 std::vector<std::byte> read_npy(const fs::path& file, const std::string& text, TypePtr& block) {
   const NpyArray array = parse_npy(text, file.string());
   // An array of the buffer's own type, or of its numbers alone.
@@ -85,6 +102,7 @@ std::vector<std::byte> read_npy(const fs::path& file, const std::string& text, T
     throw Error(ExitCode::bad_input, "{} has elements of type {}, but the buffer has {}: convert the array{}",
                 file.string(), array.descr, form.descr,
                 number ? fmt::format(" with .astype({})", numbers_descr) : ", or use a .bin file");
+  if (is_image(*block)) fit_image(block, file, array.shape);
   const Member* const grows = run_time_array(*block);
   fit(block, file, array.bytes.size(), packed_size(*block), grows ? packed_size(*grows->type->element) : 0,
       "bytes of numbers");
@@ -141,6 +159,10 @@ void check_output(const fs::path& file, const Type& block, uint64_t width) {
     throw Error(ExitCode::bad_input, "{}: its ending must be .npy, .bin, .csv, .png, .pfm, .hdr or .exr",
                 file.string());
   check_picture(file, block, width);
+}
+
+bool decides_extent(const fs::path& file, const Type& image) {
+  return file.extension() == ".npy" || (is_picture(file) && image.extent.size() == 2);
 }
 
 std::vector<std::byte> read_block(const fs::path& file, TypePtr& block) {

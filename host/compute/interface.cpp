@@ -182,7 +182,31 @@ TypePtr texels() {
       Type{.form = Form::structure, .name = "texels", .members = {{"texels", 0, array}}});
 }
 
+// The format of an image that declares none: numbers of 32 bits.
+const gpu::TexelFormat& default_format(const spirv::Instruction& number) {
+  const bool real = spirv::opcode_of(number) == spv::OpTypeFloat;
+  return *gpu::find_format(real ? "rgba32f" : number[3] ? "rgba32i" : "rgba32ui");
+}
+
 }  // namespace
+
+TypePtr image_type(const gpu::TexelFormat& format, uint32_t axes) {
+  using Kind = emulator::Format::Kind;
+  const emulator::Format& texel = format.numbers;
+  const NumberKind kind = texel.kind == Kind::real ? NumberKind::real
+                          : texel.kind == Kind::natural || texel.kind == Kind::unorm
+                              ? NumberKind::unsigned_integer
+                              : NumberKind::signed_integer;
+  auto element = std::make_shared<Type>(Type{.number = {kind, texel.bits}});
+  if (texel.components > 1)
+    element = std::make_shared<Type>(
+        Type{.form = Form::vector, .element = element, .count = texel.components, .stride = texel.bits / 8});
+  return std::make_shared<Type>(Type{.form = Form::array,
+                                     .element = element,
+                                     .stride = texel.bytes(),
+                                     .name = std::string(format.name),
+                                     .extent = std::vector<uint64_t>(axes)});
+}
 
 std::vector<SpecConstant> spec_constants(std::span<const uint32_t> spirv) {
   Declarations declarations(spirv);
@@ -229,22 +253,37 @@ Interface interface_of(std::span<const uint32_t> spirv) {
     // Compilers of other languages make names such as "type.RWStructuredBuffer.float".
     if (slot.name.empty() || slot.name.find('.') != std::string::npos) slot.name = slot.variable;
     if (slot.name.empty()) slot.name = fmt::format("{}.{}", slot.set, slot.binding);
-    if (op != spv::OpTypeStruct && !texel_buffer)
+    slot.image.combined = op == spv::OpTypeSampledImage;
+    const spirv::Instruction& image = slot.image.combined ? module.definition(type[2]) : type;
+    const bool is_image = gpu::read_image_type(image, slot.image);
+    if (op != spv::OpTypeStruct && !texel_buffer && !is_image)
       throw Error(
           ExitCode::bad_input,
           "the kernel binds {}, '{}', at set {}, binding {}: eyeray runs kernels with storage buffers, "
-          "uniform buffers and texel buffers (uimageBuffer, rgba32ui)",
+          "uniform buffers, texel buffers (uimageBuffer, rgba32ui), and images of one to three axes that are "
+          "read "
+          "by imageLoad or texelFetch",
           kind_of(op), slot.name, slot.set, slot.binding);
     const bool uniform = i[3] == spv::StorageClassUniform && !module.has(target, spv::DecorationBufferBlock);
+    if (is_image && slot.image.spirv_format != 0 && !slot.image.format)
+      throw Error(ExitCode::bad_input,
+                  "the kernel declares the image '{}' in a format that eyeray does not have; it has {}",
+                  slot.name, gpu::format_names());
     const auto declared = [&](spv::Decoration decoration) {
-      return module.has(i[2], decoration) || (!texel_buffer && module.all_members_have(target, decoration));
+      return module.has(i[2], decoration) ||
+             (op == spv::OpTypeStruct && module.all_members_have(target, decoration));
     };
-    slot.kind = texel_buffer ? gpu::BindingKind::texels
-                : uniform    ? gpu::BindingKind::uniform
-                             : gpu::BindingKind::storage;
-    slot.type = texel_buffer ? texels() : module.type(target);
+    slot.kind = is_image       ? gpu::BindingKind::image
+                : texel_buffer ? gpu::BindingKind::texels
+                : uniform      ? gpu::BindingKind::uniform
+                               : gpu::BindingKind::storage;
+    slot.type = texel_buffer ? texels()
+                : is_image   ? image_type(slot.image.format ? *slot.image.format
+                                                            : default_format(module.definition(image[2])),
+                                        slot.image.coordinates())
+                           : module.type(target);
     slot.readable = !declared(spv::DecorationNonReadable);
-    slot.writable = !uniform && !declared(spv::DecorationNonWritable);
+    slot.writable = !uniform && !slot.image.sampled && !declared(spv::DecorationNonWritable);
     found.buffers.push_back(std::move(slot));
   }
   const auto place = [](const BufferSlot& slot) { return std::pair(slot.set, slot.binding); };

@@ -1,4 +1,4 @@
-// The data that a kernel declares: its buffers, push constants and specialization constants.
+// The data that a kernel declares: its buffers and images, push constants and specialization constants.
 #pragma once
 
 #include <array>
@@ -12,14 +12,16 @@
 
 namespace eyeray::engine::compute {
 
+// A binding: a buffer, or an image.
 struct BufferSlot {
   std::string name;               // the name of the block or of the variable; else "set.binding"
   std::string variable;           // may be empty
   uint32_t set = 0, binding = 0;  // as the kernel declares them
   gpu::BindingKind kind = gpu::BindingKind::storage;
-  TypePtr type;           // a structure, the block
-  bool readable = true;   // false: declared writeonly
-  bool writable = false;  // false: declared readonly, or a uniform buffer
+  TypePtr type;                 // a structure, the block; or an image without an extent
+  gpu::ReflectedImage image{};  // an image's
+  bool readable = true;         // false: declared writeonly
+  bool writable = false;        // false: declared readonly, or a uniform buffer
 };
 
 struct SpecConstant {
@@ -39,8 +41,11 @@ struct Interface {
 // The specialization constants of a module, sorted by id.
 std::vector<SpecConstant> spec_constants(std::span<const uint32_t> spirv);
 
+// An image of that format and so many axes, layers included, without an extent.
+TypePtr image_type(const gpu::TexelFormat& format, uint32_t axes);
+
 // The interface of a module with one entry point and no specialization constants. Error (bad_input), with the
-// variable's name, if it binds anything but buffers.
+// variable's name, if it binds anything but buffers and images.
 Interface interface_of(std::span<const uint32_t> spirv);
 
 }  // namespace eyeray::engine::compute

@@ -8,6 +8,7 @@
 #include "host/compute/data_file.hpp"
 #include "host/compute/module.hpp"
 #include "host/compute/source.hpp"
+#include "host/emulator/emulator.hpp"
 #include "host/reading/source_position.hpp"
 
 namespace fs = std::filesystem;
@@ -17,6 +18,18 @@ namespace {
 
 SourcePosition position(const toml::node& node) {
   return reading::position_of(node.source());
+}
+
+// The buffer or image of a name. Error (bad_input) if there is none.
+size_t index_of(const Job& job, std::string_view name) {
+  std::vector<std::string> names;
+  for (size_t i = 0; i < job.buffers.size(); ++i) {
+    const BufferSlot& slot = job.buffers[i].slot;
+    if (name == slot.name || name == slot.variable || name == fmt::format("{}.{}", slot.set, slot.binding))
+      return i;
+    names.push_back(slot.name);
+  }
+  throw Error(ExitCode::bad_input, "the kernel has no buffer or image `{}`{}", name, suggest(name, names));
 }
 
 // Makes a job of the table that names its kernel: the kernel file's root, or its [same].
@@ -43,6 +56,9 @@ class JobMaker {
     const Interface interface = interface_of(kernel.spirv);
     job_.local_size = interface.local_size;
     job_.spirv = in_one_set(kernel.spirv, interface);
+    // Filtered reads are refused at their line.
+    if (std::ranges::any_of(interface.buffers, [](const BufferSlot& slot) { return slot.image.sampled; }))
+      emulator::Kernel(job_.spirv, job_.kernel);
     set_groups();
     read_buffers(interface);
     read_push(interface);
@@ -70,6 +86,8 @@ class JobMaker {
   void read_push(const Interface& interface);
   void adopt(JobBuffer& buffer) const;
   void warn_of_zeros(const std::string& what, const std::string& key);
+  // The table of each buffer in [buffer], or of each image in [image].
+  void find_tables(std::string_view kind, std::vector<const toml::table*>& tables);
   std::optional<size_t> find_buffer(const toml::key& key, const Job& job);
 
   const toml::table& table_;
@@ -126,23 +144,34 @@ void JobMaker::set_groups() {
 }
 
 std::optional<size_t> JobMaker::find_buffer(const toml::key& key, const Job& job) {
-  std::vector<std::string> names;
-  for (size_t i = 0; i < job.buffers.size(); ++i) {
-    const BufferSlot& slot = job.buffers[i].slot;
-    if (key.str() == slot.name || key.str() == slot.variable ||
-        key.str() == fmt::format("{}.{}", slot.set, slot.binding))
-      return i;
-    names.push_back(slot.name);
+  try {
+    return index_of(job, key.str());
+  } catch (const Error& error) {
+    log_.error(reading::position_of(key.source()), error.what());
+    return std::nullopt;
   }
-  log_.error(reading::position_of(key.source()),
-             fmt::format("the kernel has no buffer `{}`{}", key.str(), suggest(key.str(), names)));
-  return std::nullopt;
+}
+
+void JobMaker::find_tables(std::string_view kind, std::vector<const toml::table*>& tables) {
+  const toml::table* const all = table_at(document_.root, kind, log_);
+  if (!all || model_) return;
+  for (const auto& [key, value] : *all) {
+    const auto index = find_buffer(key, job_);
+    if (!index) continue;
+    const std::string_view right = is_image(*job_.buffers[*index].type) ? "image" : "buffer";
+    if (!value.is_table() || right != kind)
+      log_.error(position(value), fmt::format("write [{}.{}], a table", right, key.str()));
+    else
+      tables[*index] = value.as_table();
+  }
 }
 
 // Gives a buffer the contents of the other kernel's buffer of its name.
 void JobMaker::adopt(JobBuffer& buffer) const {
   for (const JobBuffer& other : model_->buffers) {
     if (other.slot.name != buffer.slot.name) continue;
+    if (is_image(*buffer.type) && is_image(*other.type))
+      buffer.type = buffer.slot.image.format ? with_extent(*buffer.type, other.type->extent) : other.type;
     const Member* const array = run_time_array(*other.slot.type);
     if (array && run_time_array(*buffer.slot.type))
       buffer.type = sized(buffer.slot, other.type->members.back().type->count);
@@ -157,27 +186,16 @@ void JobMaker::adopt(JobBuffer& buffer) const {
 void JobMaker::read_buffers(const Interface& interface) {
   for (const BufferSlot& slot : interface.buffers)
     job_.buffers.push_back({.slot = slot, .type = slot.type, .bytes = {}});
-  const toml::table* const all = table_at(document_.root, "buffer", log_);
   std::vector<const toml::table*> tables(job_.buffers.size());
-  if (all && !model_)
-    for (const auto& [key, value] : *all) {
-      const auto index = find_buffer(key, job_);
-      if (!index) continue;
-      tables[*index] = value.as_table();
-      if (!value.is_table())
-        log_.error(position(value), fmt::format("write [buffer.{}], a table", key.str()));
-    }
-  uint64_t invocations = 1;
-  for (size_t axis = 0; axis < 3; ++axis) {
-    const uint64_t here = uint64_t{job_.groups[axis]} * job_.local_size[axis];
-    invocations = here > UINT64_MAX / invocations ? UINT64_MAX : invocations * here;
-  }
-  const uint64_t row = uint64_t{job_.groups[0]} * job_.local_size[0];
+  find_tables("buffer", tables);
+  find_tables("image", tables);
+  std::array<uint64_t, 3> invocations{};
+  for (size_t axis = 0; axis < 3; ++axis)
+    invocations[axis] = uint64_t{job_.groups[axis]} * job_.local_size[axis];
   for (size_t i = 0; i < job_.buffers.size(); ++i) {
     JobBuffer& buffer = job_.buffers[i];
     buffer = read_buffer(buffer.slot, i + 1, tables[i], document_, invocations, log_);
     if (model_) adopt(buffer);
-    if (buffer.width == 0) buffer.width = row;
     const bool given = tables[i] && (tables[i]->contains("values") || tables[i]->contains("fill") ||
                                      tables[i]->contains("noise") || tables[i]->contains("file"));
     if (buffer.slot.kind == gpu::BindingKind::uniform && !given && !model_)
@@ -273,6 +291,12 @@ bool is_job(const fs::path& file) {
   } catch (const Error&) {
     return false;
   }
+}
+
+void set_output(Job& job, const std::string& name, const fs::path& file) {
+  JobBuffer& buffer = job.buffers[index_of(job, name)];
+  check_output(file, *buffer.type, buffer.width);
+  buffer.output = file;
 }
 
 Job load_job(const std::string& file, const std::vector<std::string>& overrides) {

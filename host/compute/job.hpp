@@ -16,9 +16,10 @@
 
 namespace eyeray::engine::compute {
 
+// A buffer or an image.
 struct JobBuffer {
   BufferSlot slot;
-  TypePtr type;  // the block, with as many elements as the buffer has
+  TypePtr type;  // the block, with as many elements as the buffer has; or the image, with its extent
   std::vector<std::byte> bytes;
   std::filesystem::path output{};  // empty: none
   uint64_t width = 0;              // the width of its picture, in pixels
@@ -66,5 +67,9 @@ bool is_job(const std::filesystem::path& file);
 // Reads a kernel file or a kernel. `overrides` are KEY=VALUE, such as push.scale=2, and replace the file's
 // values. InputError with all errors at once, if possible; Error (file_io) for files that cannot be read.
 Job load_job(const std::string& file, const std::vector<std::string>& overrides);
+
+// Sets the file that a buffer or an image is written to. Error (bad_input) if there is none of that name, or
+// if no such file can hold it.
+void set_output(Job& job, const std::string& name, const std::filesystem::path& file);
 
 }  // namespace eyeray::engine::compute

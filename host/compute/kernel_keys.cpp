@@ -18,36 +18,51 @@ constexpr Key ulp_key{.name = "ulp",
                       .max = 1 << 24};
 
 constexpr std::array top_keys = {kernel_key, entry_key, ulp_key};
-constexpr std::array<std::string_view, 9> top_lists = {
-    "groups", "invocations", "defines", "include_folders", "constants", "push", "buffer", "expect", "same"};
+constexpr std::array<std::string_view, 10> top_lists = {
+    "groups", "invocations", "defines", "include_folders", "constants",
+    "push",   "buffer",      "image",   "expect",          "same"};
 
-constexpr std::array buffer_keys = {
-    Key{.name = "file", .type = KeyType::string, .doc = "the file of its contents", .optional = true},
-    Key{.name = "fill", .type = KeyType::number, .doc = "the value of all its numbers", .optional = true},
-    Key{.name = "elements",
-        .type = KeyType::integer,
-        .doc = "the length of its run-time array",
-        .min = 1,
-        .max = 1 << 30,
-        .optional = true},
-    Key{.name = "bytes",
-        .type = KeyType::integer,
-        .doc = "its size, in place of `elements`",
-        .min = 1,
-        .max = 4294967296.0,
-        .optional = true},
-    Key{.name = "output",
-        .type = KeyType::string,
-        .doc = "the file that gets it after the run",
-        .optional = true},
-    Key{.name = "width",
-        .type = KeyType::integer,
-        .doc = "the pixels of a row, if it is a picture",
-        .min = 1,
-        .max = 65536,
-        .optional = true},
-    Key{"compare", KeyType::boolean, "whether verify compares it", "true"}};
+constexpr Key file_key{
+    .name = "file", .type = KeyType::string, .doc = "the file of its contents", .optional = true};
+constexpr Key fill_key{
+    .name = "fill", .type = KeyType::number, .doc = "the value of all its numbers", .optional = true};
+constexpr Key output_key{.name = "output",
+                         .type = KeyType::string,
+                         .doc = "the file that gets it after the run",
+                         .optional = true};
+constexpr Key compare_key{"compare", KeyType::boolean, "whether verify compares it", "true"};
+
+constexpr std::array buffer_keys = {file_key,
+                                    fill_key,
+                                    Key{.name = "elements",
+                                        .type = KeyType::integer,
+                                        .doc = "the length of its run-time array",
+                                        .min = 1,
+                                        .max = 1 << 30,
+                                        .optional = true},
+                                    Key{.name = "bytes",
+                                        .type = KeyType::integer,
+                                        .doc = "its size, in place of `elements`",
+                                        .min = 1,
+                                        .max = 4294967296.0,
+                                        .optional = true},
+                                    output_key,
+                                    Key{.name = "width",
+                                        .type = KeyType::integer,
+                                        .doc = "the pixels of a row, if it is a picture",
+                                        .min = 1,
+                                        .max = 65536,
+                                        .optional = true},
+                                    compare_key};
 constexpr std::array<std::string_view, 2> buffer_lists = {"values", "noise"};
+
+constexpr std::array image_keys = {file_key, fill_key,
+                                   Key{.name = "format",
+                                       .type = KeyType::string,
+                                       .doc = "the format of its texels, if the kernel declares none",
+                                       .optional = true},
+                                   output_key, compare_key};
+constexpr std::array<std::string_view, 2> image_lists = {"size", "noise"};
 
 constexpr std::array noise_keys = {
     Key{.name = "seed",
@@ -71,10 +86,12 @@ constexpr std::array same_keys = {kernel_key, entry_key, ulp_key};
 constexpr std::array<std::string_view, 4> same_lists = {"groups", "invocations", "defines",
                                                         "include_folders"};
 
-constexpr std::array<KernelTable, 5> tables = {
-    KernelTable{"the kernel file", top_keys, top_lists},
-    KernelTable{"[buffer.NAME]", buffer_keys, buffer_lists}, KernelTable{"noise", noise_keys, {}},
-    KernelTable{"[expect.NAME]", expect_keys, {}}, KernelTable{"[same]", same_keys, same_lists}};
+constexpr std::array<KernelTable, 6> tables = {KernelTable{"the kernel file", top_keys, top_lists},
+                                               KernelTable{"[buffer.NAME]", buffer_keys, buffer_lists},
+                                               KernelTable{"[image.NAME]", image_keys, image_lists},
+                                               KernelTable{"noise", noise_keys, {}},
+                                               KernelTable{"[expect.NAME]", expect_keys, {}},
+                                               KernelTable{"[same]", same_keys, same_lists}};
 
 }  // namespace
 

@@ -14,7 +14,7 @@ struct KernelTable {
   std::span<const std::string_view> lists;  // keys whose values are read in another way
 };
 
-enum class Table { top, buffer, noise, expect, same };
+enum class Table { top, buffer, image, noise, expect, same };
 const KernelTable& kernel_table(Table table);
 // All tables, for the test of docs/kernel-files.md.
 std::span<const KernelTable> kernel_tables();

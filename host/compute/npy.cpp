@@ -64,7 +64,12 @@ std::string shape_text(const std::vector<uint64_t>& shape) {
 // Appends the lengths of arrays, vectors and matrices to the shape; returns the type of their elements.
 const Type& take_lengths(const Type& type, std::vector<uint64_t>& shape) {
   const Type* inner = &type;
-  for (; inner->element; inner = inner->element.get()) shape.push_back(inner->count);
+  for (; inner->element; inner = inner->element.get()) {
+    if (is_image(*inner))
+      shape.insert(shape.end(), inner->extent.rbegin(), inner->extent.rend());
+    else
+      shape.push_back(inner->count);
+  }
   return *inner;
 }
 

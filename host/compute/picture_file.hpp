@@ -1,5 +1,5 @@
-// Pictures as the contents of buffers. A pixel is a float, a vec3 or a vec4 of linear colour, or a uint of
-// 8-bit codes with red in the lowest byte.
+// Pictures as the contents of buffers and images. A pixel is a float, a vec3 or a vec4 of linear colour, or a
+// uint or four bytes of 8-bit codes with red in the lowest byte.
 #pragma once
 
 #include <filesystem>

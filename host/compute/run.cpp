@@ -1,5 +1,8 @@
 #include "host/compute/run.hpp"
 
+#include <algorithm>
+#include <map>
+
 #include "host/compute/data_file.hpp"
 #include "host/compute/module.hpp"
 #include "host/core/error.hpp"
@@ -15,6 +18,14 @@ void check_groups(const Job& job, const gpu::DeviceInfo& device) {
     if (job.groups[axis] > device.limits.groups[axis])
       throw Error(ExitCode::no_device, "{} has {} work groups along {}, but {} dispatches at most {}",
                   job.file, job.groups[axis], "xyz"[axis], device.name, device.limits.groups[axis]);
+}
+
+gpu::ImageShape shape_of(const JobBuffer& image) {
+  gpu::ImageShape shape{.declared = image.slot.image};
+  shape.declared.format = gpu::find_format(image.type->name);
+  std::ranges::transform(image.type->extent, shape.extent.begin(),
+                         [](uint64_t length) { return uint32_t(length); });
+  return shape;
 }
 
 }  // namespace
@@ -39,11 +50,18 @@ Outcome run(const Job& job, const RunOptions& options) {
     if (!has_float_modes(spirv)) spirv = gpu::set_float_modes(spirv, info.float_modes);
   }
   gpu::Kernel kernel(device, spirv, job.kernel, DiskCache::of_user());
-  std::vector<gpu::Buffer> buffers;
-  buffers.reserve(job.buffers.size());
+  std::map<size_t, gpu::Buffer> buffers;
+  std::map<size_t, gpu::Image> images;
   for (size_t i = 0; i < job.buffers.size(); ++i) {
     const JobBuffer& each = job.buffers[i];
-    gpu::Buffer& buffer = buffers.emplace_back(device, each.bytes.size(), each.slot.name, each.slot.kind);
+    if (is_image(*each.type)) {
+      gpu::Image& image = images.try_emplace(i, device, shape_of(each), each.slot.name).first->second;
+      image.upload(each.bytes);
+      kernel.set_image(uint32_t(i), image);
+      continue;
+    }
+    gpu::Buffer& buffer =
+        buffers.try_emplace(i, device, each.bytes.size(), each.slot.name, each.slot.kind).first->second;
     std::vector<std::byte> words = each.bytes;
     words.resize((words.size() + 3) / 4 * 4);
     buffer.upload(words);
@@ -51,8 +69,9 @@ Outcome run(const Job& job, const RunOptions& options) {
   }
   outcome.seconds =
       gpu::dispatch(device, kernel, job.push, {job.groups[0], job.groups[1], job.groups[2]}).seconds;
-  for (size_t i = 0; i < buffers.size(); ++i) {
-    const auto bytes = buffers[i].read().first(job.buffers[i].bytes.size());
+  for (size_t i = 0; i < job.buffers.size(); ++i) {
+    const auto all = images.contains(i) ? images.at(i).read() : buffers.at(i).read();
+    const auto bytes = all.first(job.buffers[i].bytes.size());
     outcome.buffers.emplace_back(bytes.begin(), bytes.end());
   }
   outcome.findings = device.findings();

@@ -1,6 +1,7 @@
 #include "host/compute/type.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -60,6 +61,19 @@ TypePtr with_elements(const TypePtr& block, uint64_t elements) {
   return sized;
 }
 
+TypePtr with_extent(const Type& image, const std::vector<uint64_t>& extent) {
+  auto sized = std::make_shared<Type>(image);
+  sized->extent = extent;
+  sized->count = 1;
+  for (const uint64_t length : extent) {
+    if (length > most_bytes / image.stride / std::max<uint64_t>(sized->count, 1))
+      throw Error(ExitCode::bad_input, "an {} would have more than {} bytes, the most that eyeray runs with",
+                  describe(*sized), most_bytes);
+    sized->count *= length;
+  }
+  return sized;
+}
+
 const Type& unwrapped(const Type& block) {
   const Type* whole = &block;
   while (whole->form == Form::structure && whole->members.size() == 1) whole = whole->members[0].type.get();
@@ -86,6 +100,7 @@ std::string describe(const Type& type) {
     case Form::structure:
       return type.name;
     case Form::array:
+      if (is_image(type)) return fmt::format("{} image of {}", type.name, fmt::join(type.extent, " × "));
       return fmt::format("{}[{}]", describe(*type.element), type.count ? std::to_string(type.count) : "");
     case Form::matrix:
       return fmt::format("mat{}x{}", type.count, type.element->count);
@@ -111,6 +126,16 @@ std::string path_of(const Type& type, uint64_t byte) {
   }
   if (!type.element || type.stride == 0) return "";
   const uint64_t index = byte / type.stride;
+  if (is_image(type)) {
+    std::vector<uint64_t> texel;
+    uint64_t rest = index;
+    for (const uint64_t length : type.extent) {
+      texel.push_back(rest % length);
+      rest /= length;
+    }
+    return fmt::format("[{}].{}", fmt::join(texel, ", "),
+                       "rgba"[byte % type.stride / only_number(type)->bytes()]);
+  }
   const std::string here =
       type.form == Form::vector && index < 4 ? fmt::format(".{}", "xyzw"[index]) : fmt::format("[{}]", index);
   return here + path_of(*type.element, byte % type.stride);

@@ -1,4 +1,4 @@
-// The types of data in a kernel's buffers, as its SPIR-V lays them out in memory.
+// The types of data in a kernel's buffers, as its SPIR-V lays them out in memory, and in its images.
 #pragma once
 
 #include <cstdint>
@@ -35,9 +35,20 @@ struct Type {
   TypePtr element{};    // a vector's number, a matrix's column, an array's element
   uint64_t count = 0;   // elements; an array with 0 of them has a run-time length
   uint64_t stride = 0;  // bytes between elements
-  std::string name{};   // a structure's
+  std::string name{};   // a structure's, or the format of an image
   std::vector<Member> members{};
+  // Texels of an image along its axes, x first. It is an array of all of them. Axes of 0: not known yet.
+  std::vector<uint64_t> extent{};
 };
+
+// The bytes that a buffer or an image may have.
+constexpr uint64_t most_bytes = uint64_t{1} << 32;
+
+inline bool is_image(const Type& type) {
+  return !type.extent.empty();
+}
+// The image of so many texels along its axes. Error (bad_input) if that is more than most_bytes.
+TypePtr with_extent(const Type& image, const std::vector<uint64_t>& extent);
 
 // Bytes from the type's start to the end of its last number. A run-time array has none.
 uint64_t size(const Type& type);
@@ -56,9 +67,9 @@ const Type& unwrapped(const Type& block);
 
 // "float", "uint16".
 std::string describe(const Number& number);
-// "vec4[16]", "Body[]", "float".
+// "vec4[16]", "Body[]", "float", "rgba8 image of 61 × 40".
 std::string describe(const Type& type);
-// The number at a byte of a value: ".bodies[3].position.y". Empty if it is the whole value.
+// The number at a byte of a value: ".bodies[3].position.y", "[3, 5].r". Empty if it is the whole value.
 std::string path_of(const Type& type, uint64_t byte);
 
 // Calls visit(number, offset) for every number of a value, in order.

@@ -1,5 +1,6 @@
 #include "host/gpu/image.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 #include "host/core/error.hpp"

@@ -19,7 +19,7 @@ TEST_CASE("what is wrong in a kernel file is one sentence at its line") {
       {"[constants]\nN = 3\n", "k.toml:3:1: error: the kernel has no specialization constant `N`"},
       {"[push]\nn = 3\n", "the kernel has no push constants"},
       {"[buffer.Sorce]\nfill = 0\n",
-       "k.toml:2:9: error: the kernel has no buffer `Sorce`; did you mean `Source`?"},
+       "k.toml:2:9: error: the kernel has no buffer or image `Sorce`; did you mean `Source`?"},
       {"[buffer.Source]\nfil = 0\n", "unknown key `fil` in [buffer.Source]; did you mean `file`?"},
       {"[buffer.Source]\nfill = 0\nvalues = [1]\n", "[buffer.Source] has contents already"},
       {"[buffer.Source]\nvalues = [1, true, \"a\"]\n",
@@ -57,12 +57,12 @@ TEST_CASE("a kernel that cannot be compiled or run is refused at its line") {
   const std::string compiler = refused("", "float x = y;");
   CHECK(contains(compiler, "k.comp:4:11: error: 'y': undeclared identifier"));
   CHECK(contains(refused("\n#include \"none.glsl\"", ""), "there is no such file"));
-  CHECK(contains(refused("layout(rgba8, binding = 3) uniform image2D picture;",
-                         "imageStore(picture, ivec2(0), vec4(0));"),
+  CHECK(contains(refused("layout(rgba8, binding = 3) uniform imageCube picture;",
+                         "imageStore(picture, ivec3(0), vec4(0));"),
                  "the kernel binds an image, 'picture', at set 0, binding 3"));
-  CHECK(contains(
-      refused("layout(binding = 3) uniform sampler2D look;", "vec4 c = texelFetch(look, ivec2(0), 0);"),
-      "a sampled image, 'look'"));
+  CHECK(contains(refused("layout(binding = 3) uniform sampler look; layout(binding = 4) uniform texture2D t;",
+                         "vec4 c = texelFetch(sampler2D(t, look), ivec2(0), 0);"),
+                 "a sampler, 'look'"));
   CHECK(contains(refused("layout(std430, binding = 0) buffer B { float b[]; } many[2];", "many[1].b[0] = 1;"),
                  "an array of bindings"));
 }

@@ -10,7 +10,7 @@ TEST_CASE("the examples run and verify, and the planted race is found") {
   const ProcessResult all = run_eyeray({"verify", "examples/kernels"});
   CAPTURE(all.out);
   CHECK(all.code == 0);
-  CHECK(contains(all.out, "5 kernels in "));
+  CHECK(contains(all.out, "6 kernels in "));
   const TemporaryFolder folder;
   const ProcessResult race =
       run_eyeray({"verify", "examples/kernels/prefix_sum.toml", "-D", "defines=[\"RACE\"]", "--github",

@@ -90,7 +90,7 @@ TEST_CASE("pictures, raw bytes and tables are written and read") {
   CHECK(contains(refused("buffer.V.output=v.gif"),
                  "its ending must be .npy, .bin, .csv, .png, .pfm, .hdr or .exr"));
   CHECK(contains(refused("buffer.F={file=\"" + (folder / "v.pfm") + "\"}"),
-                 "has colours, but the buffer has one float"));
+                 "has colours, but a pixel here is one float"));
 }
 
 TEST_CASE("docs/kernel-files.md has every key of a kernel file") {
