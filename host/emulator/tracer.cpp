@@ -298,7 +298,10 @@ void Tracer::add_write(Group& group, const Operation& o, uint32_t lane, const st
 }
 
 void Tracer::end(Group& group, const Block& block, uint32_t lane) {
-  go_to(block.location);
+  // A function's own end is no step. Compilers differ about its line.
+  const bool last = std::ranges::any_of(program_.functions,
+                                        [&](const Function& each) { return &block == &each.blocks.back(); });
+  if (!(has_lines_ && last && block.end == spv::OpReturn)) go_to(block.location);
   const bool branches = block.end == spv::OpBranchConditional || block.end == spv::OpSwitch;
   if (branches || block.end == spv::OpReturnValue)
     add({.kind = branches ? TracedKind::branch : TracedKind::result,
